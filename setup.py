@@ -17,6 +17,7 @@ setup(
         "course_pkg",
         "course_pkg.authoring",
         "course_pkg.examiner",
+        "course_pkg.examiner.checks",
         "course_pkg.graph",
         "course_pkg.interfaces",
         "course_pkg.lab",

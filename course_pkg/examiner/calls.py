@@ -1,0 +1,144 @@
+"""A student's server, as a check calls it: bounded, and with every failure as a rule that does not hold."""
+
+from __future__ import annotations
+
+import io
+import queue
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import rosgraph
+import rospy
+from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
+
+from course_pkg.examiner.ledger import Hints, Ledger, hint_for, says
+from course_pkg.examiner.plain import plain
+from course_pkg.examiner.show import command_line, explained, shown
+
+PATIENCE = 3.0  # s for one call, unless a check says otherwise
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What one call brought: a response, or the words of the error instead of one."""
+
+    request: Any
+    response: Any = None
+    error: str = ""
+    took: float = 0.0  # s
+
+    @property
+    def unanswered(self) -> bool:
+        """Whether the call had not come back when its time was over."""
+        return self.error.startswith("TimesUp")
+
+
+@dataclass(frozen=True)
+class Provider:
+    """Who serves a service: what the master says and what the server itself answers."""
+
+    uri: str
+    header: Mapping[str, str]
+
+
+class Service:
+    """A service of the student's; call it with the fields of a request, get the response."""
+
+    def __init__(self, ledger: Ledger, name: str, kind: Any, hints: Hints, patience: float) -> None:  # noqa: ANN401
+        self.name = name
+        self.kind = kind
+        self.took = 0.0  # s, of the last call
+        self._ledger = ledger
+        self._hints = hints
+        self._patience = patience
+
+    def __call__(self, *values: Any, **fields: Any) -> Any:  # noqa: ANN401 -- a message of genpy
+        """Call the service; a call that fails is a rule that does not hold."""
+        return self._answered(self._ask([self._request(*values, **fields)])[0])
+
+    def at_once(self, requests: Sequence[Mapping[str, Any]]) -> list[Reply]:
+        """Call with all `requests` at the same time, each from a thread of its own; return the replies in order."""
+        replies = self._ask([self._request(**fields) for fields in requests])
+        for reply in replies:
+            self._answered(reply)
+        return replies
+
+    def refused(self, rule: str, *, saying: str = "", hints: Hints = (), **fields: Any) -> str:  # noqa: ANN401
+        """Call with a request that the server has to refuse with a reason that matches `saying`; return the words."""
+        reply = self._ask([self._request(**fields)])[0]
+        self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
+        seen = reply.error or plain(reply.response)
+        if not reply.error or reply.unanswered or not says(saying).search(reply.error):
+            expected = f"an error that says {saying!r}" if saying else "an error"
+            hint = hint_for(hints, seen) or explained(reply.error)
+            self._ledger.fails(rule, expected=expected, seen=reply.error or shown(seen), hint=hint)
+        self._ledger.passes(rule)
+        return reply.error
+
+    def _request(self, *values: Any, **fields: Any) -> Any:  # noqa: ANN401 -- a message of genpy
+        return self.kind._request_class(*values, **fields)
+
+    def _answered(self, reply: Reply) -> Any:  # noqa: ANN401 -- a message of genpy
+        rule = f"{self.name} answers"
+        self.took = reply.took
+        self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
+        if reply.error:
+            hint = hint_for(self._hints, reply.error) or explained(reply.error)
+            self._ledger.fails(rule, expected="a response", seen=reply.error, hint=hint)
+        self._ledger.passes(rule)
+        return reply.response
+
+    def _ask(self, requests: Sequence[Any]) -> list[Reply]:
+        """Call with all requests at once. A call that hangs is left to its thread: this process ends soon."""
+        inboxes = [self._started(request) for request in requests]
+        deadline = time.monotonic() + self._patience
+        return [self._reply(inbox, request, deadline) for inbox, request in zip(inboxes, requests, strict=True)]
+
+    def _reply(self, inbox: queue.Queue[Reply], request: Any, deadline: float) -> Reply:  # noqa: ANN401
+        try:
+            return inbox.get(timeout=max(deadline - time.monotonic(), 0.01))
+        except queue.Empty:
+            words = f"TimesUp: no answer within {self._patience:g} s"
+            return Reply(request, error=words, took=self._patience)
+
+    def _started(self, request: Any) -> queue.Queue[Reply]:  # noqa: ANN401
+        inbox: queue.Queue[Reply] = queue.Queue()
+
+        def call() -> None:
+            started = time.monotonic()
+            response, error = _response(rospy.ServiceProxy(self.name, self.kind), request)
+            inbox.put(Reply(request, response, error, time.monotonic() - started))
+
+        threading.Thread(target=call, daemon=True).start()
+        return inbox
+
+
+def _response(proxy: Callable[..., Any], request: Any) -> tuple[Any, str]:  # noqa: ANN401 -- messages of genpy
+    try:
+        return proxy(request), ""
+    except Exception as error:  # noqa: BLE001 -- rospy raises whatever its socket did; all of it is a result here
+        return None, f"{type(error).__name__}: {error}"
+
+
+def provider_of(name: str) -> Provider | None:
+    """Return who serves `name`, or None when nobody does; raise OSError when who is listed does not answer."""
+    try:
+        uri: str = rosgraph.Master(rospy.get_name()).lookupService(name)
+    except rosgraph.MasterError:
+        return None
+    host, _, port = uri.removeprefix("rosrpc://").rpartition(":")
+    with socket.create_connection((host, int(port)), timeout=PATIENCE) as sock:
+        fields = {"probe": "1", "md5sum": "*", "callerid": rospy.get_name(), "service": name}
+        write_ros_handshake_header(sock, fields)
+        return Provider(uri, read_ros_handshake_header(sock, io.BytesIO(), 4096))
+
+
+def served_names() -> Iterator[str]:
+    """Yield the names of all services but those that every node has for its logging."""
+    for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]:
+        if not name.endswith(("/get_loggers", "/set_logger_level")):
+            yield name

@@ -1,0 +1,164 @@
+"""What an author's check works with: the student's servers, functions and values, and the rules for them."""
+
+from __future__ import annotations
+
+import difflib
+from contextlib import ExitStack
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from course_pkg.errors import ExamError
+from course_pkg.examiner.calls import PATIENCE, Service, provider_of, served_names
+from course_pkg.examiner.draw import Draw
+from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
+from course_pkg.examiner.link import Link
+from course_pkg.examiner.outcome import Finished, Outcome
+from course_pkg.examiner.plain import plain
+from course_pkg.examiner.report import Rule
+from course_pkg.examiner.scripted import Absent, Script, ScriptedServer
+from course_pkg.examiner.show import shown
+
+if TYPE_CHECKING:
+    from course_pkg.examiner.parts import Part
+
+SLACK = 3.0  # s for the kernel to answer beyond what the work itself may take
+
+
+class Exam:
+    """One examination. The first rule that does not hold ends it; what it opened is closed after it."""
+
+    def __init__(self, part: Part, link: Link, seed: int) -> None:
+        self.draw = Draw(f"{seed}:{part.check}")
+        self.doing = ""  # what a deadline would find it at
+        self._link = link
+        self._ledger = Ledger()
+        self._open = ExitStack()
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules looked at so far."""
+        return self._ledger.rules
+
+    # -- rules
+
+    def expect(  # noqa: PLR0913 -- all but the rule by keyword
+        self, rule: str, *, expected: Any, seen: Any, near: float = 0.0, hints: Hints = ()  # noqa: ANN401
+    ) -> None:
+        """Hold to `rule` that `seen` equals `expected`; numbers may differ by `near`, absolute or relative.
+
+        `hints` say what to do about wrong values that can be recognised: a text for any, or a dict (or
+        pairs) from a wrong value, a pattern made by `says`, or a predicate on what was seen, to a text.
+        """
+        wanted, found = plain(expected), plain(seen)
+        if not same(wanted, found, near):
+            self._ledger.fails(rule, expected=shown(wanted), seen=shown(found), hint=hint_for(hints, found, near))
+        self._ledger.passes(rule)
+
+    def hold(self, rule: str, holds: bool, *, expected: str = "", seen: Any = "", hints: Hints = ()) -> None:  # noqa: ANN401
+        """Hold to `rule` whatever `holds` says; `expected` is worded by the author."""
+        if not holds:
+            found = plain(seen)
+            words = found if isinstance(found, str) else shown(found)
+            self._ledger.fails(rule, expected=expected, seen=words, hint=hint_for(hints, found))
+        self._ledger.passes(rule)
+
+    def fail(self, rule: str, *, expected: str = "", seen: str = "", hint: str = "") -> NoReturn:
+        """Note that `rule` does not hold, and end the check."""
+        self._ledger.fails(rule, expected=expected, seen=seen, hint=hint)
+
+    # -- the student's servers, seen from the graph
+
+    def service(self, name: str, kind: str, *, hints: Hints = (), timeout: float = PATIENCE) -> Service:
+        """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
+
+        Its rule: somebody serves it, is alive, and serves that type. `hints` recognise the words of a
+        failed call; ROS's own words are explained without them.
+        """
+        self.doing = f"waiting for {name}"
+        rule = f"{name} is served as {kind}"
+        seen = self._type_of(name, rule)
+        if seen != kind:
+            hint = f"Serve it with the type that the exercise names: {kind}."
+            self._ledger.fails(rule, expected=kind, seen=seen, hint=hint)
+        self._ledger.passes(rule)
+        return Service(self._ledger, name, self.type(kind), hints, timeout)
+
+    def _type_of(self, name: str, rule: str) -> str:
+        try:
+            provider = provider_of(name)
+        except OSError as error:
+            hint = "Its entry at the master leads to a server that is gone. Run the cell that serves it again."
+            self._ledger.fails(rule, expected="a server", seen=f"an entry that leads nowhere: {error}", hint=hint)
+        if provider is None:
+            alike = difflib.get_close_matches(name, list(served_names()), n=1)
+            hint = "Run the cell that serves it, also after each restart of the kernel."
+            hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
+            self._ledger.fails(rule, expected="a server", seen="nobody who serves it", hint=hint)
+        return provider.header.get("type", "no type")
+
+    def type(self, kind: str) -> Any:  # noqa: ANN401 -- a class of genpy
+        """Return the class of the service type `kind`, such as "course_pkg/geometry"."""
+        from roslib.message import get_service_class
+
+        return get_service_class(kind)
+
+    # -- servers for the student's client
+
+    def serve(self, name: str, kind: Any, script: Script) -> ScriptedServer:  # noqa: ANN401
+        """Serve `name`, as `script` says (see scripted.py), until the check is over or `leave()` is called.
+
+        `kind` is a type's name, or a class. Who served the name before serves it again afterwards.
+        """
+        cls = self.type(kind) if isinstance(kind, str) else kind
+        return self._open.enter_context(ScriptedServer(name, cls, script))
+
+    def absent(self, name: str, *, stale: bool = False) -> Absent:
+        """Take `name` off the graph until the check is over; `stale` leaves an entry that leads nowhere."""
+        return self._open.enter_context(Absent(name, stale=stale))
+
+    # -- what the student wrote, in the kernel
+
+    def run(self, function: str, *args: Any, within: float = 5.0, hints: Hints = (), **kwargs: Any) -> Outcome:  # noqa: ANN401
+        """Call the student's `function` in the kernel; it is broken off after `within` s."""
+        self.doing = f"waiting for {function}()"
+        words = _as_call(function, args, kwargs)
+        self._ledger.asked = lambda: words
+        what = {"name": function, "args": plain(args), "kwargs": plain(kwargs), "within": within}
+        return Outcome(self._ledger, function, self._link.ask("call", timeout=within + SLACK, **what), hints)
+
+    def command(self, *argv: str, files: tuple[str, ...] = (), within: float = 10.0) -> Finished:
+        """Run a command beside the kernel, in a new folder that holds copies of the student's `files`.
+
+        "python" stands for the kernel's own interpreter. It is ended after `within` s.
+        """
+        self.doing = f"waiting for {' '.join(argv)}"
+        words = self.doing.removeprefix("waiting for ")
+        self._ledger.asked = lambda: words
+        what = {"argv": list(argv), "files": list(files), "within": within}
+        return Finished(self._link.ask("run", timeout=within + SLACK, **what))
+
+    def read(self, name: str) -> Any:  # noqa: ANN401 -- plain data
+        """Return the value of the student's variable `name`, as plain data."""
+        return self._link.ask("read", timeout=SLACK, name=name).get("value")
+
+    def source(self, name: str) -> str:
+        """Return the source of the student's function or class `name`, or of "file:PATH"."""
+        return str(self._link.ask("source", timeout=SLACK, name=name).get("text", ""))
+
+    # -- closing
+
+    def __enter__(self) -> Exam:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._open.close()
+        if isinstance(error, Exception) and not isinstance(error, (RuleBroken, ExamError)):
+            words = f"{type(error).__name__}: {error}"
+            raise ExamError(f"This check itself is broken ({words}); it is not your doing.") from error
+
+
+def _as_call(function: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> str:
+    values = [repr(value) for value in args] + [f"{key}={value!r}" for key, value in kwargs.items()]
+    return f"{function}({', '.join(values)})"

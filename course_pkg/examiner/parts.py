@@ -1,0 +1,89 @@
+"""A graded part: what it is about, what it needs, and the function that examines it."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from course_pkg.errors import ExamError, UnknownCheck
+
+if TYPE_CHECKING:
+    from course_pkg.examiner.exam import Exam
+
+CHECKS = "course_pkg.examiner.checks"
+
+
+@dataclass(frozen=True)
+class Part:
+    """One graded part of a chapter; calling it examines the student's work through an Exam.
+
+    `needs` are the names that the student defines; while one of them is still `...` the part is not
+    attempted, and while one is missing it cannot be examined. `deadline` (s) bounds the whole check.
+    """
+
+    check: str
+    points: int
+    goal: str
+    needs: tuple[str, ...]
+    deadline: float
+    examine: Callable[[Exam], None]
+
+    def __call__(self, exam: Exam) -> None:
+        """Examine the student's work."""
+        self.examine(exam)
+
+
+def part(
+    check: str, *, points: int, goal: str, needs: Sequence[str] = (), deadline: float = 10.0
+) -> Callable[[Callable[[Exam], None]], Part]:
+    """Declare the decorated function to be the check of the part with the id `check`, such as "05.1"."""
+
+    def declare(examine: Callable[[Exam], None]) -> Part:
+        return Part(check, points, goal, tuple(needs), deadline, examine)
+
+    return declare
+
+
+def chapters() -> list[str]:
+    """Return the chapters that have checks, such as ["00", "05"]."""
+    package = importlib.import_module(CHECKS)
+    names = [module.name for module in pkgutil.iter_modules(package.__path__)]
+    return sorted(name.removeprefix("chapter_") for name in names if name.startswith("chapter_"))
+
+
+def parts_of(chapter: str) -> list[Part]:
+    """Return the parts of a chapter, such as "05", in the order of their ids."""
+    if chapter not in chapters():
+        raise UnknownCheck(f"no chapter {chapter!r} has checks: there are {', '.join(chapters()) or 'none'}")
+    module = importlib.import_module(f"{CHECKS}.chapter_{chapter}")
+    found = [value for value in vars(module).values() if isinstance(value, Part)]
+    _refuse_doubles(found, module.__name__)
+    return sorted(found, key=lambda item: [int(number) for number in item.check.split(".")])
+
+
+def every_part() -> Iterator[Part]:
+    """Yield the parts of all chapters."""
+    for chapter in chapters():
+        yield from parts_of(chapter)
+
+
+def find(check: str) -> Part:
+    """Return the part with the id `check`; importing no chapter but its own unless it is unknown."""
+    chapter = str(check).partition(".")[0]
+    if chapter in chapters():
+        for candidate in parts_of(chapter):
+            if candidate.check == check:
+                return candidate
+    known = [candidate.check for candidate in every_part()]
+    near = difflib.get_close_matches(str(check), known, n=3, cutoff=0.4) or known[:3]
+    raise UnknownCheck(f"There is no check {check!r}. Did you mean {' or '.join(map(repr, near))}?")
+
+
+def _refuse_doubles(found: list[Part], module: str) -> None:
+    ids = [item.check for item in found]
+    if doubles := sorted({check for check in ids if ids.count(check) > 1}):
+        raise ExamError(f"{module} declares {', '.join(doubles)} more than once: give each part its own id")
