@@ -2,6 +2,10 @@
 
 CourseError
 ├── SetupError: what the course needs is not there and could not be made
+├── InterfaceError: a service or message type, or a value of one, is not what it should be
+│   ├── UnknownType: no such type here
+│   ├── BrokenDefinition: a .srv or .msg text that ROS refuses; with line and column
+│   └── FieldError: a value that its field cannot hold; a ValueError, too
 ├── ExamError: a check cannot be carried out
 │   ├── UnknownCheck: no check has this id
 │   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
@@ -26,6 +30,57 @@ class CourseError(Exception):
 
 class SetupError(CourseError):
     """What the course needs is not there and could not be made."""
+
+
+class InterfaceError(CourseError):
+    """A service or message type, or a value of one, is not what it should be."""
+
+
+class UnknownType(InterfaceError):
+    """No service or message type has this `name` here."""
+
+    def __init__(self, name: str, message: str) -> None:
+        super().__init__(message)
+        self.name = name
+
+
+class BrokenDefinition(InterfaceError):
+    """The text of a service or message type is not what ROS accepts.
+
+    `source` names the type or file, `line` and `column` count from 1, `text` is
+    the offending line, `problem` and `remedy` are two halves of a sentence.
+    """
+
+    def __init__(
+        self, source: str, line: int, column: int, text: str, problem: str, remedy: str
+    ) -> None:
+        # A tab is one column here, so that the mark stands below the right letter.
+        shown = text.replace("\t", " ").rstrip()
+        mark = " " * (column - 1) + "^"
+        super().__init__(
+            f"{source}, line {line}, column {column}: {problem}; {remedy}\n    {shown}\n    {mark}"
+        )
+        self.source = source
+        self.line = line
+        self.column = column
+        self.text = text
+        self.problem = problem
+        self.remedy = remedy
+
+
+class FieldError(InterfaceError, ValueError):
+    """A value that a field cannot hold.
+
+    `field` is the path to it (`points[2].x`), `value` is what was given,
+    `problem` is what is wrong with it, `allowed` is what would be right.
+    """
+
+    def __init__(self, field: str, value: object, problem: str, allowed: str) -> None:
+        super().__init__(f"{field}: {problem}; {allowed}" if field else f"{problem}; {allowed}")
+        self.field = field
+        self.value = value
+        self.problem = problem
+        self.allowed = allowed
 
 
 class ExamError(CourseError):
