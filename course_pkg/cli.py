@@ -1,0 +1,158 @@
+"""The commands of `course`: one thin function for each.
+
+This module is read by whatever Python the machine has, before anything is installed: it imports
+the standard library alone, and each command imports what it needs when it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NoReturn
+
+from course_pkg.errors import CourseError
+
+
+@dataclass(frozen=True)
+class Command:
+    """A subcommand: what it says of itself, what has to be set up for it, and what it does."""
+
+    summary: str
+    run: Callable[[argparse.Namespace], int]
+    needs: tuple[str, ...] = ("course",)
+    arguments: Callable[[argparse.ArgumentParser], None] = lambda parser: None
+    rest: str = ""  # the words after such a command are another program's, and are handed on as they are
+
+
+def lab(options: argparse.Namespace) -> int:
+    """Start a master and JupyterLab."""
+    from course_pkg.lab import serve_lab
+
+    return serve_lab(options.notebook, port=options.port, ip=options.ip, browser=options.browser)
+
+
+def lab_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `course lab` takes."""
+    parser.add_argument("notebook", nargs="?", help="the notebook to open (the first chapter)")
+    parser.add_argument("--no-browser", dest="browser", action="store_false", help="open no browser")
+    parser.add_argument("--port", type=int, help="the port to listen on (8888, or the next that is free)")
+    parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (127.0.0.1)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run a command in the environment."""
+    from course_pkg.lab.run import run_command
+
+    return run_command(options.rest)
+
+
+def test(options: argparse.Namespace) -> int:
+    """Run the whole suite."""
+    from course_pkg.lab.suite import run_suite
+
+    return run_suite(options.rest)
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """Say what is installed, missing and stale."""
+    from course_pkg.provision.doctor import examine
+
+    return examine()
+
+
+def sync(options: argparse.Namespace) -> int:
+    """Derive the notebooks from the solutions."""
+    from course_pkg.authoring import sync as derive
+
+    return int(derive(check=options.check))
+
+
+def sync_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what `course sync` takes."""
+    parser.add_argument("--check", action="store_true", help="change nothing; say what is out of step")
+
+
+def lock(options: argparse.Namespace) -> int:
+    """Pin every library."""
+    from course_pkg.provision import Places
+    from course_pkg.provision.lock import write_locks
+
+    for path in write_locks(Places.of()):
+        sys.stdout.write(f"{path}\n")
+    return 0
+
+
+COMMANDS = {
+    "lab": Command("start a ROS master and JupyterLab on the first chapter", lab, arguments=lab_arguments),
+    "run": Command("run a command in the environment, with a master of its own", run, rest="COMMAND [ARGUMENT …]"),
+    "test": Command(
+        "run the whole suite: lint, types, spelling, tests", test, ("course", "test"), rest="[PYTEST ARGUMENT …]"
+    ),
+    "doctor": Command("say what is installed, missing and stale, and what to do about it", doctor, ()),
+    "sync": Command("derive the students' notebooks from the solutions", sync, arguments=sync_arguments),
+    "lock": Command("pin every library that pyproject.toml needs", lock),
+}
+
+
+def main(argv: Sequence[str] | None = None) -> NoReturn:
+    """Set up what the command needs, run it, and exit with its status."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        sys.exit(_dispatch(words))
+    except CourseError as error:
+        sys.exit(f"course: {error}")
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """Return what `words` ask for; exit with a message where they make no sense."""
+    name = words[0] if words else ""
+    if name in COMMANDS and COMMANDS[name].rest and words[1:2] not in (["-h"], ["--help"]):
+        rest = list(words[1:])
+        if not rest and not COMMANDS[name].rest.startswith("["):
+            _parser().parse_args([name, "--help"])
+        return argparse.Namespace(command=name, rest=rest)
+    return _parser().parse_args(words)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="course", description="A course on ROS 1 services.", epilog="`course COMMAND --help` says more."
+    )
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, command in COMMANDS.items():
+        usage = f"course {name} {command.rest}" if command.rest else None
+        sub = commands.add_parser(
+            name, help=command.summary, description=f"{command.summary.capitalize()}.", usage=usage
+        )
+        command.arguments(sub)
+    return parser
+
+
+def _dispatch(words: Sequence[str]) -> int:
+    options = parse(words)
+    command = COMMANDS[options.command]
+    if command.needs:
+        _enter_environment(command, words)
+    return command.run(options)
+
+
+def _enter_environment(command: Command, words: Sequence[str]) -> None:
+    """Set up what is missing, and go on as the course's own interpreter in its environment."""
+    from course_pkg.provision import Places, ensure, environment
+
+    places = Places.of()
+    inside = os.environ.get("COURSE_INSIDE") == str(places.venv)
+    if inside and os.path.realpath(sys.prefix) == os.path.realpath(places.venv):
+        return
+    ensure(places, test="test" in command.needs)
+    variables = {**environment.merged(places, os.environ), "COURSE_INSIDE": str(places.venv)}
+    os.execve(places.python, [str(places.python), "-m", "course_pkg.cli", *words], variables)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""Runs the tools of the set-up, and keeps all that they print in one file."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from course_pkg.errors import SetupError
+
+KEPT_LOGS = 10
+TAIL_LINES = 8
+WATCH_INTERVAL = 0.5  # s
+
+
+class Journal:
+    """One run of the set-up: its log file, and the lock that its tools hold with it."""
+
+    def __init__(self, folder: Path, lock: int) -> None:
+        self._lock = lock
+        self.path = folder / time.strftime(f"setup-%Y%m%d-%H%M%S-{os.getpid()}.log")
+        for old in sorted(folder.glob("setup-*.log"))[: -KEPT_LOGS + 1]:
+            old.unlink(missing_ok=True)
+
+    def run(
+        self,
+        command: Sequence[str | Path],
+        *,
+        env: Mapping[str, str] | None = None,
+        watch: Callable[[str], None] = lambda line: None,
+    ) -> None:
+        """Run `command` to its end; `watch` sees the last line of its output twice a second.
+
+        The output goes to a file and not through a pipe, and the lock goes with it: where the
+        set-up is killed, a package manager comes to its end, and the next set-up waits for that.
+        """
+        with self.path.open("ab") as log:
+            log.write(f"$ {' '.join(map(str, command))}\n".encode())
+            log.flush()
+            start = log.tell()
+            with subprocess.Popen(
+                command, env=env, stdin=self._stdin(command), stdout=log, stderr=log, pass_fds=(self._lock,)
+            ) as process:
+                while True:
+                    try:
+                        status = process.wait(WATCH_INTERVAL)
+                        break
+                    except subprocess.TimeoutExpired:
+                        watch("".join(self._tail(start, 1)))
+        if status:
+            raise self._failure(command, status, start)
+
+    @staticmethod
+    def _stdin(command: Sequence[str | Path]) -> int | None:
+        return None if command[0] == "sudo" else subprocess.DEVNULL
+
+    def _failure(self, command: Sequence[str | Path], status: int, start: int) -> SetupError:
+        lines = self._tail(start, 400)
+        if any("No space left on device" in line or "not enough free space" in line for line in lines):
+            return SetupError(f"The disk is full. Make room, and start again. ({self.path})")
+        shown = "\n".join(f"  {line}" for line in lines[-TAIL_LINES:])
+        name = " ".join(str(word) for word in command if not str(word).startswith("-"))[:80]
+        return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole of it: {self.path}")
+
+    def _tail(self, start: int, count: int) -> list[str]:
+        with self.path.open("rb") as log:
+            log.seek(start)
+            text = log.read().decode(errors="replace")
+        return [line for line in text.replace("\r", "\n").splitlines() if line.strip()][-count:]

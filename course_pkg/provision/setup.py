@@ -1,0 +1,143 @@
+"""Runs the steps of the set-up that are not done, those that can at the same time."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from course_pkg.errors import SetupError
+from course_pkg.provision import packages, python, workspace
+from course_pkg.provision.journal import Journal
+from course_pkg.provision.places import Places
+from course_pkg.provision.platforms import read_platform
+from course_pkg.provision.progress import Progress
+from course_pkg.provision.stamps import Stamps, digest, locked
+
+
+
+@dataclass(frozen=True)
+class Step:
+    """A part of the set-up. `is_done` is asked at every start, so it is cheap."""
+
+    title: str
+    is_done: Callable[[], bool]
+    make: Callable[[Journal, Progress], None]
+
+
+def ensure(places: Places, *, test: bool = False) -> None:
+    """Set up what is missing; where nothing is, this takes a few milliseconds and prints nothing."""
+    stages = steps_of(places, test=test)
+    if all(step.is_done() for stage in stages for step in stage):
+        return
+    places.make_cache()
+    progress = Progress()
+    waiting = "Another set-up of this checkout is under way; waiting for it."
+    try:
+        with locked(places.cache / "lock", lambda: progress.note(waiting)) as lock:
+            journal = Journal(places.logs, lock)
+            for stage in stages:
+                _run_stage([step for step in stage if not step.is_done()], journal, progress)
+    except OSError as error:
+        raise _explained(error, places) from error
+
+
+def steps_of(places: Places, *, test: bool = False) -> list[list[Step]]:
+    """Return the steps in stages; those of one stage do not depend on one another."""
+    stamps = Stamps(places.stamps)
+    names = ["course", "test"] if test else ["course"]
+    libraries = _library_step(places, stamps, names[-1])
+    catkin = _stamped(
+        stamps,
+        "workspace",
+        "Building the catkin workspace",
+        lambda: workspace.workspace_key(places),
+        lambda: workspace.workspace_intact(places),
+        lambda journal: workspace.build_workspace(places, journal),
+    )
+    if places.conda:
+        return [[libraries], [catkin]]
+    platform = read_platform(places.checkout)
+    wanted = [name for part in names for name in getattr(platform, part)]
+    return [
+        [_bootstrap_step(platform.bootstrap, libraries)],
+        [_package_step(f"Installing ROS from {platform.name}", wanted, stamps), libraries],
+        [catkin],
+    ]
+
+
+def _bootstrap_step(wanted: Sequence[str], libraries: Step) -> Step:
+    def is_done() -> bool:
+        return libraries.is_done() or not packages.missing_packages(wanted)
+
+    def make(journal: Journal, progress: Progress) -> None:
+        packages.install_packages(wanted, journal, progress.note)
+
+    return Step("Installing pip", is_done, make)
+
+
+def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
+    name = f"packages-{digest(wanted)}"
+
+    def is_done() -> bool:
+        state = packages.database_state()
+        if stamps.read(name) == state:
+            return True
+        if packages.missing_packages(wanted):
+            return False
+        stamps.write(name, state)
+        return True
+
+    def make(journal: Journal, progress: Progress) -> None:
+        packages.install_packages(packages.missing_packages(wanted), journal, progress.note)
+
+    return Step(title, is_done, make)
+
+
+def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
+    return _stamped(
+        stamps,
+        f"python-{extra}",
+        "Installing the Python libraries",
+        lambda: python.python_key(extra),
+        lambda: python.python_intact(places),
+        lambda journal: python.make_environment(places, extra, journal),
+    )
+
+
+def _stamped(
+    stamps: Stamps,
+    name: str,
+    title: str,
+    key: Callable[[], str],
+    intact: Callable[[], bool],
+    make: Callable[[Journal], None],
+) -> Step:
+    """Return a step that is done if its stamp holds the hash of what it is made from."""
+
+    def is_done() -> bool:
+        return stamps.read(name) == key() and intact()
+
+    def make_and_stamp(journal: Journal, _progress: Progress) -> None:
+        stamps.clear(name)
+        make(journal)
+        stamps.write(name, key())
+
+    return Step(title, is_done, make_and_stamp)
+
+
+def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> None:
+    def run(step: Step) -> None:
+        with progress.step(step.title):
+            step.make(journal, progress)
+
+    with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:
+        for outcome in [pool.submit(run, step) for step in steps]:
+            outcome.result()
+
+
+def _explained(error: OSError, places: Places) -> SetupError:
+    if error.errno == errno.ENOSPC:
+        return SetupError(f"The disk that holds {places.cache} is full. Make room, and start again.")
+    return SetupError(f"The set-up stopped: {error}. Mend that, and start again.")
