@@ -6,6 +6,19 @@ CourseError
 │   ├── UnknownType: no such type here
 │   ├── BrokenDefinition: a .srv or .msg text that ROS refuses; with line and column
 │   └── FieldError: a value that its field cannot hold; a ValueError, too
+├── GraphError: the ROS graph is not as a call needs it
+│   ├── MalformedMasterUri: ROS_MASTER_URI is not http://HOST:PORT
+│   ├── MasterUnreachable: nobody takes connections at that address
+│   ├── MasterSilent: somebody takes the connection and does not answer
+│   ├── NotAMaster: somebody answers, and it is not a ROS master
+│   ├── PortBusy: the port asked for belongs to another program
+│   ├── NodeNameTaken: another living node has this name
+│   ├── NotJoined: this kernel is no node, no longer, or not one that can do this
+│   ├── NotAServiceType, NotAMessageType: another class was given in its place
+│   ├── CallError: CallTimeout, CallCancelled, a call that brought no answer
+│   ├── NothingHeard: fewer messages than asked for within the time
+│   ├── UnknownExecutable: no such package, or no such program in it
+│   └── NodeFailed: the process of a node ended; holds the end of its output
 ├── ExamError: a check cannot be carried out
 │   ├── UnknownCheck: no check has this id
 │   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
@@ -72,15 +85,88 @@ class FieldError(InterfaceError, ValueError):
     """A value that a field cannot hold.
 
     `field` is the path to it (`points[2].x`), `value` is what was given,
-    `problem` is what is wrong with it, `allowed` is what would be right.
+    `allowed` is what would be right, `problem` is what is wrong, and `hint`,
+    if not empty, is what was probably meant.
     """
 
-    def __init__(self, field: str, value: object, problem: str, allowed: str) -> None:
-        super().__init__(f"{field}: {problem}; {allowed}" if field else f"{problem}; {allowed}")
+    def __init__(self, field: str, value: object, allowed: str, problem: str = "", hint: str = "") -> None:
+        where = f"{field}: " if field else ""
+        wrong = problem or f"{value!r} does not fit"
+        super().__init__(f"{where}{wrong}; expected {allowed}" + (f"; {hint}" if hint else ""))
         self.field = field
         self.value = value
-        self.problem = problem
         self.allowed = allowed
+        self.problem = wrong
+        self.hint = hint
+
+
+class GraphError(CourseError):
+    """The ROS graph is not as a call needs it."""
+
+
+class MalformedMasterUri(GraphError):
+    """ROS_MASTER_URI is not of the form http://HOST:PORT."""
+
+
+class MasterUnreachable(GraphError):
+    """Nobody takes connections at the address of the master."""
+
+
+class MasterSilent(GraphError):
+    """Somebody takes connections at the address of the master and does not answer in time."""
+
+
+class NotAMaster(GraphError):
+    """Somebody answers at the address of the master, and it is not a ROS master."""
+
+
+class PortBusy(GraphError):
+    """The port asked for belongs to another program."""
+
+
+class NodeNameTaken(GraphError):
+    """Another living node has this name."""
+
+
+class NotJoined(GraphError):
+    """This kernel is no node, no longer one, or one of another name."""
+
+
+class NotAServiceType(GraphError, TypeError):
+    """Something else was given where a service type belongs."""
+
+
+class NotAMessageType(GraphError, TypeError):
+    """Something else was given where a message type belongs."""
+
+
+class CallError(GraphError):
+    """A service call ended without an answer, and not by an error that rospy has words for."""
+
+
+class CallTimeout(CallError):
+    """The deadline of a service call passed."""
+
+
+class CallCancelled(CallError):
+    """A service call was cancelled."""
+
+
+class NothingHeard(GraphError):
+    """Fewer messages came than were asked for within the time."""
+
+
+class UnknownExecutable(GraphError):
+    """No package of this name, or no program of this name in it."""
+
+
+class NodeFailed(GraphError):
+    """The process of a node ended; `output` is the end of what it printed, `returncode` its exit status."""
+
+    def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
+        super().__init__(message)
+        self.output = output
+        self.returncode = returncode
 
 
 class ExamError(CourseError):
