@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from course_pkg.examiner.desk import check
-    from course_pkg.examiner.exam import Exam
+    from course_pkg.examiner.exam import Exam, Its
     from course_pkg.examiner.ledger import says
     from course_pkg.examiner.parts import part
-    from course_pkg.examiner.summary import results
     from course_pkg.examiner.scripted import HangUp, Late, Refuse, Silence
+    from course_pkg.examiner.summary import results
 
-__all__ = ["Exam", "HangUp", "Late", "Refuse", "Silence", "check", "part", "results", "says"]
+__all__ = ["Exam", "HangUp", "Its", "Late", "Refuse", "Silence", "check", "part", "results", "says"]
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 -- PEP 562: a module's attribute is of any type
@@ -23,6 +23,7 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 -- PEP 562: a module's attrib
     homes = {
         "Exam": "exam",
         "HangUp": "scripted",
+        "Its": "exam",
         "Late": "scripted",
         "Refuse": "scripted",
         "Silence": "scripted",

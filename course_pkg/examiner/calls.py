@@ -61,14 +61,14 @@ class Service:
         return self._answered(self._ask([self._request(*values, **fields)])[0])
 
     def at_once(self, requests: Sequence[Mapping[str, Any]]) -> list[Reply]:
-        """Call with all `requests` at the same time, each from a thread of its own; return the replies in order."""
+        """Call with all `requests` at the same time, each on its own thread; return replies in order."""
         replies = self._ask([self._request(**fields) for fields in requests])
         for reply in replies:
             self._answered(reply)
         return replies
 
     def refused(self, rule: str, *, saying: str = "", hints: Hints = (), **fields: Any) -> str:  # noqa: ANN401
-        """Call with a request that the server has to refuse with a reason that matches `saying`; return the words."""
+        """Send a request that has to be refused with words that match `saying`; return them."""
         reply = self._ask([self._request(**fields)])[0]
         self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
         seen = reply.error or plain(reply.response)
@@ -96,7 +96,9 @@ class Service:
         """Call with all requests at once. A call that hangs is left to its thread: this process ends soon."""
         inboxes = [self._started(request) for request in requests]
         deadline = time.monotonic() + self._patience
-        return [self._reply(inbox, request, deadline) for inbox, request in zip(inboxes, requests, strict=True)]
+        return [
+            self._reply(inbox, request, deadline) for inbox, request in zip(inboxes, requests, strict=True)
+        ]
 
     def _reply(self, inbox: queue.Queue[Reply], request: Any, deadline: float) -> Reply:  # noqa: ANN401
         try:
@@ -125,7 +127,7 @@ def _response(proxy: Callable[..., Any], request: Any) -> tuple[Any, str]:  # no
 
 
 def provider_of(name: str) -> Provider | None:
-    """Return who serves `name`, or None when nobody does; raise OSError when who is listed does not answer."""
+    """Return who serves `name`, or None when nobody does; raise OSError when a dead one is listed."""
     try:
         uri: str = rosgraph.Master(rospy.get_name()).lookupService(name)
     except rosgraph.MasterError:

@@ -69,7 +69,7 @@ def _judge() -> Iterator[Link]:
 def _started_judge() -> Iterator[Link]:
     """Start a judge; it ends with this block, and with this process, also a killed one."""
     if "ROS_MASTER_URI" not in os.environ:
-        raise ExamError("This notebook is not on a graph yet. Run its set-up cell, the one with join(), first.")
+        raise ExamError("There is no graph yet: run the set-up cell, the one with join(), first.")
     ours, theirs = socket.socketpair()
     with tempfile.TemporaryFile() as log:
         process = _spawn(theirs, log)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from contextlib import ExitStack
+from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -41,8 +42,14 @@ class Exam:
 
     # -- rules
 
-    def expect(  # noqa: PLR0913 -- all but the rule by keyword
-        self, rule: str, *, expected: Any, seen: Any, near: float = 0.0, hints: Hints = ()  # noqa: ANN401
+    def expect(
+        self,
+        rule: str,
+        *,
+        expected: Any,  # noqa: ANN401 -- plain data, or what has a plain form
+        seen: Any,  # noqa: ANN401
+        near: float = 0.0,
+        hints: Hints = (),
     ) -> None:
         """Hold to `rule` that `seen` equals `expected`; numbers may differ by `near`, absolute or relative.
 
@@ -51,7 +58,8 @@ class Exam:
         """
         wanted, found = plain(expected), plain(seen)
         if not same(wanted, found, near):
-            self._ledger.fails(rule, expected=shown(wanted), seen=shown(found), hint=hint_for(hints, found, near))
+            hint = hint_for(hints, found, near)
+            self._ledger.fails(rule, expected=shown(wanted), seen=shown(found), hint=hint)
         self._ledger.passes(rule)
 
     def hold(self, rule: str, holds: bool, *, expected: str = "", seen: Any = "", hints: Hints = ()) -> None:  # noqa: ANN401
@@ -81,14 +89,14 @@ class Exam:
             hint = f"Serve it with the type that the exercise names: {kind}."
             self._ledger.fails(rule, expected=kind, seen=seen, hint=hint)
         self._ledger.passes(rule)
-        return Service(self._ledger, name, self.type(kind), hints, timeout)
+        return Service(self._ledger, name, self.service_class(kind), hints, timeout)
 
     def _type_of(self, name: str, rule: str) -> str:
         try:
             provider = provider_of(name)
         except OSError as error:
-            hint = "Its entry at the master leads to a server that is gone. Run the cell that serves it again."
-            self._ledger.fails(rule, expected="a server", seen=f"an entry that leads nowhere: {error}", hint=hint)
+            hint = "The master lists a server that is gone. Run the cell that serves it again."
+            self._ledger.fails(rule, expected="a server", seen=f"one that is gone: {error}", hint=hint)
         if provider is None:
             alike = difflib.get_close_matches(name, list(served_names()), n=1)
             hint = "Run the cell that serves it, also after each restart of the kernel."
@@ -96,7 +104,7 @@ class Exam:
             self._ledger.fails(rule, expected="a server", seen="nobody who serves it", hint=hint)
         return provider.header.get("type", "no type")
 
-    def type(self, kind: str) -> Any:  # noqa: ANN401 -- a class of genpy
+    def service_class(self, kind: str) -> Any:  # noqa: ANN401 -- a class of genpy
         """Return the class of the service type `kind`, such as "course_pkg/geometry"."""
         from roslib.message import get_service_class
 
@@ -109,7 +117,7 @@ class Exam:
 
         `kind` is a type's name, or a class. Who served the name before serves it again afterwards.
         """
-        cls = self.type(kind) if isinstance(kind, str) else kind
+        cls = self.service_class(kind) if isinstance(kind, str) else kind
         return self._open.enter_context(ScriptedServer(name, cls, script))
 
     def absent(self, name: str, *, stale: bool = False) -> Absent:
@@ -118,13 +126,29 @@ class Exam:
 
     # -- what the student wrote, in the kernel
 
-    def run(self, function: str, *args: Any, within: float = 5.0, hints: Hints = (), **kwargs: Any) -> Outcome:  # noqa: ANN401
+    def run(
+        self, function: str, *args: Any, within: float = 5.0, hints: Hints = (), **kwargs: Any
+    ) -> Outcome:  # noqa: ANN401
         """Call the student's `function` in the kernel; it is broken off after `within` s."""
         self.doing = f"waiting for {function}()"
         words = _as_call(function, args, kwargs)
         self._ledger.asked = lambda: words
-        what = {"name": function, "args": plain(args), "kwargs": plain(kwargs), "within": within}
+        what = {
+            "name": function,
+            "args": [_wired(value) for value in args],
+            "kwargs": {key: _wired(value) for key, value in kwargs.items()},
+            "within": within,
+        }
         return Outcome(self._ledger, function, self._link.ask("call", timeout=within + SLACK, **what), hints)
+
+    def prepare(self, code: str, within: float = 5.0) -> None:
+        """Run `code` of the check's own in the kernel, apart from the student's names.
+
+        What it makes can be handed to the student's function: `exam.run("close", Its("service"))`.
+        """
+        error = self._link.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
+        if error:
+            raise ExamError(f"The check could not prepare the kernel ({error.get('text')}): restart the kernel.")
 
     def command(self, *argv: str, files: tuple[str, ...] = (), within: float = 10.0) -> Finished:
         """Run a command beside the kernel, in a new folder that holds copies of the student's `files`.
@@ -157,6 +181,20 @@ class Exam:
         if isinstance(error, Exception) and not isinstance(error, (RuleBroken, ExamError)):
             words = f"{type(error).__name__}: {error}"
             raise ExamError(f"This check itself is broken ({words}); it is not your doing.") from error
+
+
+@dataclass(frozen=True)
+class Its:
+    """An argument for `Exam.run`: what stands in the kernel under `name`."""
+
+    name: str
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+def _wired(value: Any) -> Any:  # noqa: ANN401 -- plain data
+    return {"its": value.name} if isinstance(value, Its) else plain(value)
 
 
 def _as_call(function: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> str:

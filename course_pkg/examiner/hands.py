@@ -56,10 +56,12 @@ class Hands:
     def __init__(self, namespace: Mapping[str, Any], folder: Path | None = None) -> None:
         self._namespace = namespace
         self._folder = folder or Path.cwd()
+        self._held: dict[str, Any] = {}  # what `prepare` made, apart from the student's names
         self._answers: dict[str, Callable[..., dict[str, Any]]] = {
             "look": self._look,
             "read": self._read,
             "source": self._source,
+            "prepare": self._prepare,
             "call": self._call,
             "run": self._run,
         }
@@ -69,9 +71,17 @@ class Hands:
         what = {key: value for key, value in question.items() if key not in ("ask", "do")}
         try:
             answer = self._answers[question["do"]](**what)
-        except (KeyError, TypeError, ValueError, OSError) as error:
+        except (LookupError, AttributeError, TypeError, ValueError, OSError) as error:
             answer = {"wrong": f"{type(error).__name__}: {error}"}
         return {"answer": question.get("ask"), **answer}
+
+    def _find(self, name: str) -> Any:  # noqa: ANN401 -- whatever the student defined
+        """Return what stands under `name`, which may have dots in it."""
+        first, *rest = name.split(".")
+        value = self._namespace[first] if first in self._namespace else self._held[first]
+        for attribute in rest:
+            value = getattr(value, attribute)
+        return value
 
     def _look(self, name: str) -> dict[str, Any]:
         if name.startswith("file:"):
@@ -86,19 +96,29 @@ class Hands:
         return {"kind": kinds.get(type(value), "value"), "alike": []}
 
     def _read(self, name: str) -> dict[str, Any]:
-        return {"value": plain(self._namespace[name])}
+        return {"value": plain(self._find(name))}
 
     def _source(self, name: str) -> dict[str, Any]:
         if name.startswith("file:"):
             return {"text": (self._folder / name.removeprefix("file:")).read_text("utf-8")}
-        return {"text": inspect.getsource(self._namespace[name])}
+        return {"text": inspect.getsource(self._find(name))}
 
     def _call(self, name: str, args: list[Any], kwargs: dict[str, Any], within: float) -> dict[str, Any]:
         printed = Printed()
         started = time.monotonic()
+        values = [self._argument(value) for value in args]
+        named = {key: self._argument(value) for key, value in kwargs.items()}
         with redirect_stdout(printed), redirect_stderr(printed):
-            outcome = _outcome(lambda: self._namespace[name](*args, **kwargs), within)
+            outcome = _outcome(lambda: self._find(name)(*values, **named), within)
         return {**outcome, "printed": printed.text, "took": time.monotonic() - started}
+
+    def _argument(self, value: Any) -> Any:  # noqa: ANN401 -- plain data, or what a name stands for
+        return self._find(value["its"]) if isinstance(value, dict) and value.keys() == {"its"} else value
+
+    def _prepare(self, code: str, within: float) -> dict[str, Any]:
+        """Run the judge's own `code`; the names that it makes can be arguments of later calls."""
+        outcome = _outcome(lambda: exec(code, self._held), within)  # noqa: S102 -- the judge is trusted here
+        return {"error": outcome.get("error")}
 
     def _run(self, argv: list[str], files: list[str], within: float) -> dict[str, Any]:
         """Run a command in a folder of its own that holds copies of the student's `files`."""
@@ -154,7 +174,11 @@ def _kind_of_file(path: Path) -> str:
     if not path.is_file():
         return "missing"
     text = path.read_text("utf-8", errors="replace")
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith(("#", "<!--", "//"))]
+    lines = [
+        line
+        for line in text.splitlines()
+        if line.strip() and not line.lstrip().startswith(("#", "<!--", "//"))
+    ]
     return "stub" if [line.strip() for line in lines] == ["..."] else "file"
 
 

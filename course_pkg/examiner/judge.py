@@ -43,9 +43,8 @@ class DeadlinePassed(BaseException):
 def main() -> None:
     """Judge one check over the socket whose descriptor is the first argument, then end at once."""
     link = Link(socket.socket(fileno=int(sys.argv[1])))
-    with suppress(Ended):
-        with ended_by(link):
-            judge(link, state_folder() / "results")
+    with suppress(Ended), ended_by(link):
+        judge(link, state_folder() / "results")
     sys.stderr.flush()
     os._exit(0)  # rospy's own ending sleeps for 0.6 s; what was registered is unregistered by now
 

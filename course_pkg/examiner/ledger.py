@@ -26,7 +26,9 @@ def says(pattern: str) -> re.Pattern[str]:
 def same(expected: Any, seen: Any, near: float = 0.0) -> bool:  # noqa: ANN401 -- plain data
     """Return whether plain data are equal; numbers within `near`, relative or absolute, True never 1."""
     if isinstance(expected, dict) and isinstance(seen, dict):
-        return expected.keys() == seen.keys() and all(same(expected[key], seen[key], near) for key in expected)
+        return expected.keys() == seen.keys() and all(
+            same(expected[key], seen[key], near) for key in expected
+        )
     if isinstance(expected, list) and isinstance(seen, list):
         return len(expected) == len(seen) and all(map(lambda a, b: same(a, b, near), expected, seen))
     if isinstance(expected, bool) or isinstance(seen, bool):

@@ -1,7 +1,7 @@
 """The wire between a kernel's desk, which is not trusted, and the judge of what it holds.
 
-A stream socket, one JSON object a line, UTF-8, at most `LIMIT` bytes a line. Nothing that crosses
-is ever unpickled or evaluated: it is plain data on both sides.
+A stream socket, one JSON object a line, UTF-8, at most `LIMIT` bytes a line. The judge never
+unpickles or evaluates what it gets: it is plain data.
 
     desk  -> judge   {"protocol": 1, "check": "05.1"}            once, first
     judge -> desk    {"ask": 1, "do": "look", "name": "measure"}
@@ -14,6 +14,7 @@ What can be asked, and what is answered:
     look     name                         kind (function, class, value, stub, missing), alike
     read     name                         value
     source   name                         text
+    prepare  code, within                 error (the judge's code: it makes arguments for calls)
     call     name, args, kwargs, within   value or error, printed, took
     run      argv, files, within          status, out, err, took
 

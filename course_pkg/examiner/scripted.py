@@ -124,7 +124,12 @@ class ScriptedServer:
             words = f"request from [{header.get('callerid')}]: md5sums do not match: [{theirs}] vs. [{md5}]"
             write_ros_handshake_header(sock, {"error": words})
             return False
-        answer = {"callerid": rospy.get_name(), "md5sum": md5, "type": self._kind._type, "service": self._name}
+        answer = {
+            "callerid": rospy.get_name(),
+            "md5sum": md5,
+            "type": self._kind._type,
+            "service": self._name,
+        }
         answer["request_type"] = self._kind._request_class._type
         answer["response_type"] = self._kind._response_class._type
         write_ros_handshake_header(sock, answer)
@@ -162,7 +167,7 @@ class ScriptedServer:
 
 
 class Absent:
-    """Nobody serves `name` while the block lasts; `stale` leaves an entry that leads nowhere, as a kill does."""
+    """Nobody serves `name` while the block lasts; `stale` leaves a dead entry, as a kill does."""
 
     def __init__(self, name: str, *, stale: bool = False) -> None:
         self._name, self._stale = name, stale

@@ -32,5 +32,9 @@ def shown(value: Any) -> str:  # noqa: ANN401 -- plain data
     if isinstance(value, dict):
         return ", ".join(f"{key}={shown(item)}" for key, item in value.items()) or "nothing"
     if isinstance(value, list):
-        return "[" + ", ".join(f"({shown(item)})" if isinstance(item, dict) else shown(item) for item in value) + "]"
+        return (
+            "["
+            + ", ".join(f"({shown(item)})" if isinstance(item, dict) else shown(item) for item in value)
+            + "]"
+        )
     return repr(value)

@@ -43,7 +43,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 
 def _does_nothing(code: CodeType) -> bool:
-    """Judge by the code alone, for a function whose source is gone: no name, no constant, no argument used."""
+    """Judge by the code alone, for a function whose source is gone."""
     blank = _code_of(lambda: None)
     return code.co_code == blank.co_code and not code.co_names
 

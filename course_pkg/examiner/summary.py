@@ -33,7 +33,10 @@ class Summary:
     def __str__(self) -> str:
         earned, possible = sum(line.points for line in self.lines), sum(line.possible for line in self.lines)
         head = f"Chapter {self.chapter}: {earned} of {possible} points"
-        rows = [f"  {line.check:<6}{line.verdict:<15}{line.points}/{line.possible}  {line.goal}" for line in self.lines]
+        rows = [
+            f"  {line.check:<6}{line.verdict:<17}{line.points}/{line.possible}  {line.goal}"
+            for line in self.lines
+        ]
         return "\n".join([head, *rows])
 
     __repr__ = __str__

@@ -23,8 +23,8 @@ def area_and_volume(exam: Exam) -> None:
             hints={
                 0.0: "The field area was never given a value: a field that is left out is 0.",
                 width + length: "That is width + length. An area is a product.",
-                width * height: "That is width times height, the front of the box. Its floor is width times length.",
-                length * height: "That is length times height, a side of the box. Its floor is width times length.",
+                width * height: "That is width times height, the front. The floor is width times length.",
+                length * height: "That is length times height, a side. The floor is width times length.",
                 width * length * height: "That is the volume. The response has area first, then volume.",
             },
         )

@@ -1,0 +1,188 @@
+"""What a student gets in place of an answer: an exercise cell with the answer taken out.
+
+Three rules. Everything that they do not name stays as it is, byte for byte.
+
+1. The body of a function or method becomes its docstring, if it has one, and `...`.
+2. `name = value` at the top level becomes `name = ...`, unless the value calls what this very cell
+   defines (`counter = Counter()`): that only wires the answer up.
+3. A cell that begins with `%%writefile` keeps that line. Python below it follows rules 1 and 2; any
+   other text becomes its leading comment lines and `...`.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from course_pkg.errors import AuthoringError
+
+COMMENT = ("#", "//", "<!--")
+PYTHON_MAGICS = ("%%time", "%%timeit", "%%capture")
+MAGIC = re.compile(r"(?P<before>\s*(?:[\w, ]+=\s*)?)(?P<magic>[%!].*|[\w.]+\?{1,2}\s*)$")
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+class Edit(NamedTuple):
+    """Bytes from `start` to `end` give way to `text`."""
+
+    start: int
+    end: int
+    text: bytes
+
+
+def blank(source: str) -> str:
+    """Return the source of an exercise cell without the answer."""
+    first, newline, rest = source.partition("\n")
+    if not first.startswith("%%"):
+        return _blank_python(source)
+    magic, _, path = first.partition(" ")
+    if magic in PYTHON_MAGICS or (magic == "%%writefile" and path.strip().endswith(".py")):
+        return first + newline + _blank_python(rest)
+    if magic == "%%writefile":
+        return first + newline + _blank_text(rest)
+    raise AuthoringError(f"An exercise cell cannot begin with {magic}: nothing can stand in for its answer.")
+
+
+def _blank_text(text: str) -> str:
+    kept = []
+    for line in text.split("\n"):
+        if not line.lstrip().startswith(COMMENT):
+            break
+        kept.append(line)
+    return "\n".join([*kept, "..."])
+
+
+def _blank_python(source: str) -> str:
+    cell = _Cell(source)
+    edits = sorted(cell.edits(), reverse=True)
+    data = cell.data
+    for start, end, text in edits:
+        data = data[:start] + text + data[end:]
+    return data.decode()
+
+
+class _Cell:
+    """The source of a cell as bytes, which is how `ast` counts columns, and as a tree."""
+
+    def __init__(self, source: str) -> None:
+        self.data = source.encode()
+        self._lines = self.data.splitlines(keepends=True)
+        self._starts = [0]
+        for line in self._lines:
+            self._starts.append(self._starts[-1] + len(line))
+        self._text, self._tree = _parsed(source)
+        self._defined = {node.name for node in self._tree.body if isinstance(node, Function | ast.ClassDef)}
+
+    def edits(self) -> Iterator[Edit]:
+        """Yield what rules 1 and 2 change."""
+        for node in self._tree.body:
+            yield from self._rule_1(node)
+            if isinstance(node, ast.Assign | ast.AnnAssign):
+                yield from self._rule_2(node)
+
+    def _rule_1(self, node: ast.stmt) -> Iterator[Edit]:
+        if isinstance(node, ast.ClassDef):
+            for inner in node.body:
+                yield from self._rule_1(inner)
+        if isinstance(node, Function):
+            kept = self._end_of_kept(node)
+            yield Edit(kept, self._end_of_body(node), self._placeholder(node, kept))
+
+    def _rule_2(self, node: ast.Assign | ast.AnnAssign) -> Iterator[Edit]:
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        dots = [_dots(target) for target in targets]
+        if node.value is None or not all(dots) or self._wires_up(node.value):
+            return
+        last = node.annotation if isinstance(node, ast.AnnAssign) else targets[-1]
+        equals = self.data.index(b"=", self._end(last))
+        yield Edit(equals + 1, self._end(node), b" " + max(dots, key=len).encode())
+
+    def _wires_up(self, value: ast.expr) -> bool:
+        called = value.func if isinstance(value, ast.Call) else None
+        return isinstance(called, ast.Name) and called.id in self._defined
+
+    def _end_of_kept(self, node: Function) -> int:
+        """Return where the signature and the docstring end, with a comment behind them on the same line."""
+        documented = ast.get_docstring(node, clean=False) is not None
+        end = self._end(node.body[0]) if documented else self._end_of_signature(node)
+        rest = self.data[end:].split(b"\n", 1)[0]
+        return end + len(rest) if rest.strip().startswith(b"#") else end
+
+    def _end_of_signature(self, node: Function) -> int:
+        """Return where the colon of the signature ends: the first outside brackets and annotations."""
+        after = (node.returns or node).end_lineno or 0, self._column(node.returns) if node.returns else 0
+        depth = 0
+        for token in tokenize.generate_tokens(io.StringIO(self._text).readline):
+            if token.start < (node.lineno, 0) or token.type != tokenize.OP:
+                continue
+            depth += (token.string in "([{") - (token.string in ")]}")
+            if token.string == ":" and depth == 0 and (not node.returns or token.start >= after):
+                return self._offset(*token.end)
+        raise AuthoringError(f"The signature of {node.name} has no end.")
+
+    def _end_of_body(self, node: Function) -> int:
+        """Return where the body ends, with the comments that belong to it."""
+        last = node.body[-1].end_lineno or node.lineno
+        for number in range(last, len(self._lines)):
+            line = self._lines[number]
+            if line.strip() and not self._is_comment_inside(line, node):
+                break
+            last = number + 1 if line.strip() else last
+        return self._starts[last - 1] + len(self._lines[last - 1].rstrip(b"\r\n"))
+
+    def _is_comment_inside(self, line: bytes, node: Function) -> bool:
+        return line.lstrip().startswith(b"#") and len(line) - len(line.lstrip()) > node.col_offset
+
+    def _placeholder(self, node: Function, kept: int) -> bytes:
+        first = node.body[0]
+        line = self._lines[first.lineno - 1][: first.col_offset]
+        if line.strip():  # the body stands on the line of the signature
+            return b"; ..." if kept == self._end(first) else b" ..."
+        return b"\n" + line + b"..."
+
+    def _end(self, node: ast.AST) -> int:
+        return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
+
+    def _column(self, node: ast.expr) -> int:
+        """Return the column behind `node` in characters, which is how `tokenize` counts."""
+        line = self._lines[(node.end_lineno or 1) - 1]
+        return len(line[: node.end_col_offset].decode())
+
+    def _offset(self, line: int, column: int) -> int:
+        text = self._lines[line - 1].decode()
+        return self._starts[line - 1] + len(text[:column].encode())
+
+
+def _dots(target: ast.expr) -> str:
+    """Return as many `...` as `target` takes; an empty text when it is more than names."""
+    if isinstance(target, ast.Starred):
+        return _dots(target.value)
+    if isinstance(target, ast.Tuple | ast.List):
+        inner = [_dots(item) for item in target.elts]
+        nested = [f"({text})" if "," in text else text for text in inner]
+        return ", ".join(nested) + ("," if len(inner) == 1 else "") if all(inner) else ""
+    return "..." if isinstance(target, ast.Name) else ""
+
+
+def _parsed(source: str) -> tuple[str, ast.Module]:
+    """Return text of the same shape and its tree; lines that only IPython understands are masked in both."""
+    try:
+        return source, ast.parse(source)
+    except SyntaxError:
+        masked = "\n".join(_masked(line) for line in source.split("\n"))
+    try:
+        return masked, ast.parse(masked)
+    except SyntaxError as error:
+        raise AuthoringError(f"Line {error.lineno} is not Python: {error.msg}.") from error
+
+
+def _masked(line: str) -> str:
+    """Return `line` with a magic, a shell command or a `name?` replaced by a name as long."""
+    found = MAGIC.match(line)
+    if not found:
+        return line
+    return found["before"] + "_" * len(found["magic"].encode())

@@ -1,0 +1,68 @@
+"""What is wrong with a solution notebook, each with the notebook and the cell that it is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from course_pkg.authoring.blank import blank
+from course_pkg.authoring.cells import Notebook, check_of, code_cells, exercise_of, may_raise, points_of
+from course_pkg.errors import AuthoringError
+from course_pkg.examiner.parts import Part, chapters, parts_of
+
+
+def problems(name: str, notebook: Notebook) -> list[str]:
+    """Return every problem of the solution `name`, such as "05_write_a_server"."""
+    chapter = name.partition("_")[0]
+    parts = {part.check: part for part in parts_of(chapter)} if chapter in chapters() else {}
+    found = [*_pairs(notebook), *_exercises(notebook, parts), *_errors(notebook)]
+    missing = sorted(parts.keys() - {exercise_of(cell) for cell in code_cells(notebook)})
+    found += [("", f"part {part} is declared in the checks and has no exercise cell") for part in missing]
+    return [f"{name}, cell {cell}: {text}" if cell else f"{name}: {text}" for cell, text in found]
+
+
+def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
+    """Hold that every exercise has one check, below it, and that no id is used twice."""
+    exercises: list[str] = []
+    checks: list[str] = []
+    for cell in notebook["cells"]:
+        exercise, check = exercise_of(cell), check_of(cell)
+        if (exercise or check) and cell["cell_type"] != "code":
+            yield cell["id"], "only a code cell can be an exercise or a check"
+        if exercise in exercises or check in checks:
+            yield cell["id"], f"part {exercise or check} already stands in an earlier cell of this kind"
+        if check and check not in exercises:
+            yield cell["id"], f"check {check} has no exercise cell above it"
+        if check and f'check("{check}")' not in cell["source"]:
+            yield cell["id"], f'the cell does not say check("{check}")'
+        exercises += [exercise] if exercise else []
+        checks += [check] if check else []
+    for exercise in sorted(set(exercises) - set(checks)):
+        yield f"exercise-{exercise.replace('.', '-')}", f"exercise {exercise} has no check cell"
+
+
+def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[str, str]]:
+    """Hold that every exercise has its points, its check, and something to take out."""
+    for cell in code_cells(notebook):
+        if not (exercise := exercise_of(cell)):
+            continue
+        points = points_of(cell)
+        if points is None:
+            yield cell["id"], f'exercise {exercise} has no points: {{"exercise": "{exercise}", "points": 2}}'
+        if exercise not in parts:
+            yield cell["id"], f"no check is declared for {exercise}"
+        elif points is not None and points != parts[exercise].points:
+            yield cell["id"], f"{points} points here, {parts[exercise].points} in the check: make them equal"
+        try:
+            if blank(cell["source"]) == cell["source"]:
+                yield cell["id"], "there is nothing in this exercise to take out"
+        except AuthoringError as error:
+            yield cell["id"], str(error)
+
+
+def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:
+    """Hold that an error in an output is there on purpose."""
+    for cell in code_cells(notebook):
+        for output in cell["outputs"]:
+            if output["output_type"] == "error" and not may_raise(cell):
+                words = f"{output['ename']}: {output['evalue']}"
+                yield cell["id"], f"ends with {words}; tag it raises-exception if it is meant to"

@@ -1,0 +1,41 @@
+"""Validate stored notebooks: nbval runs each and compares what it shows with what is stored."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from course_pkg.authoring.execute import CELL, surroundings
+
+SANITIZE = Path(__file__).with_name("nbval_sanitize.cfg")
+
+
+def validate(
+    notebooks: Sequence[Path], *, workers: int = 2, timeout: float = 900.0
+) -> subprocess.CompletedProcess[str]:
+    """Run nbval over `notebooks`, each on a master of its own, `workers` at once, within `timeout` s.
+
+    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two.
+    """
+    with surroundings() as (folder, environment):
+        return subprocess.run(
+            command(notebooks, workers=workers, folder=folder),
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=timeout,
+            check=False,
+        )
+
+
+def command(notebooks: Sequence[Path], *, workers: int, folder: Path) -> list[str]:
+    """Return the command; no configuration of the repository's own tests takes part in it."""
+    parallel = ["-n", str(workers), "--dist", "loadfile"] if workers > 1 else ["-p", "no:xdist"]
+    return [
+        *(sys.executable, "-m", "pytest", "-q", "--nbval", "-p", "no:cacheprovider", *parallel),
+        *("-c", "/dev/null", "--rootdir", str(folder), "--nbval-cell-timeout", str(CELL)),
+        *("--nbval-sanitize-with", str(SANITIZE), "--nbval-cwd", str(folder)),
+        *map(str, notebooks),
+    ]

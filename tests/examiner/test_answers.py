@@ -1,0 +1,57 @@
+"""Every check is held to what students really write."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.authoring.blank import blank
+from course_pkg.examiner.answers import Answer, every_answer
+from course_pkg.examiner.parts import Part, every_part
+from course_pkg.examiner.rehearsal import Rehearsal
+from course_pkg.examiner.report import Verdict
+
+ANSWERS = list(every_answer())
+PARTS = list(every_part())
+
+
+@pytest.fixture(scope="session")
+def rehearsal() -> Iterator[Rehearsal]:
+    """Keep one warm process for each worker."""
+    with Rehearsal() as warm:
+        yield warm
+
+
+def _name(answer: Answer) -> str:
+    return f"{answer.check} {'right' if answer.right else 'wrong'}: {answer.title}"
+
+
+@pytest.mark.parametrize("answer", ANSWERS, ids=_name)
+def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, rehearsal: Rehearsal) -> None:
+    """A right answer passes; a wrong one fails, and the report holds the hint for that mistake."""
+    report = rehearsal.run(answer)
+    assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
+    assert " ".join(answer.hint.split()) in " ".join(str(report).split())
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
+def test_exercise_left_as_it_is_reads_not_attempted(part: Part, rehearsal: Rehearsal) -> None:
+    """The blanked answer is no failure and no error: it has not been attempted."""
+    right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
+    report = rehearsal.run(right, blank(right.source))
+    assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
+def test_part_has_enough_answers(part: Part) -> None:
+    """A part is held to two right answers and to four wrong ones, each with a hint of its own."""
+    right = [answer for answer in ANSWERS if answer.check == part.check and answer.right]
+    hints = {answer.hint for answer in ANSWERS if answer.check == part.check and not answer.right}
+    assert len(right) >= 2
+    assert len(hints) >= 4
+
+
+def test_every_answer_belongs_to_a_part() -> None:
+    """No answer is for a check that does not exist."""
+    assert {answer.check for answer in ANSWERS} <= {part.check for part in PARTS}
