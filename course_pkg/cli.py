@@ -6,35 +6,39 @@ the standard library alone, and each command imports what it needs when it runs.
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import NoReturn
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from course_pkg.errors import CourseError
 
+if TYPE_CHECKING:
+    from argparse import ArgumentParser
 
-@dataclass(frozen=True)
-class Command:
+
+INSIDE = "COURSE_INSIDE"  # set while the course's own interpreter runs this module
+
+
+class Command(NamedTuple):
     """A subcommand: what it says of itself, what has to be set up for it, and what it does."""
 
     summary: str
-    run: Callable[[argparse.Namespace], int]
-    needs: tuple[str, ...] = ("course",)
-    arguments: Callable[[argparse.ArgumentParser], None] = lambda parser: None
+    run: Callable[[SimpleNamespace], int]
+    needs: frozenset[str] = frozenset({"course"})  # and "test"; "libraries" if it imports what is installed
+    arguments: Callable[[ArgumentParser], None] = lambda parser: None
     rest: str = ""  # the words after such a command are another program's, and are handed on as they are
 
 
-def lab(options: argparse.Namespace) -> int:
+def lab(options: SimpleNamespace) -> int:
     """Start a master and JupyterLab."""
     from course_pkg.lab import serve_lab
 
     return serve_lab(options.notebook, port=options.port, ip=options.ip, browser=options.browser)
 
 
-def lab_arguments(parser: argparse.ArgumentParser) -> None:
+def lab_arguments(parser: ArgumentParser) -> None:
     """Declare what `course lab` takes."""
     parser.add_argument("notebook", nargs="?", help="the notebook to open (the first chapter)")
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="open no browser")
@@ -42,40 +46,40 @@ def lab_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (127.0.0.1)")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: SimpleNamespace) -> int:
     """Run a command in the environment."""
     from course_pkg.lab.run import run_command
 
     return run_command(options.rest)
 
 
-def test(options: argparse.Namespace) -> int:
+def test(options: SimpleNamespace) -> int:
     """Run the whole suite."""
     from course_pkg.lab.suite import run_suite
 
     return run_suite(options.rest)
 
 
-def doctor(options: argparse.Namespace) -> int:
+def doctor(options: SimpleNamespace) -> int:
     """Say what is installed, missing and stale."""
     from course_pkg.provision.doctor import examine
 
     return examine()
 
 
-def sync(options: argparse.Namespace) -> int:
+def sync(options: SimpleNamespace) -> int:
     """Derive the notebooks from the solutions."""
     from course_pkg.authoring import sync as derive
 
     return int(derive(check=options.check))
 
 
-def sync_arguments(parser: argparse.ArgumentParser) -> None:
+def sync_arguments(parser: ArgumentParser) -> None:
     """Declare what `course sync` takes."""
     parser.add_argument("--check", action="store_true", help="change nothing; say what is out of step")
 
 
-def lock(options: argparse.Namespace) -> int:
+def lock(options: SimpleNamespace) -> int:
     """Pin every library."""
     from course_pkg.provision import Places
     from course_pkg.provision.lock import write_locks
@@ -89,10 +93,10 @@ COMMANDS = {
     "lab": Command("start a ROS master and JupyterLab on the first chapter", lab, arguments=lab_arguments),
     "run": Command("run a command in the environment, with a master of its own", run, rest="COMMAND [ARGUMENT …]"),
     "test": Command(
-        "run the whole suite: lint, types, spelling, tests", test, ("course", "test"), rest="[PYTEST ARGUMENT …]"
+        "run the whole suite: lint, types, spelling, tests", test, frozenset({"course", "test"}), rest="[PYTEST ARGUMENT …]"
     ),
-    "doctor": Command("say what is installed, missing and stale, and what to do about it", doctor, ()),
-    "sync": Command("derive the students' notebooks from the solutions", sync, arguments=sync_arguments),
+    "doctor": Command("say what is installed, missing and stale, and what to do about it", doctor, frozenset()),
+    "sync": Command("derive the students' notebooks from the solutions", sync, frozenset({"course", "libraries"}), sync_arguments),
     "lock": Command("pin every library that pyproject.toml needs", lock),
 }
 
@@ -108,19 +112,21 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
         sys.exit(130)
 
 
-def parse(words: Sequence[str]) -> argparse.Namespace:
+def parse(words: Sequence[str]) -> SimpleNamespace:
     """Return what `words` ask for; exit with a message where they make no sense."""
     name = words[0] if words else ""
     if name in COMMANDS and COMMANDS[name].rest and words[1:2] not in (["-h"], ["--help"]):
         rest = list(words[1:])
         if not rest and not COMMANDS[name].rest.startswith("["):
             _parser().parse_args([name, "--help"])
-        return argparse.Namespace(command=name, rest=rest)
-    return _parser().parse_args(words)
+        return SimpleNamespace(command=name, rest=rest)
+    return _parser().parse_args(words, SimpleNamespace())
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def _parser() -> ArgumentParser:
+    from argparse import ArgumentParser  # 10 ms that `run` need not spend
+
+    parser = ArgumentParser(
         prog="course", description="A course on ROS 1 services.", epilog="`course COMMAND --help` says more."
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
@@ -142,16 +148,17 @@ def _dispatch(words: Sequence[str]) -> int:
 
 
 def _enter_environment(command: Command, words: Sequence[str]) -> None:
-    """Set up what is missing, and go on as the course's own interpreter in its environment."""
+    """Set up what is missing, and put on the environment; go on in its own interpreter if need be."""
     from course_pkg.provision import Places, ensure, environment
 
     places = Places.of()
-    inside = os.environ.get("COURSE_INSIDE") == str(places.venv)
-    if inside and os.path.realpath(sys.prefix) == os.path.realpath(places.venv):
+    if os.environ.get(INSIDE) == str(places.python):
         return
     ensure(places, test="test" in command.needs)
-    variables = {**environment.merged(places, os.environ), "COURSE_INSIDE": str(places.venv)}
-    os.execve(places.python, [str(places.python), "-m", "course_pkg.cli", *words], variables)
+    environment.apply(places)
+    if "libraries" in command.needs:
+        os.environ[INSIDE] = str(places.python)
+        os.execv(places.python, [str(places.python), "-m", "course_pkg.cli", *words])
 
 
 if __name__ == "__main__":

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 from course_pkg.provision.places import Places
-from course_pkg.provision.python import lock_file, uv_program
+from course_pkg.provision.installer import uv_program
+from course_pkg.provision.python import lock_file
 
 UV = "uv==0.13.8"
 HEADER = "# Written by `./course lock` from pyproject.toml. Do not edit.\n"

@@ -5,15 +5,13 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
 
-@dataclass(frozen=True)
-class Places:
+class Places(NamedTuple):
     """The folders of one checkout. What is made lies outside of it, where rosrun does not walk."""
 
     checkout: Path
@@ -26,7 +24,7 @@ class Places:
         key = hashlib.sha256(os.fsencode(checkout)).hexdigest()[:8]
         return cls(checkout, cache_root() / f"{checkout.name}-{key}".replace(" ", "_"))
 
-    @cached_property
+    @property
     def conda(self) -> Path | None:
         """The active conda environment, where it is the one that runs this and holds ROS."""
         prefix = os.environ.get("CONDA_PREFIX")

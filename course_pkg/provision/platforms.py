@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
@@ -12,8 +12,7 @@ DATA = Path(__file__).with_name("platforms.json")
 OS_RELEASE = Path("/etc/os-release")
 
 
-@dataclass(frozen=True)
-class Platform:
+class Platform(NamedTuple):
     """A distribution that has ROS 1, with the packages that it takes."""
 
     name: str

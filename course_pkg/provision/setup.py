@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 from course_pkg.provision import packages, python, workspace
@@ -17,8 +16,7 @@ from course_pkg.provision.stamps import Stamps, digest, locked
 
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """A part of the set-up. `is_done` is asked at every start, so it is cheap."""
 
     title: str
@@ -131,6 +129,8 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
     def run(step: Step) -> None:
         with progress.step(step.title):
             step.make(journal, progress)
+
+    from concurrent.futures import ThreadPoolExecutor  # 5 ms that a start with nothing to do need not spend
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:
         for outcome in [pool.submit(run, step) for step in steps]:
