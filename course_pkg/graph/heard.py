@@ -1,0 +1,80 @@
+"""What a topic says, remembered, so that a cell can wait for messages instead of printing from a callback."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+import rospy
+
+from course_pkg.errors import NothingHeard
+
+REMEMBERED = 1000  # messages
+
+
+class Heard:
+    """A subscription; `messages` holds the last 1000, oldest first."""
+
+    def __init__(self, topic: str, cls: Any, callback: Callable[[Any], object] | None = None) -> None:  # noqa: ANN401
+        self.messages: deque[Any] = deque(maxlen=REMEMBERED)
+        self.errors: deque[Exception] = deque(maxlen=REMEMBERED)
+        self.count = 0
+        self._callback = callback
+        self._arrived = threading.Condition()
+        self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._hear)
+        self.name = str(self._subscriber.resolved_name)
+        self.type = str(cls._type)
+
+    def wait(self, count: int = 1, timeout: float = 5.0) -> list[Any]:
+        """Return the first `count` messages from now on those already heard included, as soon as there are so many.
+
+        Raises NothingHeard when there are fewer after `timeout` s.
+        """
+        deadline = time.monotonic() + timeout
+        with self._arrived:
+            # In slices: a lock that waits without limit cannot be interrupted on every platform.
+            while len(self.messages) < count and (rest := deadline - time.monotonic()) > 0:
+                self._arrived.wait(min(rest, 0.5))
+            if len(self.messages) < count:
+                raise NothingHeard(self._too_few(count, timeout))
+            return list(self.messages)[:count]
+
+    def stop(self) -> None:
+        """Unsubscribe; what was heard stays. A second stop changes nothing."""
+        subscriber, self._subscriber = self._subscriber, None
+        if subscriber is not None:
+            subscriber.unregister()
+
+    def __enter__(self) -> Heard:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.name} of type {self.type}, {'heard' if self._subscriber else 'stopped'}>"
+
+    def _hear(self, message: Any) -> None:  # noqa: ANN401
+        with self._arrived:
+            self.messages.append(message)
+            self.count += 1
+            self._arrived.notify_all()
+        if self._callback is not None:
+            try:
+                self._callback(message)
+            except Exception as error:  # noqa: BLE001 -- kept for the cell to look at: rospy would print it anywhere
+                self.errors.append(error)
+
+    def _too_few(self, count: int, timeout: float) -> str:
+        publishers = self._subscriber.get_num_connections() if self._subscriber else 0
+        why = f"{publishers} publishers are connected" if publishers else "no publisher is connected"
+        return (
+            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and {why}. Is somebody "
+            f"publishing there, and {self.type}? See `rostopic info {self.name}`."
+        )

@@ -1,0 +1,176 @@
+"""How a kernel becomes a node, again and again: rospy allows one node for each process, and starts it once."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import threading
+import time
+from contextlib import suppress
+from functools import cache
+
+import rosgraph.names
+import rospy
+from rospy.impl import tcpros_base
+
+from course_pkg.errors import GraphError, NodeNameTaken, NotJoined
+from course_pkg.graph.handshake import guard_against_idle_connections
+from course_pkg.graph.leash import Leash
+from course_pkg.graph.logs import logging_kept
+from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
+from course_pkg.graph.node import OVER, Node
+from course_pkg.graph.probe import Reach, ask_all, node_probe
+from course_pkg.graph.registrar import (
+    hasten_shutdown,
+    node_known,
+    register_all,
+    registration_manager,
+    unregister_all,
+)
+from course_pkg.graph.rpc import MasterClient
+from course_pkg.graph.stale import remove_stale
+
+HANDOVER = 2.0  # s for a former holder of the name to end, such as a kernel that is being restarted
+
+
+def join(name: str) -> Node:
+    """Make this kernel the node `name`, and return it; run again, it returns the same node.
+
+    Uses the master of ROS_MASTER_URI, or starts one that ends with this kernel. After that master was lost and
+    another has taken its place, it registers again what this node had.
+    """
+    return _kernel(os.getpid()).join(name)
+
+
+def leave(node: Node) -> None:
+    """Take this kernel's node off the graph."""
+    _kernel(os.getpid()).leave(node)
+
+
+@cache
+def _kernel(pid: int) -> _Kernel:
+    """Return this process's one membership; a forked child is not what its parent was."""
+    return _Kernel(pid)
+
+
+class _Kernel:
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._node: Node | None = None
+        self._private: PrivateMaster | None = None
+        self._undertaker: Leash | None = None
+
+    def join(self, name: str) -> Node:
+        _require_main_thread()
+        full = _full(name)
+        _require_same(full)
+        _apply_environment()
+        self._settle_master()
+        master = MasterClient(master_uri())
+        if self._node is None:
+            self._node = self._first(name, full, master)
+        elif not node_known(master):
+            _free(full, master)
+            register_all(master)
+        self._hire(master)
+        return self._node
+
+    def leave(self, node: Node) -> None:
+        node.close_all()
+        undertaker, self._undertaker = self._undertaker, None
+        if undertaker is not None:
+            undertaker.end()
+        unregister_all(MasterClient(master_uri()))
+
+    def _first(self, name: str, full: str, master: MasterClient) -> Node:
+        if not rospy.core.is_initialized():
+            _free(full, master)
+            setattr(tcpros_base, "_use_tcp_keepalive", master.get_param("/tcp_keepalive", True))  # noqa: B010
+            with logging_kept():
+                rospy.init_node(name, disable_signals=True)
+            hasten_shutdown()
+        guard_against_idle_connections()
+        atexit.register(self._at_exit)
+        return Node()
+
+    def _settle_master(self) -> None:
+        """Have a master that answers; a private one that was lost is replaced at the same address."""
+        if self._private is not None and self._private.uri == master_uri() and not self._private.running:
+            self._private = PrivateMaster(self._private.port).start()
+        found = find_or_start_master()
+        if isinstance(found, PrivateMaster):
+            self._private = found
+
+    def _hire(self, master: MasterClient) -> None:
+        """On a master that outlives this kernel, have somebody withdraw the node should the kernel be killed."""
+        ours = self._private is not None and self._private.uri == master.uri
+        if self._undertaker is None and not ours:
+            self._undertaker = Leash([], forget=(master.uri, rospy.get_name(), rospy.get_node_uri()))
+
+    def _at_exit(self) -> None:
+        if os.getpid() != self._pid or self._node is None:
+            return
+        with suppress(GraphError, OSError):
+            self.leave(self._node)
+        if (manager := registration_manager()) is not None:
+            manager.master_uri = None  # all is withdrawn; rospy's own attempt has no limit
+        if self._private is not None:
+            self._private.stop()
+
+
+def _require_main_thread() -> None:
+    if threading.current_thread() is not threading.main_thread():
+        raise NotJoined(
+            "join() was called on a thread. rospy can be started on the main thread only, and an attempt anywhere "
+            "else spoils this kernel for the next: call join() in a cell of its own."
+        )
+
+
+def _full(name: str) -> str:
+    base = name.removeprefix("/")
+    if not rosgraph.names.is_legal_base_name(base):
+        raise NotJoined(f"{name!r} cannot be a node's name: letters, digits and _ only, and a letter first.")
+    return "/" + base
+
+
+def _require_same(full: str) -> None:
+    if rospy.core.is_shutdown():
+        raise NotJoined(OVER)
+    if rospy.core.is_initialized() and rospy.get_name() != full:
+        base = rospy.get_name().removeprefix("/")
+        raise NotJoined(
+            f"This kernel is the node {rospy.get_name()} already, and one process can be one node only. Use "
+            f"join({base!r}), or restart the kernel to be {full}."
+        )
+
+
+def _apply_environment() -> None:
+    """Find the workspace where nobody has sourced it: an editor's notebook, Binder."""
+    if "ROS_PACKAGE_PATH" not in os.environ:
+        from course_pkg.provision import environment
+
+        environment.apply()
+    if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
+        os.environ["ROS_HOSTNAME"] = "localhost"
+
+
+def _free(full: str, master: MasterClient) -> None:
+    """Make sure that nobody living has the name, and that nothing of somebody dead is left under it."""
+    deadline = time.monotonic() + HANDOVER
+    while (uri := master.lookup_node(full)) is not None:
+        probe = node_probe(uri)
+        ask_all([probe], timeout=1.0)
+        if probe.reach is Reach.REFUSED:
+            remove_stale(master.uri, nodes=frozenset({full}))
+            return
+        if time.monotonic() > deadline:
+            raise NodeNameTaken(_taken(full, uri, probe.reach))
+        time.sleep(0.05)
+
+
+def _taken(full: str, uri: str, reach: Reach) -> str:
+    silent = " It does not answer: it is stopped, or hangs." if reach is Reach.SILENT else ""
+    return (
+        f"Another node is {full} already, at {uri}.{silent} Two kernels with one notebook? Shut the other kernel down "
+        f"and run this cell again, or take another name here. Joining would have shut that node down."
+    )

@@ -1,0 +1,154 @@
+"""Finding a ROS master, or starting a private one that ends with this process."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import tempfile
+import time
+from pathlib import Path
+from types import TracebackType
+
+from course_pkg.errors import GraphError, PortBusy, SetupError
+from course_pkg.graph.leash import Leash
+from course_pkg.graph.rpc import MasterClient
+
+READY = 15.0  # s; it takes 0.15 s, and many times that on a machine that is busy
+TRIES = 5
+
+
+class PrivateMaster:
+    """A master on 127.0.0.1 that ends with this process, also when this process is killed.
+
+    `port` is a free one unless it is given; a given one that is taken is a PortBusy.
+    """
+
+    def __init__(self, port: int | None = None) -> None:
+        self._asked = port
+        self._leash: Leash | None = None
+        self.port = port or 0
+
+    @property
+    def uri(self) -> str:
+        """The address, for ROS_MASTER_URI."""
+        return f"http://localhost:{self.port}"
+
+    @property
+    def pid(self) -> int:
+        """The process id of the master."""
+        if self._leash is None:
+            raise GraphError("This private master is not running: start() it, or use it in a with statement.")
+        return self._leash.pid
+
+    @property
+    def running(self) -> bool:
+        """Whether its process lives."""
+        return self._leash is not None and self._leash.returncode is None
+
+    def __enter__(self) -> PrivateMaster:
+        return self.start()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def start(self) -> PrivateMaster:
+        """Start it and wait until it answers; another program that takes the port meanwhile costs one more try."""
+        for _ in range(1 if self._asked else TRIES):
+            self.port = _free_port(self._asked)
+            if self._try():
+                return self
+        if self._asked:
+            raise _busy(self._asked)
+        raise GraphError(f"Each of {TRIES} ports was taken by another program just before the master could have it.")
+
+    def stop(self) -> None:
+        """End it and remove what it wrote; a second stop changes nothing."""
+        leash, self._leash = self._leash, None
+        if leash is not None:
+            leash.end(grace=1.0)
+
+    def _try(self) -> bool:
+        logs, own = _log_folder()
+        program = shutil.which("rosmaster")
+        if program is None:
+            raise SetupError("rosmaster is not on PATH. Run `./course doctor`: it says what is missing.")
+        log = f"__log:={logs / f'master-{self.port}.log'}"
+        self._leash = Leash(
+            [program, "--core", "-p", str(self.port), log], env=_local_environment(), remove=logs if own else None
+        )
+        ready = False
+        try:
+            ready = self._wait(self._leash)
+        finally:
+            if not ready:
+                self.stop()
+        return ready
+
+    def _wait(self, leash: Leash) -> bool:
+        """Return whether the program that answers on the port is ours."""
+        deadline = time.monotonic() + READY
+        client = MasterClient(self.uri, timeout=1.0)
+        while time.monotonic() < deadline and leash.returncode is None:
+            try:
+                return client.pid() == leash.pid
+            except GraphError:
+                time.sleep(0.005)
+            finally:
+                client.close()
+        if leash.returncode is not None:
+            return False
+        raise GraphError(f"rosmaster was started and did not answer at {self.uri} within {READY:g} s.")
+
+
+def master_uri() -> str:
+    """Return where rospy looks for the master."""
+    return os.environ.get("ROS_MASTER_URI") or "http://localhost:11311"
+
+
+def find_or_start_master() -> PrivateMaster | MasterClient:
+    """Return the master that ROS_MASTER_URI names, once it has answered, or a new private one.
+
+    The private one's address is put into ROS_MASTER_URI, for rospy and for the processes started from here.
+    """
+    if given := os.environ.get("ROS_MASTER_URI"):
+        client = MasterClient(given)
+        client.pid()
+        return client
+    master = PrivateMaster().start()
+    os.environ.update(_local_environment())
+    os.environ.pop("ROS_IP", None)
+    os.environ["ROS_MASTER_URI"] = master.uri
+    return master
+
+
+def _free_port(asked: int | None) -> int:
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", asked or 0))
+        except OSError as error:
+            raise _busy(asked) from error
+        return int(probe.getsockname()[1])
+
+
+def _busy(port: int | None) -> PortBusy:
+    return PortBusy(
+        f"Port {port} of 127.0.0.1 is taken by another program. Choose another, or leave it out to get a free one; "
+        f"if that program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
+    )
+
+
+def _log_folder() -> tuple[Path, bool]:
+    """Return where the master's log goes, and whether that folder is to be removed with the master."""
+    if given := os.environ.get("ROS_LOG_DIR"):
+        return Path(given), False
+    return Path(tempfile.mkdtemp(prefix="course-master-")), True
+
+
+def _local_environment() -> dict[str, str]:
+    """Return an environment in which all that is ROS binds to 127.0.0.1."""
+    kept = {name: value for name, value in os.environ.items() if name not in ("ROS_IP", "ROS_IPV6")}
+    return {**kept, "ROS_HOSTNAME": "localhost"}

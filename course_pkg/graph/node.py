@@ -1,0 +1,132 @@
+"""A notebook's kernel as a node, all of whose doings may be run again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import rospy
+
+from course_pkg.errors import NotJoined
+from course_pkg.graph.calls import BoundedProxy
+from course_pkg.graph.heard import Heard
+from course_pkg.graph.master import master_uri
+from course_pkg.graph.output import HandlerOutput
+from course_pkg.graph.processes import NodeProcess
+from course_pkg.graph.rpc import MasterClient
+from course_pkg.graph.served import Handler, Served
+from course_pkg.graph.types import message_class, service_class
+from course_pkg.graph.watchdog import Watchdog
+
+
+class Node:
+    """This kernel on the graph; join() makes it."""
+
+    def __init__(self) -> None:
+        self._output = HandlerOutput()
+        self._watchdog = Watchdog()
+        self._served: dict[str, Served] = {}
+        self._heard: dict[str, Heard] = {}
+        self._processes: dict[str, NodeProcess] = {}
+        self._proxies: dict[tuple[str, Any], BoundedProxy] = {}
+
+    @property
+    def name(self) -> str:
+        """The node's full name, such as "/chapter_05"."""
+        return str(rospy.get_name())
+
+    @property
+    def uri(self) -> str:
+        """The node's address, where the master and other nodes call it."""
+        return str(rospy.get_node_uri())
+
+    @property
+    def master(self) -> str:
+        """The master's address."""
+        return master_uri()
+
+    def serve(self, name: str, kind: Any, handler: Handler) -> Served:  # noqa: ANN401
+        """Serve `name` with `handler`, in the place of whatever this kernel served by that name before.
+
+        Raises MasterUnreachable or MasterSilent where rospy.Service would wait for ever.
+        """
+        self._require()
+        served = Served(name, service_class(kind), handler, self._output)
+        self._output.install()
+        served.start(MasterClient(master_uri()))
+        self._served[served.name] = served
+        return served
+
+    def call(self, name: str, kind: Any, *args: Any, timeout: float = 5.0, **fields: Any) -> Any:  # noqa: ANN401
+        """Call a service and return its response; the request by position, by field, or whole.
+
+        Raises CallTimeout after `timeout` s, and otherwise what rospy.ServiceProxy raises.
+        """
+        return self._proxy(name, kind).call(*args, timeout=timeout, **fields)
+
+    def caller(self, name: str, kind: Any, *, persistent: bool = False, timeout: float = 5.0) -> BoundedProxy:  # noqa: ANN401
+        """Return a proxy of its own for a service: callable, and to be cancelled from another thread."""
+        self._require()
+        return BoundedProxy(name, kind, persistent=persistent, timeout=timeout, watchdog=self._watchdog)
+
+    def subscribe(self, topic: str, kind: Any, callback: Callable[[Any], object] | None = None) -> Heard:  # noqa: ANN401
+        """Listen to a topic, in the place of an earlier subscription to it; `callback` runs on rospy's thread."""
+        self._require()
+        MasterClient(master_uri()).pid()  # rospy.Subscriber would wait for ever
+        full = rospy.resolve_name(topic)
+        if full in self._heard:
+            self._heard.pop(full).stop()
+        self._heard[full] = Heard(full, message_class(kind), callback)
+        return self._heard[full]
+
+    def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
+        """Run a package's node as a process, in the place of the one started as the same before.
+
+        `name` renames the node, so that several of one program can run. Raises UnknownExecutable.
+        """
+        self._require()
+        label = name or f"{package}/{executable}"
+        if label in self._processes:
+            self._processes.pop(label).stop()
+        self._processes[label] = NodeProcess.rosrun(package, executable, *args, name=name)
+        return self._processes[label]
+
+    def leave(self) -> None:
+        """End all processes, services and subscriptions of this node, and take it off the graph; join() returns."""
+        from course_pkg.graph.joining import leave
+
+        leave(self)
+
+    def close_all(self) -> None:
+        """End all processes, subscriptions, services and calls that were begun here."""
+        for process in self._processes.values():
+            process.interrupt()
+        while self._processes:
+            self._processes.popitem()[1].stop()
+        while self._proxies:
+            self._proxies.popitem()[1].close()
+        while self._heard:
+            self._heard.popitem()[1].stop()
+        while self._served:
+            self._served.popitem()[1].stop()
+        self._output.remove()
+
+    def __repr__(self) -> str:
+        return f"<node {self.name}>"
+
+    def _proxy(self, name: str, kind: Any) -> BoundedProxy:  # noqa: ANN401
+        cls = service_class(kind)
+        key = (rospy.resolve_name(name), cls)
+        if key not in self._proxies:
+            self._proxies[key] = self.caller(name, cls)
+        return self._proxies[key]
+
+    def _require(self) -> None:
+        if rospy.core.is_shutdown():
+            raise NotJoined(OVER)
+
+
+OVER = (
+    "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting rospy.spin(), or by another "
+    "node that took its name. rospy cannot begin again in one process: restart the kernel, and run the cells again."
+)

@@ -1,0 +1,156 @@
+"""Nodes that run as processes of their own, held by this one."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import time
+from collections.abc import Sequence
+from types import TracebackType
+
+from course_pkg.errors import GraphError, NodeFailed
+from course_pkg.graph.executables import find_executable
+from course_pkg.graph.leash import Leash
+from course_pkg.graph.master import master_uri
+from course_pkg.graph.ports import family, listening_ports, port_of
+from course_pkg.graph.probe import ask_all, service_probe
+from course_pkg.graph.rpc import MasterClient
+from course_pkg.graph.stale import entries_at, withdraw
+
+TAIL = 2000  # characters of output in an error message
+LOOK = 0.02  # s between looks
+GRACE = 3.0  # s for a node to end after SIGINT; rospy takes 0.6 s
+
+
+class NodeProcess:
+    """A command that runs one or more nodes; it ends with this process, at the latest.
+
+    What it prints goes to a file of its own, which vanishes with this object: see output().
+    """
+
+    def __init__(self, command: Sequence[str], *, label: str = "") -> None:
+        self.command = tuple(command)
+        self.label = label or os.path.basename(command[0])
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as this object
+        environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+        self._leash = Leash(self.command, output=self._output, env=environment)
+        self.pid = self._leash.pid
+
+    @classmethod
+    def rosrun(cls, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
+        """Run a package's node, as rosrun does; `name` renames it. Raises UnknownExecutable."""
+        program = find_executable(package, executable)
+        renamed = [f"__name:={name}"] if name else []
+        return cls([str(program), *map(str, args), *renamed], label=name or f"{package}/{executable}")
+
+    @classmethod
+    def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
+        """Run a launch file, `args` as name:=value; all its nodes end with it."""
+        return cls(["roslaunch", package, file, *args], label=f"{package}/{file}")
+
+    @property
+    def returncode(self) -> int | None:
+        """The exit status, negative for a signal, or None while it runs."""
+        return self._leash.returncode
+
+    @property
+    def running(self) -> bool:
+        """Whether it runs."""
+        return self.returncode is None
+
+    def output(self) -> str:
+        """Return what it has printed so far, both to stdout and to stderr."""
+        return os.pread(self._output.fileno(), os.fstat(self._output.fileno()).st_size, 0).decode("utf-8", "replace")
+
+    def wait_for_service(self, name: str, timeout: float = 10.0) -> None:
+        """Return as soon as this process serves `name` and answers there.
+
+        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        """
+        full, deadline = "/" + name.lstrip("/"), time.monotonic() + timeout
+        master = MasterClient(master_uri())
+        try:
+            while not self._serves(master, full):
+                if not self.running:
+                    raise self._failed(f"ended with exit status {self.returncode}, and never served {full}")
+                if time.monotonic() > deadline:
+                    raise self._failed(f"runs, and does not serve {full} after {timeout:g} s")
+                time.sleep(LOOK)
+        finally:
+            master.close()
+
+    def wait(self, timeout: float = 10.0) -> int:
+        """Return the exit status once it has ended by itself; raises NodeFailed when it still runs after `timeout` s."""
+        self._leash.wait(timeout)
+        status = self.returncode
+        if status is None:
+            raise self._failed(f"still runs after {timeout:g} s")
+        return status
+
+    def interrupt(self) -> None:
+        """Ask it to end, as Ctrl-C does, and do not wait."""
+        self._leash.signal(signal.SIGCONT)
+        self._leash.signal(signal.SIGINT)
+
+    def stop(self, grace: float = GRACE) -> None:
+        """End it, and return when it and its registrations are gone; killed if it still runs after `grace` s."""
+        if not self.running:
+            return
+        nodes, services = self._registered()
+        self._leash.end(grace)
+        self._withdraw(nodes, services)
+
+    def kill(self) -> None:
+        """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, and is stale."""
+        self._leash.signal(signal.SIGKILL)
+        self._leash.wait(GRACE)
+
+    def __enter__(self) -> NodeProcess:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.label}, {'running' if self.running else 'ended'}>"
+
+    def _serves(self, master: MasterClient, name: str) -> bool:
+        """Whether it is this process, and not another by whom the name is still registered, that answers."""
+        uri = master.lookup_service(name)
+        if uri is None:
+            return False
+        ports = listening_ports(family(self.pid))
+        if ports and port_of(uri) not in ports:
+            return False
+        probe = service_probe(name, uri)
+        ask_all([probe], timeout=1.0)
+        return probe.answered
+
+    def _registered(self) -> tuple[dict[str, str], dict[str, str]]:
+        """Return the nodes and the services of this process with their addresses, told by their ports."""
+        ports = listening_ports(family(self.pid))
+        try:
+            master = MasterClient(master_uri())
+            state = master.system_state()
+            found = master.lookup_all(state.nodes, state.services)
+        except GraphError:
+            return {}, {}  # nobody left to be registered with
+        nodes, services = ({name: uri for name, uri in kind.items() if port_of(uri) in ports} for kind in found)
+        return nodes, services
+
+    def _withdraw(self, nodes: dict[str, str], services: dict[str, str]) -> None:
+        """Take back what the process had no time to; an entry that is another's by now stays."""
+        try:
+            master = MasterClient(master_uri())
+            for entry in entries_at(master.system_state(), nodes, services):
+                withdraw(master, entry)
+        except GraphError:
+            return
+
+    def _failed(self, what: str) -> NodeFailed:
+        tail = self.output()[-TAIL:].strip()
+        said = f"The end of what it printed:\n{tail}" if tail else "It printed nothing."
+        return NodeFailed(f"{self.label} {what}. {said}", tail, self.returncode)

@@ -1,0 +1,55 @@
+"""One thread that acts when deadlines pass, so that a bound on a call costs microseconds and not a thread."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Callable
+
+IDLE = 3600.0  # s to sleep when nothing is armed
+AGAIN = 0.02  # s until an action that has not helped is repeated
+
+
+class Watchdog:
+    """Calls an action once its deadline has passed, and again every 20 ms, until it is disarmed.
+
+    Repeated, because a socket cannot be shut down before it is made, or not yet.
+    """
+
+    def __init__(self) -> None:
+        self._armed: dict[int, tuple[float, Callable[[], None]]] = {}
+        self._numbers = itertools.count()
+        self._changed = threading.Condition()
+        self._wake = 0.0
+        self._thread: threading.Thread | None = None
+
+    def arm(self, deadline: float, action: Callable[[], None]) -> int:
+        """Have `action` called from `deadline` (of time.monotonic()) on; return what disarm() needs."""
+        number = next(self._numbers)
+        self._armed[number] = (deadline, action)
+        if self._thread is None or deadline < self._wake:
+            self._hasten()
+        return number
+
+    def disarm(self, number: int) -> None:
+        """Have the action not called any more; one that is being called now may still finish."""
+        self._armed.pop(number, None)
+
+    def _hasten(self) -> None:
+        with self._changed:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._watch, name="call-watchdog", daemon=True)
+                self._thread.start()
+            self._changed.notify()
+
+    def _watch(self) -> None:
+        while True:
+            now = time.monotonic()
+            due = [action for deadline, action in list(self._armed.values()) if deadline <= now]
+            for action in due:
+                action()
+            with self._changed:
+                earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now + IDLE)
+                self._wake = max(earliest, now + AGAIN) if due else earliest
+                self._changed.wait(max(self._wake - time.monotonic(), 0))
