@@ -33,7 +33,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run(name: str, notebook: Notebook) -> None:
-    """Run `notebook` in place, in a fresh kernel with a master, a state folder and a work folder of its own."""
+    """Run `notebook` in place, in a fresh kernel with a master and folders of its own."""
     total = len(code_cells(notebook))
     done = iter(range(1, total + 1))
 

@@ -80,7 +80,9 @@ def _blocks(path: Path) -> Iterator[_Block]:
     for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
         found = HEADER.match(lines[start])
         if not found or not _complete(found):
-            raise AnswersBroken(f"{path.name}, line {start + 1}: {lines[start]!r} is not a header of an answer")
+            raise AnswersBroken(
+                f"{path.name}, line {start + 1}: {lines[start]!r} is not a header of an answer"
+            )
         source = "\n".join(lines[start + 1 : end]).strip("\n") + "\n"
         yield _Block(found["check"] or "", found["kind"], found["title"] or "", found["hint"] or "", source)
 

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import io
 import queue
-import socket
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-import rosgraph
 import rospy
-from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
 
 from course_pkg.examiner.ledger import Hints, Ledger, hint_for, says
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
 from course_pkg.examiner.show import command_line, explained, shown
 
 PATIENCE = 3.0  # s for one call, unless a check says otherwise
@@ -26,8 +21,8 @@ PATIENCE = 3.0  # s for one call, unless a check says otherwise
 class Reply:
     """What one call brought: a response, or the words of the error instead of one."""
 
-    request: Any
-    response: Any = None
+    request: Message
+    response: Message = None
     error: str = ""
     took: float = 0.0  # s
 
@@ -37,18 +32,10 @@ class Reply:
         return self.error.startswith("TimesUp")
 
 
-@dataclass(frozen=True)
-class Provider:
-    """Who serves a service: what the master says and what the server itself answers."""
-
-    uri: str
-    header: Mapping[str, str]
-
-
 class Service:
     """A service of the student's; call it with the fields of a request, get the response."""
 
-    def __init__(self, ledger: Ledger, name: str, kind: Any, hints: Hints, patience: float) -> None:  # noqa: ANN401
+    def __init__(self, ledger: Ledger, name: str, kind: ServiceClass, hints: Hints, patience: float) -> None:
         self.name = name
         self.kind = kind
         self.took = 0.0  # s, of the last call
@@ -56,18 +43,18 @@ class Service:
         self._hints = hints
         self._patience = patience
 
-    def __call__(self, *values: Any, **fields: Any) -> Any:  # noqa: ANN401 -- a message of genpy
+    def __call__(self, *values: Plain, **fields: Plain) -> Message:
         """Call the service; a call that fails is a rule that does not hold."""
         return self._answered(self._ask([self._request(*values, **fields)])[0])
 
-    def at_once(self, requests: Sequence[Mapping[str, Any]]) -> list[Reply]:
+    def at_once(self, requests: Sequence[Mapping[str, Plain]]) -> list[Reply]:
         """Call with all `requests` at the same time, each on its own thread; return replies in order."""
         replies = self._ask([self._request(**fields) for fields in requests])
         for reply in replies:
             self._answered(reply)
         return replies
 
-    def refused(self, rule: str, *, saying: str = "", hints: Hints = (), **fields: Any) -> str:  # noqa: ANN401
+    def refused(self, rule: str, *, saying: str = "", hints: Hints = (), **fields: Plain) -> str:
         """Send a request that has to be refused with words that match `saying`; return them."""
         reply = self._ask([self._request(**fields)])[0]
         self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
@@ -79,10 +66,10 @@ class Service:
         self._ledger.passes(rule)
         return reply.error
 
-    def _request(self, *values: Any, **fields: Any) -> Any:  # noqa: ANN401 -- a message of genpy
+    def _request(self, *values: Plain, **fields: Plain) -> Message:
         return self.kind._request_class(*values, **fields)
 
-    def _answered(self, reply: Reply) -> Any:  # noqa: ANN401 -- a message of genpy
+    def _answered(self, reply: Reply) -> Message:
         rule = f"{self.name} answers"
         self.took = reply.took
         self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
@@ -92,22 +79,21 @@ class Service:
         self._ledger.passes(rule)
         return reply.response
 
-    def _ask(self, requests: Sequence[Any]) -> list[Reply]:
+    def _ask(self, requests: Sequence[Message]) -> list[Reply]:
         """Call with all requests at once. A call that hangs is left to its thread: this process ends soon."""
         inboxes = [self._started(request) for request in requests]
         deadline = time.monotonic() + self._patience
-        return [
-            self._reply(inbox, request, deadline) for inbox, request in zip(inboxes, requests, strict=True)
-        ]
+        pairs = zip(inboxes, requests, strict=True)
+        return [self._reply(inbox, request, deadline) for inbox, request in pairs]
 
-    def _reply(self, inbox: queue.Queue[Reply], request: Any, deadline: float) -> Reply:  # noqa: ANN401
+    def _reply(self, inbox: queue.Queue[Reply], request: Message, deadline: float) -> Reply:
         try:
             return inbox.get(timeout=max(deadline - time.monotonic(), 0.01))
         except queue.Empty:
             words = f"TimesUp: no answer within {self._patience:g} s"
             return Reply(request, error=words, took=self._patience)
 
-    def _started(self, request: Any) -> queue.Queue[Reply]:  # noqa: ANN401
+    def _started(self, request: Message) -> queue.Queue[Reply]:
         inbox: queue.Queue[Reply] = queue.Queue()
 
         def call() -> None:
@@ -119,28 +105,8 @@ class Service:
         return inbox
 
 
-def _response(proxy: Callable[..., Any], request: Any) -> tuple[Any, str]:  # noqa: ANN401 -- messages of genpy
+def _response(proxy: Callable[..., Message], request: Message) -> tuple[Message, str]:
     try:
         return proxy(request), ""
     except Exception as error:  # noqa: BLE001 -- rospy raises whatever its socket did; all of it is a result here
         return None, f"{type(error).__name__}: {error}"
-
-
-def provider_of(name: str) -> Provider | None:
-    """Return who serves `name`, or None when nobody does; raise OSError when a dead one is listed."""
-    try:
-        uri: str = rosgraph.Master(rospy.get_name()).lookupService(name)
-    except rosgraph.MasterError:
-        return None
-    host, _, port = uri.removeprefix("rosrpc://").rpartition(":")
-    with socket.create_connection((host, int(port)), timeout=PATIENCE) as sock:
-        fields = {"probe": "1", "md5sum": "*", "callerid": rospy.get_name(), "service": name}
-        write_ros_handshake_header(sock, fields)
-        return Provider(uri, read_ros_handshake_header(sock, io.BytesIO(), 4096))
-
-
-def served_names() -> Iterator[str]:
-    """Yield the names of all services but those that every node has for its logging."""
-    for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]:
-        if not name.endswith(("/get_loggers", "/set_logger_level")):
-            yield name

@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+from roslib.message import get_message_class, get_service_class
 
 from course_pkg.errors import ExamError
-from course_pkg.examiner.calls import PATIENCE, Service, provider_of, served_names
+from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
 from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
 from course_pkg.examiner.link import Link
+from course_pkg.examiner.node import Node
 from course_pkg.examiner.outcome import Finished, Outcome
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.plain import Plain, ServiceClass, Value, plain
+from course_pkg.examiner.publishing import Publishing
 from course_pkg.examiner.report import Rule
 from course_pkg.examiner.scripted import Absent, Script, ScriptedServer
 from course_pkg.examiner.show import shown
+from course_pkg.graph.probe import header_fields
+from course_pkg.graph.snapshot import Snapshot, look
 
 if TYPE_CHECKING:
     from course_pkg.examiner.parts import Part
@@ -28,10 +35,11 @@ SLACK = 3.0  # s for the kernel to answer beyond what the work itself may take
 class Exam:
     """One examination. The first rule that does not hold ends it; what it opened is closed after it."""
 
-    def __init__(self, part: Part, link: Link, seed: int) -> None:
+    def __init__(self, part: Part, link: Link, node: Node, seed: int) -> None:
         self.draw = Draw(f"{seed}:{part.check}")
         self.doing = ""  # what a deadline would find it at
         self._link = link
+        self._node = node
         self._ledger = Ledger()
         self._open = ExitStack()
 
@@ -46,8 +54,8 @@ class Exam:
         self,
         rule: str,
         *,
-        expected: Any,  # noqa: ANN401 -- plain data, or what has a plain form
-        seen: Any,  # noqa: ANN401
+        expected: Value,
+        seen: Value,
         near: float = 0.0,
         hints: Hints = (),
     ) -> None:
@@ -62,7 +70,9 @@ class Exam:
             self._ledger.fails(rule, expected=shown(wanted), seen=shown(found), hint=hint)
         self._ledger.passes(rule)
 
-    def hold(self, rule: str, holds: bool, *, expected: str = "", seen: Any = "", hints: Hints = ()) -> None:  # noqa: ANN401
+    def hold(
+        self, rule: str, holds: bool, *, expected: str = "", seen: Value = "", hints: Hints = ()
+    ) -> None:
         """Hold to `rule` whatever `holds` says; `expected` is worded by the author."""
         if not holds:
             found = plain(seen)
@@ -92,43 +102,51 @@ class Exam:
         return Service(self._ledger, name, self.service_class(kind), hints, timeout)
 
     def _type_of(self, name: str, rule: str) -> str:
-        try:
-            provider = provider_of(name)
-        except OSError as error:
-            hint = "The master lists a server that is gone. Run the cell that serves it again."
-            self._ledger.fails(rule, expected="a server", seen=f"one that is gone: {error}", hint=hint)
-        if provider is None:
-            alike = difflib.get_close_matches(name, list(served_names()), n=1)
+        probe = self._node.probe(name)
+        if probe is None:
+            alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = "Run the cell that serves it, also after each restart of the kernel."
             hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
             self._ledger.fails(rule, expected="a server", seen="nobody who serves it", hint=hint)
-        return provider.header.get("type", "no type")
+        if not probe.answered:
+            hint = "The master lists a server that is gone or stopped. Run the cell that serves it again."
+            self._ledger.fails(rule, expected="a server", seen=f"one that is {probe.reach.value}", hint=hint)
+        return header_fields(probe.answer).get("type", "no type")
 
-    def service_class(self, kind: str) -> Any:  # noqa: ANN401 -- a class of genpy
+    def service_class(self, kind: str) -> ServiceClass:
         """Return the class of the service type `kind`, such as "course_pkg/geometry"."""
-        from roslib.message import get_service_class
-
         return get_service_class(kind)
 
-    # -- servers for the student's client
+    def look(self) -> Snapshot:
+        """Return who is on the graph, and who publishes, subscribes and serves what."""
+        return look()
 
-    def serve(self, name: str, kind: Any, script: Script) -> ScriptedServer:  # noqa: ANN401
+    # -- servers and topics for the student's client
+
+    def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
         """Serve `name`, as `script` says (see scripted.py), until the check is over or `leave()` is called.
 
         `kind` is a type's name, or a class. Who served the name before serves it again afterwards.
         """
         cls = self.service_class(kind) if isinstance(kind, str) else kind
-        return self._open.enter_context(ScriptedServer(name, cls, script))
+        return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Take `name` off the graph until the check is over; `stale` leaves an entry that leads nowhere."""
-        return self._open.enter_context(Absent(name, stale=stale))
+        return self._open.enter_context(Absent(self._node, name, stale=stale))
+
+    def publish(
+        self, topic: str, kind: str, messages: Iterable[Mapping[str, Plain]], *, every: float = 0.05
+    ) -> Publishing:
+        """Publish `messages` (fields by name) of the type `kind` in turn, every `every` s, until it is over."""
+        cls = get_message_class(kind)
+        return self._open.enter_context(Publishing(topic, cls, messages, every))
 
     # -- what the student wrote, in the kernel
 
     def run(
-        self, function: str, *args: Any, within: float = 5.0, hints: Hints = (), **kwargs: Any
-    ) -> Outcome:  # noqa: ANN401
+        self, function: str, *args: Value, within: float = 5.0, hints: Hints = (), **kwargs: Value
+    ) -> Outcome:
         """Call the student's `function` in the kernel; it is broken off after `within` s."""
         self.doing = f"waiting for {function}()"
         words = _as_call(function, args, kwargs)
@@ -148,7 +166,9 @@ class Exam:
         """
         error = self._link.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
-            raise ExamError(f"The check could not prepare the kernel ({error.get('text')}): restart the kernel.")
+            raise ExamError(
+                f"The check could not prepare the kernel ({error.get('text')}): restart the kernel."
+            )
 
     def command(self, *argv: str, files: tuple[str, ...] = (), within: float = 10.0) -> Finished:
         """Run a command beside the kernel, in a new folder that holds copies of the student's `files`.
@@ -161,7 +181,7 @@ class Exam:
         what = {"argv": list(argv), "files": list(files), "within": within}
         return Finished(self._link.ask("run", timeout=within + SLACK, **what))
 
-    def read(self, name: str) -> Any:  # noqa: ANN401 -- plain data
+    def read(self, name: str) -> Plain:
         """Return the value of the student's variable `name`, as plain data."""
         return self._link.ask("read", timeout=SLACK, name=name).get("value")
 
@@ -193,10 +213,10 @@ class Its:
         return self.name
 
 
-def _wired(value: Any) -> Any:  # noqa: ANN401 -- plain data
+def _wired(value: Value) -> Plain:
     return {"its": value.name} if isinstance(value, Its) else plain(value)
 
 
-def _as_call(function: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> str:
+def _as_call(function: str, args: tuple[Value, ...], kwargs: dict[str, Value]) -> str:
     values = [repr(value) for value in args] + [f"{key}={value!r}" for key, value in kwargs.items()]
     return f"{function}({', '.join(values)})"

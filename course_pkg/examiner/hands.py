@@ -20,9 +20,9 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from types import FunctionType
-from typing import Any
+from typing import IO, Any
 
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.plain import Plain, Value, plain
 from course_pkg.examiner.stub import is_stub
 
 PRINTED = 65536  # characters kept of what is printed
@@ -75,7 +75,7 @@ class Hands:
             answer = {"wrong": f"{type(error).__name__}: {error}"}
         return {"answer": question.get("ask"), **answer}
 
-    def _find(self, name: str) -> Any:  # noqa: ANN401 -- whatever the student defined
+    def _find(self, name: str) -> Value:
         """Return what stands under `name`, which may have dots in it."""
         first, *rest = name.split(".")
         value = self._namespace[first] if first in self._namespace else self._held[first]
@@ -112,7 +112,7 @@ class Hands:
             outcome = _outcome(lambda: self._find(name)(*values, **named), within)
         return {**outcome, "printed": printed.text, "took": time.monotonic() - started}
 
-    def _argument(self, value: Any) -> Any:  # noqa: ANN401 -- plain data, or what a name stands for
+    def _argument(self, value: Plain) -> Value:
         return self._find(value["its"]) if isinstance(value, dict) and value.keys() == {"its"} else value
 
     def _prepare(self, code: str, within: float) -> dict[str, Any]:
@@ -209,7 +209,6 @@ def _end_group(leader: int) -> None:
         return
 
 
-def _text(stream: Any) -> str:  # noqa: ANN401 -- a temporary file; its class has no public name
+def _text(stream: IO[bytes]) -> str:
     stream.seek(0)
-    data: bytes = stream.read(PRINTED)
-    return data.decode("utf-8", errors="replace")
+    return stream.read(PRINTED).decode("utf-8", errors="replace")

@@ -16,9 +16,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from rosgraph import MasterException
-
-from course_pkg.errors import CourseError, ExamError, LinkError
+from course_pkg.errors import CourseError, LinkError
 from course_pkg.examiner.exam import Exam
 from course_pkg.examiner.ledger import RuleBroken
 from course_pkg.examiner.link import PROTOCOL, Link
@@ -28,8 +26,6 @@ from course_pkg.examiner.report import Report, Rule, Verdict
 from course_pkg.state import state_folder, write_json
 
 GREETING = 10.0  # s to wait for the desk's first word
-JOINING = 5.0  # s
-LEAVING = 2.0  # s
 
 
 class Ended(BaseException):
@@ -74,8 +70,8 @@ def record(report: Report, seed: int) -> dict[str, Any]:
 def _examined(part: Part, link: Link, seed: int) -> Report:
     if note := _not_attempted(part, link):
         return _report(part, Verdict.NOT_ATTEMPTED, note=note)
-    with _joined(part.check):
-        return _verdict(part, Exam(part, link, seed))
+    with on_the_graph(part.check) as node:
+        return _verdict(part, Exam(part, link, node, seed))
 
 
 def _verdict(part: Part, exam: Exam) -> Report:
@@ -89,25 +85,6 @@ def _verdict(part: Part, exam: Exam) -> Report:
     except LinkError as error:
         return _report(part, Verdict.FAILED, exam.rules, f"The kernel gave no answer that counts: {error}.")
     return _report(part, Verdict.PASSED, exam.rules)
-
-
-@contextmanager
-def _joined(check: str) -> Iterator[None]:
-    """Be a node on the graph for this block; neither joining nor leaving waits for a master that is silent."""
-    node = on_the_graph(check)
-    try:
-        with _deadline(JOINING):
-            node.__enter__()
-    except DeadlinePassed as error:
-        raise ExamError(
-            f"The ROS master took the connection and said nothing for {JOINING:g} s. Restart the kernel, "
-            "and the master if it is one of your own."
-        ) from error
-    try:
-        yield
-    finally:
-        with suppress(DeadlinePassed, OSError, MasterException), _deadline(LEAVING):
-            node.__exit__(None, None, None)
 
 
 def _not_attempted(part: Part, link: Link) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NoReturn
+from typing import NoReturn
 
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.plain import Plain, Value, plain
 from course_pkg.examiner.report import Rule
 
-Recognised = Any  # a wrong value, a compiled pattern, or a predicate on what was seen
+Recognised = Value  # a wrong value, a compiled pattern, or a predicate on what was seen
 Hints = str | Mapping[Recognised, str] | Iterable[tuple[Recognised, str]]
 
 
@@ -23,7 +23,7 @@ def says(pattern: str) -> re.Pattern[str]:
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
-def same(expected: Any, seen: Any, near: float = 0.0) -> bool:  # noqa: ANN401 -- plain data
+def same(expected: Plain, seen: Plain, near: float = 0.0) -> bool:
     """Return whether plain data are equal; numbers within `near`, relative or absolute, True never 1."""
     if isinstance(expected, dict) and isinstance(seen, dict):
         return expected.keys() == seen.keys() and all(
@@ -38,7 +38,7 @@ def same(expected: Any, seen: Any, near: float = 0.0) -> bool:  # noqa: ANN401 -
     return type(expected) is type(seen) and bool(expected == seen)
 
 
-def hint_for(hints: Hints, seen: Any, near: float = 0.0) -> str:  # noqa: ANN401 -- plain data
+def hint_for(hints: Hints, seen: Plain, near: float = 0.0) -> str:
     """Return the first of `hints` that recognises `seen`, or an empty text."""
     if isinstance(hints, str):
         return hints
@@ -46,7 +46,7 @@ def hint_for(hints: Hints, seen: Any, near: float = 0.0) -> str:  # noqa: ANN401
     return next((text for recognised, text in pairs if _recognises(recognised, seen, near)), "")
 
 
-def _recognises(recognised: Recognised, seen: Any, near: float) -> bool:  # noqa: ANN401 -- plain data
+def _recognises(recognised: Recognised, seen: Plain, near: float) -> bool:
     if isinstance(recognised, re.Pattern):
         return bool(recognised.search(str(seen)))
     if isinstance(recognised, Callable):  # type: ignore[arg-type]

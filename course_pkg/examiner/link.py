@@ -31,6 +31,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from course_pkg.errors import LinkBroken, LinkClosed, LinkSilent
+from course_pkg.examiner.plain import Plain
 
 PROTOCOL = 1
 LIMIT = 1 << 20
@@ -90,7 +91,7 @@ class Link:
             raise LinkBroken(f"a line is not a JSON object: {line[:80]!r}")
         return message
 
-    def ask(self, do: str, *, timeout: float, **what: Any) -> dict[str, Any]:  # noqa: ANN401 -- plain data
+    def ask(self, do: str, *, timeout: float, **what: Plain) -> dict[str, Any]:
         """Ask the desk to `do` something and return its answer."""
         self._asked += 1
         self.send({"ask": self._asked, "do": do, **what})

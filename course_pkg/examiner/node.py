@@ -2,54 +2,82 @@
 
 from __future__ import annotations
 
-import os
 import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 
-import rosgraph
 import rospy
 
-from course_pkg.errors import ExamError
+from course_pkg.errors import GraphError
+from course_pkg.graph.master import master_uri
+from course_pkg.graph.probe import Probe, ask_all, service_probe
+from course_pkg.graph.rpc import MasterClient
+
+PROBE = 2.0  # s for a server to say what it serves
+
+
+@dataclass(frozen=True)
+class Registration:
+    """What the master knows about a service: its provider, and the addresses of both."""
+
+    node: str
+    uri: str
+    node_uri: str
+
+
+@dataclass(frozen=True)
+class Node:
+    """The judge's own node, and its view of the graph."""
+
+    name: str
+    uri: str
+    master: MasterClient
+
+    def services(self) -> list[str]:
+        """Return the names of all services but those that every node has for its log."""
+        names = self.master.system_state().services
+        return [name for name in names if not name.endswith(("/get_loggers", "/set_logger_level"))]
+
+    def registration(self, service: str) -> Registration | None:
+        """Return who is registered for `service`, or None."""
+        providers = self.master.system_state().services.get(service, ())
+        uri = self.master.lookup_service(service)
+        node_uri = self.master.lookup_node(providers[0]) if providers else None
+        return Registration(providers[0], uri, node_uri) if uri and node_uri else None
+
+    def probe(self, service: str) -> Probe | None:
+        """Ask who serves `service` what it is; return None when nobody is registered."""
+        if not (uri := self.master.lookup_service(service)):
+            return None
+        probe = service_probe(service, uri)
+        ask_all([probe], PROBE)
+        return probe
 
 
 @contextmanager
-def on_the_graph(check: str) -> Iterator[str]:
-    """Join the graph under a name like /examiner_05_1_a1b2c3d4, and take every registration back at the end."""
-    _require_master()
+def on_the_graph(check: str) -> Iterator[Node]:
+    """Join under a name like /examiner_05_1_a1b2c3d4, and take every registration back at the end."""
     name = f"examiner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
+    master = MasterClient(master_uri(), caller=f"/{name}")
+    master.pid()  # init_node would wait for ever for a master that is not there
     # A log file for each check would fill the student's log folder, and nobody would read it.
     rospy.core.configure_logging = lambda *_: None
     rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
+    node = Node(rospy.get_name(), rospy.get_node_uri(), master)
     try:
-        yield rospy.get_name()
+        yield node
     finally:
-        _leave()
+        with suppress(GraphError):  # a master that is gone has nothing to take back
+            _leave(node)
 
 
-def _require_master() -> None:
-    try:
-        rosgraph.Master("/examiner").getPid()
-    except (OSError, ValueError, rosgraph.MasterException) as error:
-        uri = os.environ.get("ROS_MASTER_URI", "")
-        raise ExamError(
-            f"No ROS master answers at {uri!r} ({error}). Run the set-up cell with join() again; if that does "
-            "not help, restart the kernel."
-        ) from error
-
-
-def _leave() -> None:
-    """Unregister what this node registered, without rospy.signal_shutdown, which sleeps for 0.6 s."""
-    master = rosgraph.Master(rospy.get_name())
-    uri = rospy.get_node_uri()
-    publishers, subscribers, services = master.getSystemState()
-    for topic in _with(rospy.get_name(), publishers):
-        master.unregisterPublisher(topic, uri)
-    for topic in _with(rospy.get_name(), subscribers):
-        master.unregisterSubscriber(topic, uri)
-    for service in _with(rospy.get_name(), services):
-        master.unregisterService(service, master.lookupService(service))
-
-
-def _with(node: str, entries: list[tuple[str, list[str]]]) -> list[str]:
-    return [name for name, nodes in entries if node in nodes]
+def _leave(node: Node) -> None:
+    """Unregister what is registered, without rospy.signal_shutdown, which sleeps for 0.6 s."""
+    state, master = node.master.system_state(), node.master
+    for topic in (name for name, nodes in state.publishers.items() if node.name in nodes):
+        master.unregister_publisher(node.name, topic, node.uri)
+    for topic in (name for name, nodes in state.subscribers.items() if node.name in nodes):
+        master.unregister_subscriber(node.name, topic, node.uri)
+    for service in (name for name, nodes in state.services.items() if node.name in nodes):
+        master.unregister_service(node.name, service, master.lookup_service(service) or "")

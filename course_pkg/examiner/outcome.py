@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from course_pkg.examiner.ledger import Hints, Ledger, hint_for, says
+from course_pkg.examiner.plain import Plain
 from course_pkg.examiner.show import explained, shown
 
 
@@ -29,7 +30,7 @@ class Outcome:
         return f"{self._error.get('type')}: {self._error.get('text')}"
 
     @property
-    def value(self) -> Any:  # noqa: ANN401 -- plain data
+    def value(self) -> Plain:
         """What the function returned, as plain data. That it returned at all is a rule."""
         rule = f"{self.function}() returns"
         if self.error:

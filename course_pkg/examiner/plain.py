@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
+
+Plain: TypeAlias = Any  # None, bool, int, float, str, and lists and dicts of them
+Value: TypeAlias = Any  # whatever a student's code made
+Message: TypeAlias = Any  # a message, request or response that genpy generated; it has no types
+ServiceClass: TypeAlias = Any  # the same for a service type
 
 DEPTH = 12
 ITEMS = 10_000
 
 
-def plain(value: Any, depth: int = DEPTH) -> Any:  # noqa: ANN401 -- any value in, plain data out
+def plain(value: Value, depth: int = DEPTH) -> Plain:
     """Return `value` as None, bool, int, float, str, list and dict.
 
     A ROS message becomes a dict of its fields, bytes a list of integers, a NumPy scalar a number.
@@ -27,7 +32,7 @@ def plain(value: Any, depth: int = DEPTH) -> Any:  # noqa: ANN401 -- any value i
     return _compound(value, depth - 1)
 
 
-def _compound(value: Any, depth: int) -> Any:  # noqa: ANN401 -- see plain
+def _compound(value: Value, depth: int) -> Plain:
     if isinstance(value, Mapping):
         return {str(key): plain(item, depth) for key, item in list(value.items())[:ITEMS]}
     if isinstance(value, (list, tuple)):
@@ -41,7 +46,7 @@ def _compound(value: Any, depth: int) -> Any:  # noqa: ANN401 -- see plain
     return _exact(value)
 
 
-def _exact(value: Any) -> Any:  # noqa: ANN401 -- see plain
+def _exact(value: Value) -> Plain:
     """Strip a number or a text of its subclass, such as an IntEnum."""
     if isinstance(value, int):
         return int.__int__(value)

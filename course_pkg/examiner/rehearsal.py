@@ -25,6 +25,7 @@ from typing import Any, NoReturn
 
 from course_pkg.errors import ExamError
 from course_pkg.examiner.answers import Answer
+from course_pkg.examiner.parts import every_part
 from course_pkg.examiner.report import Report, report_from
 
 LIMIT = 40.0  # s for one answer; a check's own deadline is below
@@ -60,11 +61,9 @@ class Rehearsal:
 
 def warm() -> None:
     """Import what every run needs, then fork a run for each line of stdin."""
-    import course_pkg.examiner.checks.chapter_05
-    import course_pkg.examiner.desk
-    import course_pkg.examiner.judge
     import rosmaster.master  # noqa: F401 -- imported for the forks
 
+    list(every_part())
     for line in sys.stdin:
         sys.stdout.write(json.dumps(_rehearse(json.loads(line))) + "\n")
         sys.stdout.flush()
@@ -87,7 +86,9 @@ def _rehearse(job: dict[str, Any]) -> dict[str, Any]:
 
 def _reported(reading: int) -> dict[str, Any]:
     data, deadline = b"", time.monotonic() + LIMIT
-    while not data.endswith(b"\n") and select.select([reading], [], [], max(deadline - time.monotonic(), 0))[0]:
+    while (
+        not data.endswith(b"\n") and select.select([reading], [], [], max(deadline - time.monotonic(), 0))[0]
+    ):
         if not (chunk := os.read(reading, 65536)):
             break
         data += chunk
@@ -170,10 +171,9 @@ def _free_port() -> int:
 
 def _fork(work: Callable[[], None]) -> int:
     """Run `work` in a child and return its pid; the child writes nothing to this process's output."""
-    pid = os.fork()
-    if pid:
-        return pid
-    _be_the_child(work)
+    if not (pid := os.fork()):
+        _be_the_child(work)
+    return pid
 
 
 def _be_the_child(work: Callable[[], None]) -> NoReturn:

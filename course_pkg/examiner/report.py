@@ -79,7 +79,7 @@ class Report:
 
     __repr__ = __str__
 
-    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:  # noqa: ANN401 -- IPython's protocol
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html()}
 
     def html(self) -> str:
@@ -87,10 +87,11 @@ class Report:
         rules = "".join(_rule_html(rule) for rule in self.rules)
         goal = "" if self.verdict is Verdict.PASSED else _paragraph(self.goal)
         printed = _printed_html(self.printed) if self.verdict is not Verdict.PASSED else ""
+        rules = f'<ul style="list-style:none;padding-left:0">{rules}</ul>'
         return (
             f'<section class="course-report" style="{_frame(self.verdict)}">'
-            f"<p><strong>{escape(self.headline())}</strong></p>{goal}"
-            f'<ul style="list-style:none;padding-left:0">{rules}</ul>{_paragraph(self.note)}{printed}</section>'
+            f"<p><strong>{escape(self.headline())}</strong></p>"
+            f"{goal}{rules}{_paragraph(self.note)}{printed}</section>"
         )
 
     def as_dict(self) -> dict[str, Any]:

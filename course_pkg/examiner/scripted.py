@@ -16,11 +16,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import genpy
-import rosgraph
-import rospy
-from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
+from rosgraph.network import ROSHandshakeException, read_ros_handshake_header, write_ros_handshake_header
 
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.node import Node, Registration
+from course_pkg.examiner.plain import Plain, ServiceClass, plain
 
 
 @dataclass(frozen=True)
@@ -45,10 +44,10 @@ class Late:
     """Answer with `values` after `delay` s."""
 
     delay: float
-    values: Mapping[str, Any]
+    values: Mapping[str, Plain]
 
 
-Act = Mapping[str, Any] | genpy.Message | Refuse | HangUp | Silence | Late
+Act = Mapping[str, Plain] | genpy.Message | Refuse | HangUp | Silence | Late
 Script = Callable[[Any], Act]
 
 
@@ -56,7 +55,7 @@ Script = Callable[[Any], Act]
 class Seen:
     """What a scripted server saw; requests as plain data, in the order of their arrival."""
 
-    requests: list[dict[str, Any]] = field(default_factory=list)
+    requests: list[dict[str, Plain]] = field(default_factory=list)
     headers: list[dict[str, str]] = field(default_factory=list)  # of the calls, probes left out
     probes: int = 0  # connections that only asked whether somebody is there, as wait_for_service does
 
@@ -64,25 +63,24 @@ class Seen:
 class ScriptedServer:
     """Serves `name` while the block lasts, and gives the name back to who served it before."""
 
-    def __init__(self, name: str, kind: Any, script: Script) -> None:  # noqa: ANN401 -- a class of genpy
+    def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.seen = Seen()
         self.problem: Exception | None = None
-        self._name, self._kind, self._script = name, kind, script
+        self._node, self._name, self._kind, self._script = node, name, kind, script
         self._over = threading.Event()
         self._listener = socket.create_server(("127.0.0.1", 0))
         self._uri = f"rosrpc://localhost:{self._listener.getsockname()[1]}"
-        self._former: tuple[str, str, str] | None = None
+        self._former: Registration | None = None
 
     @property
-    def requests(self) -> list[dict[str, Any]]:
+    def requests(self) -> list[dict[str, Plain]]:
         """The requests so far, as plain data."""
         return list(self.seen.requests)
 
     def __enter__(self) -> ScriptedServer:
-        self._former = registration(self._name)
+        self._former = self._node.registration(self._name)
         threading.Thread(target=self._accept, daemon=True).start()
-        master = rosgraph.Master(rospy.get_name())
-        master.registerService(self._name, self._uri, rospy.get_node_uri())
+        _register(self._node, self._name, self._uri)
         return self
 
     def __exit__(self, kind: object, error: object, trace: object) -> None:
@@ -96,10 +94,9 @@ class ScriptedServer:
         with suppress(OSError):
             self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
-        rosgraph.Master(rospy.get_name()).unregisterService(self._name, self._uri)
-        if self._former:
-            restore(self._name, self._former)
-            self._former = None
+        self._node.master.unregister_service(self._node.name, self._name, self._uri)
+        _restore(self._node, self._name, self._former)
+        self._former = None
 
     def _accept(self) -> None:
         with suppress(OSError):  # the listener was closed: over
@@ -109,7 +106,7 @@ class ScriptedServer:
 
     def _attend(self, sock: socket.socket) -> None:
         """Serve one connection until the client or the script closes it."""
-        with sock, suppress(OSError, rosgraph.network.ROSHandshakeException):
+        with sock, suppress(OSError, ROSHandshakeException):
             header = read_ros_handshake_header(sock, io.BytesIO(), 4096)
             if not self._greet(sock, header):
                 return
@@ -125,7 +122,7 @@ class ScriptedServer:
             write_ros_handshake_header(sock, {"error": words})
             return False
         answer = {
-            "callerid": rospy.get_name(),
+            "callerid": self._node.name,
             "md5sum": md5,
             "type": self._kind._type,
             "service": self._name,
@@ -169,44 +166,37 @@ class ScriptedServer:
 class Absent:
     """Nobody serves `name` while the block lasts; `stale` leaves a dead entry, as a kill does."""
 
-    def __init__(self, name: str, *, stale: bool = False) -> None:
-        self._name, self._stale = name, stale
-        self._former: tuple[str, str, str] | None = None
+    def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:
+        self._node, self._name, self._stale = node, name, stale
+        self._former: Registration | None = None
         self._uri = ""
 
     def __enter__(self) -> Absent:
-        self._former = registration(self._name)
+        self._former = self._node.registration(self._name)
         if self._former:
-            node, uri, _ = self._former
-            rosgraph.Master(node).unregisterService(self._name, uri)
+            self._node.master.unregister_service(self._former.node, self._name, self._former.uri)
         if self._stale:
             self._uri = f"rosrpc://localhost:{_closed_port()}"
-            rosgraph.Master(rospy.get_name()).registerService(self._name, self._uri, rospy.get_node_uri())
+            _register(self._node, self._name, self._uri)
         return self
 
     def __exit__(self, *_: object) -> None:
         if self._uri:
-            rosgraph.Master(rospy.get_name()).unregisterService(self._name, self._uri)
-        if self._former:
-            restore(self._name, self._former)
+            self._node.master.unregister_service(self._node.name, self._name, self._uri)
+        _restore(self._node, self._name, self._former)
 
 
-def registration(name: str) -> tuple[str, str, str] | None:
-    """Return who is registered for `name`: (node, URI of the service, URI of the node), or None."""
-    master = rosgraph.Master(rospy.get_name())
-    nodes = {service: providers[0] for service, providers in master.getSystemState()[2]}
-    if name not in nodes:
-        return None
-    return nodes[name], master.lookupService(name), master.lookupNode(nodes[name])
+def _register(node: Node, name: str, uri: str) -> None:
+    node.master.register_service(node.name, name, uri, node.uri)
 
 
-def restore(name: str, former: tuple[str, str, str]) -> None:
+def _restore(node: Node, name: str, former: Registration | None) -> None:
     """Register for `name` again, in its own name, the node that was registered before.
 
     The master knows one provider a name and forgets the one before, who never hears of it.
     """
-    node, service_uri, node_uri = former
-    rosgraph.Master(node).registerService(name, service_uri, node_uri)
+    if former:
+        node.master.register_service(former.node, name, former.uri, former.node_uri)
 
 
 def _closed_port() -> int:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from course_pkg.examiner.plain import plain
+from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
 
 
-def command_line(name: str, kind: Any, request: Any) -> str:  # noqa: ANN401 -- classes and messages of genpy
+def command_line(name: str, kind: ServiceClass, request: Message) -> str:
     """Return the `rosservice call` that asks the same."""
     return f"rosservice call {name} {shown(plain(request))}"
 
@@ -25,7 +23,7 @@ def explained(words: str) -> str:
     return f"{explanation.cause} {explanation.remedy}" if explanation else ""
 
 
-def shown(value: Any) -> str:  # noqa: ANN401 -- plain data
+def shown(value: Plain) -> str:
     """Return plain data as a student would write it, a float32 without the digits that it does not have."""
     if isinstance(value, float):
         return f"{value:.7g}"

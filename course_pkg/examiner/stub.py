@@ -6,12 +6,13 @@ import ast
 import inspect
 import textwrap
 from types import CodeType, FunctionType
-from typing import Any
+
+from course_pkg.examiner.plain import Value
 
 Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 
 
-def is_stub(value: Any) -> bool:  # noqa: ANN401 -- whatever stands under the name
+def is_stub(value: Value) -> bool:
     """Return whether `value` is `...`, or a function or a class in which only `...` is written."""
     if value is ...:
         return True
@@ -44,10 +45,8 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 def _does_nothing(code: CodeType) -> bool:
     """Judge by the code alone, for a function whose source is gone."""
-    blank = _code_of(lambda: None)
+    blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
 
 
-def _code_of(function: Any) -> CodeType:  # noqa: ANN401 -- a lambda
-    code: CodeType = function.__code__
-    return code
+def _nothing() -> None: ...

@@ -41,10 +41,10 @@ class Summary:
 
     __repr__ = __str__
 
-    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:  # noqa: ANN401 -- IPython's protocol
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         cells = "".join(
-            f"<tr><td>{line.check}</td><td>{escape(line.verdict)}</td>"
-            f"<td>{line.points} of {line.possible}</td><td style='text-align:left'>{escape(line.goal)}</td></tr>"
+            f"<tr><td>{line.check}</td><td>{escape(line.verdict)}</td><td>{line.points} of {line.possible}</td>"
+            f"<td style='text-align:left'>{escape(line.goal)}</td></tr>"
             for line in self.lines
         )
         head = f"<caption>{escape(str(self).splitlines()[0])}</caption>"

@@ -2,12 +2,14 @@
 
 # %% before
 import rospy
+
+from course_pkg import join
 from course_pkg.srv import geometry, geometryResponse
 
-rospy.init_node("chapter_05", disable_signals=True)
+node = join("chapter_05")
 
 # %% 05.1 after
-rospy.Service("/getGeometry", geometry, handle_geometry)
+node.serve("/getGeometry", geometry, handle_geometry)
 
 # %% 05.1 right: a response made by keyword
 def handle_geometry(request):
