@@ -54,8 +54,8 @@ def read_float(text: str) -> float:
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")
-    if integer := _INTEGER.fullmatch(text):
-        return float(read_integer(integer[0]))
+    if "x" in text.lower():
+        return float(read_integer(text))
     if not text.isascii() or not _NUMBER.fullmatch(text):
         raise ValueError(text)
     return float(text)
