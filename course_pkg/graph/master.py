@@ -96,8 +96,6 @@ class PrivateMaster:
                 return client.pid() == leash.pid
             except GraphError:
                 time.sleep(0.005)
-            finally:
-                client.close()
         if leash.returncode is not None:
             return False
         raise GraphError(f"rosmaster was started and did not answer at {self.uri} within {READY:g} s.")

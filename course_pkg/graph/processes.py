@@ -6,6 +6,7 @@ import os
 import signal
 import tempfile
 import time
+import weakref
 from collections.abc import Sequence
 from types import TracebackType
 
@@ -33,6 +34,7 @@ class NodeProcess:
         self.command = tuple(command)
         self.label = label or os.path.basename(command[0])
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as this object
+        weakref.finalize(self, self._output.close)
         environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
         self._leash = Leash(self.command, output=self._output, env=environment)
         self.pid = self._leash.pid
@@ -70,15 +72,12 @@ class NodeProcess:
         """
         full, deadline = "/" + name.lstrip("/"), time.monotonic() + timeout
         master = MasterClient(master_uri())
-        try:
-            while not self._serves(master, full):
-                if not self.running:
-                    raise self._failed(f"ended with exit status {self.returncode}, and never served {full}")
-                if time.monotonic() > deadline:
-                    raise self._failed(f"runs, and does not serve {full} after {timeout:g} s")
-                time.sleep(LOOK)
-        finally:
-            master.close()
+        while not self._serves(master, full):
+            if not self.running:
+                raise self._failed(f"ended with exit status {self.returncode}, and never served {full}")
+            if time.monotonic() > deadline:
+                raise self._failed(f"runs, and does not serve {full} after {timeout:g} s")
+            time.sleep(LOOK)
 
     def wait(self, timeout: float = 10.0) -> int:
         """Return the exit status once it has ended by itself; raises NodeFailed when it still runs after `timeout` s."""

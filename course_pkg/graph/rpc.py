@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import time
+import weakref
 from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -43,7 +44,8 @@ class MasterClient:
         self.timeout = timeout
         self.caller = caller
         self._address = address_of(uri)
-        self._idle: deque[_Connection] = deque(maxlen=4)
+        self._idle: deque[_Connection] = deque()
+        weakref.finalize(self, _close, self._idle)
 
     def pid(self, timeout: float | None = None) -> int:
         """Return the master's process id: the cheapest way to ask whether it is there."""
@@ -110,8 +112,7 @@ class MasterClient:
 
     def close(self) -> None:
         """Close the connections that were kept for the next question."""
-        while self._idle:
-            self._idle.pop().close()
+        _close(self._idle)
 
     def _found(self, method: str, name: str, timeout: float | None) -> str | None:
         code, _, value = self._ask(method, (self.caller, name), timeout)
@@ -164,6 +165,11 @@ class MasterClient:
                 connection.close()
         self._idle.append(connection)
         return answer
+
+
+def _close(connections: deque[_Connection]) -> None:
+    while connections:
+        connections.pop().close()
 
 
 class _Connection(HTTPConnection):

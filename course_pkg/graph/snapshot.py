@@ -86,11 +86,8 @@ def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
     Raises MasterUnreachable, MasterSilent, MalformedMasterUri, NotAMaster.
     """
     master = MasterClient(uri or master_uri(), timeout)
-    try:
-        state, types = master.system_state(), master.topic_types()
-        node_uris, service_uris = master.lookup_all(state.nodes, state.services)
-    finally:
-        master.close()
+    state, types = master.system_state(), master.topic_types()
+    node_uris, service_uris = master.lookup_all(state.nodes, state.services)
     patience = min(timeout, PATIENCE)
     services = {name: service_probe(name, uri) for name, uri in service_uris.items()}
     ask_all(list(services.values()), patience)

@@ -30,11 +30,7 @@ def stale_registrations(uri: str | None = None, timeout: float = 2.0) -> list[St
 
     Each question to the master takes at most `timeout` s, asking all nodes at most 0.5 s more.
     """
-    master = MasterClient(uri or master_uri(), timeout)
-    try:
-        return _found(master, min(timeout, PATIENCE))
-    finally:
-        master.close()
+    return _found(MasterClient(uri or master_uri(), timeout), min(timeout, PATIENCE))
 
 
 def remove_stale(
@@ -42,11 +38,8 @@ def remove_stale(
 ) -> list[StaleRegistration]:
     """Remove the stale entries, all or those of `nodes`, and return what was removed."""
     master = MasterClient(uri or master_uri(), timeout)
-    try:
-        found = _found(master, min(timeout, PATIENCE))
-        return [entry for entry in found if (nodes is None or entry.node in nodes) and withdraw(master, entry)]
-    finally:
-        master.close()
+    found = _found(master, min(timeout, PATIENCE))
+    return [entry for entry in found if (nodes is None or entry.node in nodes) and withdraw(master, entry)]
 
 
 def withdraw(master: MasterClient, entry: StaleRegistration) -> bool:

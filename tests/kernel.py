@@ -1,0 +1,126 @@
+"""A Python process that runs cells one after the other, as a notebook's kernel does."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any
+
+PATIENCE = 30.0  # s for a cell, unless a test says otherwise
+
+LOOP = """
+import json, os, sys, time
+replies, names = os.fdopen(int(sys.argv[1]), "w"), {}
+del sys.argv[1:]
+for line in sys.stdin:
+    started = time.monotonic()
+    reply = {"value": None, "error": "", "words": ""}
+    names.pop("result", None)
+    try:
+        exec(compile(json.loads(line), "cell", "exec"), names)
+        reply["value"] = names.get("result")
+    except BaseException as error:
+        reply["error"], reply["words"] = type(error).__name__, str(error)
+    reply["took"] = time.monotonic() - started
+    print(json.dumps(reply, default=repr), file=replies, flush=True)
+"""
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What a cell came to: `value` of its name `result`, or the class and words of its error; `took` in s."""
+
+    value: Any
+    error: str
+    words: str
+    took: float
+
+
+class Kernel:
+    """One such process. A cell that takes longer than its patience is killed with the process, and fails the test."""
+
+    def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
+        reader, writer = os.pipe()
+        environment = {**os.environ, **(env or {})}
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", LOOP, str(writer)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            pass_fds=[writer],
+            env={name: value for name, value in environment.items() if value is not None},
+            start_new_session=True,  # as Jupyter starts one
+            text=True,
+        )
+        os.close(writer)
+        self._replies = os.fdopen(reader)
+        self.pid = self._process.pid
+
+    def __enter__(self) -> Kernel:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.exit()
+
+    def ask(self, cell: str, patience: float = PATIENCE) -> Reply:
+        """Run a cell and return what it came to, be it an error."""
+        self.begin(cell)
+        return self.reply(patience)
+
+    def run(self, cell: str, patience: float = PATIENCE) -> Any:  # noqa: ANN401
+        """Run a cell that has to succeed, and return its `result`."""
+        reply = self.ask(cell, patience)
+        assert not reply.error, f"{reply.error}: {reply.words}"
+        return reply.value
+
+    def begin(self, cell: str) -> None:
+        """Begin a cell, and do not wait for it."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
+        self._process.stdin.flush()
+
+    def reply(self, patience: float = PATIENCE) -> Reply:
+        """Return what the cell that was begun came to."""
+        guard = threading.Timer(patience, self.kill)
+        guard.start()
+        try:
+            line = self._replies.readline()
+        finally:
+            guard.cancel()
+        assert line, f"the cell did not end within {patience:g} s, or its process did"
+        return Reply(**json.loads(line))
+
+    def kill(self) -> None:
+        """Kill it, as the system does when memory runs out."""
+        self._process.kill()
+
+    def interrupt(self) -> None:
+        """Interrupt the cell that runs, as Jupyter does: its whole process group."""
+        os.killpg(self.pid, signal.SIGINT)
+
+    def exit(self, patience: float = 10.0) -> str:
+        """Let it end, kill it if it does not, and return all that it printed."""
+        try:
+            printed, _ = self._process.communicate(timeout=patience)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            printed, _ = self._process.communicate()
+            raise
+        finally:
+            self._replies.close()
+        return printed
+
+    @property
+    def returncode(self) -> int | None:
+        """Its exit status, or None while it lives."""
+        return self._process.poll()
