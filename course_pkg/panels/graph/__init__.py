@@ -1,0 +1,1 @@
+"""The graph panel: a picture of nodes, topics and services."""

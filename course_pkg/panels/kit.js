@@ -1,0 +1,117 @@
+/* What the front ends of all panels share. */
+
+/** @typedef {{get(name: string): any, set(name: string, value: any): void, save_changes(): void,
+ *   on(name: string, callback: Function): void, send(content: object): void}} Model */
+
+let made = 0;
+
+/** An id that no other element of the page has. @param {string} stem @returns {string} */
+export function freshId(stem) {
+  made += 1;
+  return `${stem}-${made}-${Math.random().toString(36).slice(2, 8)}`;
+}
+
+/**
+ * Make an element. Keys of `props` that start with "on" listen; `text` is its text; the rest are attributes, where
+ * false, null and undefined leave the attribute out.
+ * @param {string} tag @param {Record<string, any>} [props] @param {...(Node | string | null)} children
+ * @returns {HTMLElement}
+ */
+export function h(tag, props = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(props)) {
+    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+    else if (key === "text") element.textContent = value;
+    else setAttribute(element, key, value);
+  }
+  // JupyterLab takes keys such as Enter and the arrows for the notebook unless a control asks it not to.
+  if (["button", "select", "summary"].includes(tag) || /^(checkbox|radio)$/.test(props.type ?? ""))
+    element.setAttribute("data-lm-suppress-shortcuts", "true");
+  element.append(...children.filter((child) => child !== null));
+  return element;
+}
+
+/** @param {Element} element @param {string} name @param {any} value */
+export function setAttribute(element, name, value) {
+  if (value === false || value === null || value === undefined) element.removeAttribute(name);
+  else element.setAttribute(name, value === true ? "" : String(value));
+}
+
+/** Set text only where it differs, so that a selection and a live region stay undisturbed.
+ * @param {Element} element @param {string} text */
+export function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** @param {any} one @param {any} other @returns {boolean} */
+export function same(one, other) {
+  return JSON.stringify(one) === JSON.stringify(other);
+}
+
+/** A button that copies what `read` returns and says so. @param {string} label @param {() => string} read
+ * @returns {HTMLElement} */
+export function copyButton(label, read) {
+  const button = h("button", { type: "button", class: "ros-quiet", "aria-label": `Copy ${label}`, text: "Copy" });
+  button.addEventListener("click", async () => {
+    const done = await copied(read());
+    say(button, done ? "Copied" : "Ctrl+C");
+    setTimeout(() => say(button, "Copy"), 1500);
+  });
+  return button;
+}
+
+/** @param {string} text @returns {Promise<boolean>} */
+async function copied(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return copiedBySelection(text); // no clipboard without https or localhost
+  }
+}
+
+/** @param {string} text @returns {boolean} */
+function copiedBySelection(text) {
+  const focused = /** @type {HTMLElement | null} */ (document.activeElement);
+  const area = document.createElement("textarea");
+  area.value = text;
+  area.style.position = "fixed";
+  document.body.append(area);
+  area.select();
+  const done = document.execCommand("copy");
+  area.remove();
+  focused?.focus();
+  return done;
+}
+
+const PATIENCE = 1500; // ms; an idle kernel answers within 50
+
+/**
+ * The way to the kernel. A saved page has none, and nothing but silence tells: `changed(live)` hears false when a
+ * greeting is not answered in time, and true whenever one is.
+ * @param {Model} model @param {AbortSignal} signal @param {(live: boolean) => void} changed
+ */
+export function kernelLink(model, signal, changed) {
+  const view = freshId("view");
+  let timer = 0;
+  let open = true;
+  const greet = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => changed(false), PATIENCE);
+    model.send({ kind: "hello", view });
+  };
+  const leave = () => {
+    clearTimeout(timer);
+    if (open) model.send({ kind: "bye", view });
+    open = false;
+  };
+  model.on("msg:custom", (/** @type {{kind: string}} */ content) => {
+    if (content.kind !== "hello") return;
+    clearTimeout(timer);
+    changed(true);
+  });
+  model.on("comm_live_update", greet); // the kernel restarted or went away
+  window.addEventListener("pagehide", leave, { signal });
+  signal.addEventListener("abort", leave);
+  greet();
+}

@@ -1,0 +1,90 @@
+"""What every panel of the course has in common: a widget of one ES module that never hurts the kernel."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import Any, ClassVar
+
+import anywidget
+from traitlets import Unicode
+
+from course_pkg.panels.assets import module, sheet
+
+HERE = Path(__file__).parent
+
+
+class Panel(anywidget.AnyWidget):
+    """A widget that may be told things from any thread, and knows whether a page shows it.
+
+    A subclass names its ES module in `front_end` and its sheet in `style_sheet`, answers the page's messages in
+    `received`, and starts and ends what it needs while it is on a page in `shown` and `hidden`.
+    """
+
+    front_end: ClassVar[Path]
+    style_sheet: ClassVar[Path]
+
+    notice = Unicode(help="what went wrong inside the panel itself, in one line").tag(sync=True)
+
+    def __init__(self) -> None:
+        # Messages from the page and updates from threads take turns: ipywidgets swaps methods on the instance
+        # while it takes a message in, and a change made on another thread just then can be lost.
+        self.turn = threading.RLock()
+        self._views: set[str] = set()
+        super().__init__()
+        self.on_msg(self._dispatch)
+
+    @property
+    def _esm(self) -> str:
+        return module(self.front_end)
+
+    @property
+    def _css(self) -> str:
+        return sheet(HERE / "look.css", self.style_sheet)
+
+    def shown(self) -> None:
+        """Begin what the panel does only while a page shows it; told again for each further view."""
+
+    def hidden(self) -> None:
+        """End it."""
+
+    def received(self, kind: str, content: dict[str, Any]) -> None:
+        """Answer a message of the page."""
+
+    def publish(self, **traits: object) -> None:
+        """Set traits from any thread; the page gets them as one message."""
+        with self.turn, self.hold_sync():
+            for name, value in traits.items():
+                setattr(self, name, value)
+
+    def complain(self, error: Exception) -> None:
+        """Show an error of the panel's own, from any thread."""
+        self.publish(notice=f"{type(error).__name__}: {error}")
+
+    def close(self) -> None:
+        """Take the panel off every page and end what it runs."""
+        with self.turn:
+            if self._views:
+                self._views.clear()
+                self.hidden()
+            super().close()
+
+    def _handle_msg(self, msg: dict[str, Any]) -> None:
+        with self.turn:
+            super()._handle_msg(msg)
+
+    def _dispatch(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
+        kind = content.get("kind", "")
+        try:
+            if kind == "hello":
+                self._views.add(content["view"])
+                self.send({"kind": "hello"})
+                self.shown()
+            elif kind == "bye":
+                self._views.discard(content["view"])
+                if not self._views:
+                    self.hidden()
+            else:
+                self.received(kind, content)
+        except Exception as error:  # noqa: BLE001 - an error in a click must show in the panel, not in some cell
+            self.complain(error)

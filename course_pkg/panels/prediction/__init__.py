@@ -1,0 +1,1 @@
+"""Predictions: commit to an answer before the run, and compare."""

@@ -1,0 +1,82 @@
+/* Predictions: the question, the comparison, and the table of a chapter. */
+import { freshId, h, kernelLink, say, setAttribute } from "../kit.js";
+
+/** @typedef {{question: string, predicted: string, actual: string, state: string, verdict: string}} Shown */
+
+/** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
+function render({ model, el }) {
+  const ending = new AbortController();
+  const part = model.get("part");
+  if (part === "question") question(model, el, ending.signal);
+  else if (part === "comparison") el.append(comparison(model.get("record")));
+  else el.append(table(model.get("records")));
+  return () => ending.abort();
+}
+
+/** @param {import("../kit.js").Model} model @param {HTMLElement} el @param {AbortSignal} signal */
+function question(model, el, signal) {
+  const choices = model.get("choices");
+  const send = (/** @type {string} */ answer) => model.send({ kind: "answer", answer });
+  const status = h("p", { class: "ros-muted ros-kept", role: "status", "aria-live": "polite" });
+  const answer = choices.length ? radios(choices, send) : line(send);
+  el.append(h("section", { class: "ros-panel ros-predict", "aria-label": "Prediction" },
+    h("fieldset", {}, h("legend", {}, h("span", { class: "ros-tag", text: "Predict" }), " ", model.get("question")), answer.el), status));
+  let live = true;
+  const draw = () => {
+    answer.write(model.get("answer"), live);
+    const said = model.get("answer") ? "Kept. You can change it until you compare." : "Commit to an answer before you run the next cell.";
+    const after = model.get("answer") ? "Kept. The result is known: a change now is marked as made afterwards." : "The result is known; an answer now is marked as made afterwards.";
+    say(status, !live ? "No kernel answers: run the notebook to keep a prediction." : model.get("notice") || (model.get("compared") ? after : said));
+  };
+  for (const trait of ["answer", "compared", "notice"]) model.on(`change:${trait}`, draw);
+  draw();
+  kernelLink(model, signal, (now) => { live = now; draw(); });
+}
+
+/** @param {string[]} choices @param {(answer: string) => void} send */
+function radios(choices, send) {
+  const name = freshId("ros-predict");
+  const inputs = choices.map((choice) => /** @type {HTMLInputElement} */ (h("input", { type: "radio", name, value: choice, onchange: () => send(choice) })));
+  const el = h("div", { class: "ros-choices" }, ...inputs.map((input) => h("label", {}, input, h("span", { text: input.value }))));
+  const write = (/** @type {string} */ answer, /** @type {boolean} */ live) => inputs.forEach((input) => {
+    input.checked = input.value === answer;
+    input.disabled = !live;
+  });
+  return { el, write };
+}
+
+/** @param {(answer: string) => void} send */
+function line(send) {
+  const id = freshId("ros-predict");
+  const input = /** @type {HTMLInputElement} */ (h("input", { id, type: "text", class: "ros-text", autocomplete: "off" }));
+  const el = h("form", { class: "ros-free", onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); send(input.value); } },
+    h("label", { for: id, text: "Your answer" }), input, h("button", { type: "submit", text: "Keep" }));
+  const write = (/** @type {string} */ answer, /** @type {boolean} */ live) => {
+    if (document.activeElement !== input || answer) input.value = answer;
+    setAttribute(input, "disabled", !live);
+  };
+  return { el, write };
+}
+
+/** @param {Shown} shown */
+function comparison(shown) {
+  return h("section", { class: `ros-panel ros-predict ros-${shown.state}`, "aria-label": "Prediction compared" },
+    h("dl", {}, h("div", {}, h("dt", { class: "ros-muted", text: "You predicted" }), h("dd", { text: shown.predicted || "nothing" })),
+      h("div", {}, h("dt", { class: "ros-muted", text: "What really happened" }), h("dd", { text: shown.actual }))),
+    h("p", { class: "ros-verdict", text: shown.verdict }));
+}
+
+/** @param {Shown[]} records */
+function table(records) {
+  const words = { open: "not compared yet", late: "no prediction", right: "as predicted", wrong: "otherwise" };
+  const rows = records.map((shown) => h("tr", { class: `ros-${shown.state}` }, h("td", { text: shown.question }), h("td", { text: shown.predicted || "nothing" }),
+    h("td", { text: shown.actual || "not yet seen" }), h("td", { class: "ros-result", text: words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
+  const head = h("thead", {}, h("tr", {}, ...["Question", "You predicted", "What really happened", "Result"].map((text) => h("th", { scope: "col", text }))));
+  const right = records.filter((shown) => shown.state === "right").length;
+  const seen = records.filter((shown) => ["right", "wrong"].includes(shown.state)).length;
+  const text = records.length ? `${right} of ${seen} predictions came true. A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
+  return h("section", { class: "ros-panel ros-predict", "aria-label": "Predictions" },
+    h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }));
+}
+
+export default { render };

@@ -1,0 +1,1 @@
+"""The service panel: a form for any service on the graph."""

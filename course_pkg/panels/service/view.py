@@ -1,0 +1,117 @@
+"""The service panel as a widget: the model's state as traits, the page's clicks as calls to the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, ClassVar
+
+from traitlets import Dict, List, Unicode
+
+from course_pkg.graph import BoundedProxy, look
+from course_pkg.interfaces import ServiceType
+from course_pkg.panels.follower import Follower
+from course_pkg.panels.panel import Panel
+from course_pkg.panels.service.model import Caller, Offer, ServiceModel
+
+HERE = Path(__file__).parent
+
+
+class ServicePanel(Panel):
+    """A form for calling any service on the graph.
+
+    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. The panel follows the
+    graph while a page shows it. Nothing that goes wrong in a call from the page reaches the kernel: the panel shows it.
+    """
+
+    front_end: ClassVar[Path] = HERE / "service.js"
+    style_sheet: ClassVar[Path] = HERE / "service.css"
+
+    services = List(help="what is on the graph").tag(sync=True)
+    trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
+    form = Dict(help="the picked service and the fields of its type").tag(sync=True)
+    draft = Dict(help="the request as typed: a tree of texts").tag(sync=True, echo_update=False)
+    check = Dict(help="what is wrong with the draft, or the commands that equal it").tag(sync=True)
+    deadline = Unicode(help="seconds, as typed").tag(sync=True, echo_update=False)
+    outcome = Dict(help="the phase of the latest call and what came of it").tag(sync=True)
+    history = List(help="earlier calls, the latest first").tag(sync=True)
+    recording = List(help="requests with their outcomes, for a page with no kernel").tag(sync=True)
+
+    def __init__(self, service: str | None = None, *, deadline: float = 5.0) -> None:
+        super().__init__()
+        self._model = ServiceModel(_connect, self.publish, turn=self.turn)
+        self._follower = Follower(_look, self._saw, self._lost)
+        with self.turn, self.hold_sync():
+            self.deadline = f"{deadline:g}"
+            self.outcome = {"phase": "idle"}
+            self._follower.once()
+            if service:
+                self._model.pick(service if service.startswith(("/", "~")) else f"/{service}")
+        self.observe(self._edited, "draft")
+
+    @property
+    def response(self) -> Any:  # noqa: ANN401 - a generated message class
+        """The response message of the latest call, or None."""
+        return self._model.response
+
+    def fill(self, **values: object) -> None:
+        """Write plain values into the form, by field; raises FieldError and leaves the form when one does not fit."""
+        self._model.fill(values)
+
+    def call(self, **values: object) -> Any:  # noqa: ANN401 - a generated message class
+        """Fill the form, call in this cell and return the response message; raises what the call raises."""
+        self._model.fill(values)
+        self._model.call(self.deadline)
+        return self.response
+
+    def record(self, inputs: Iterable[Mapping[str, Any]]) -> None:
+        """Call once for each of the inputs and keep the outcomes, so that a page with no kernel can answer them."""
+        self.publish(recording=self._model.record(inputs, self.deadline))
+
+    def shown(self) -> None:
+        """Follow the graph."""
+        self._follower.start()
+
+    def hidden(self) -> None:
+        """Leave the graph alone."""
+        self._follower.stop()
+
+    def received(self, kind: str, content: dict[str, Any]) -> None:
+        """Answer a click."""
+        if kind == "pick":
+            self._model.pick(str(content["service"]))
+        elif kind == "call":
+            self._model.start(content["draft"], str(content["deadline"]))
+        elif kind == "cancel":
+            self._model.cancel()
+
+    def close(self) -> None:
+        """Take the panel off every page, end a call under way and stop following the graph."""
+        super().close()
+        self._model.close()
+
+    def __repr__(self) -> str:
+        return f"ServicePanel({self._model.service!r})" if self._model.service else "ServicePanel()"
+
+    def _edited(self, change: dict[str, Any]) -> None:
+        if change["new"] != self._model.draft:
+            self._model.edit(change["new"])
+
+    def _saw(self, offers: list[Offer]) -> None:
+        with self.turn, self.hold_sync():
+            self.trouble = ""
+            self._model.offer(offers)
+
+    def _lost(self, error: Exception) -> None:
+        with self.turn, self.hold_sync():
+            self.trouble = str(error)
+            self._model.offer([])
+
+
+def _connect(service: str, kind: ServiceType) -> Caller:
+    caller: Caller = BoundedProxy(service, kind)
+    return caller
+
+
+def _look() -> list[Offer]:
+    return [Offer(each.name, each.type, each.node) for each in look().services]

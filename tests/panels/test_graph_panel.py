@@ -1,0 +1,188 @@
+"""The graph panel's model: pictures, layout, drawing, words."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from course_pkg.errors import DrawingFailed
+from course_pkg.graph import Snapshot
+from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, TopicSeen
+from course_pkg.panels.graph.drawing import svg
+from course_pkg.panels.graph.layout import LONGEST, Layout, laid_out
+from course_pkg.panels.graph.model import GraphModel
+from course_pkg.panels.graph.picture import Kind, Line, picture
+from course_pkg.panels.graph.picture import graph_text
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def snapshot(*, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = "") -> Snapshot:
+    """Make a snapshot of the nodes that the topics and services name."""
+    names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
+    names |= {service.node for service in services}
+    nodes = tuple(NodeSeen(name, f"http://localhost:1{name}", "refused" if name == dead else "answered") for name in sorted(names))
+    return Snapshot("http://localhost:11311", nodes, topics, services)
+
+
+CHATTER = TopicSeen("/chatter", "std_msgs/String", ("/talker",), ("/listener",))
+ROSOUT = TopicSeen("/rosout", "rosgraph_msgs/Log", ("/listener", "/talker"), ("/rosout",))
+GEOMETRY = ServiceSeen("/getGeometry", "course_pkg/geometry", "/server", "rosrpc://localhost:1", "answered")
+LOGGERS = ServiceSeen("/server/get_loggers", "roscpp/GetLoggers", "/server", "rosrpc://localhost:1", "answered")
+WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/listener")
+
+
+def test_lines_run_the_way_that_data_goes() -> None:
+    """Publisher to topic to subscriber, and both ways between a node and its service."""
+    assert set(picture(WHOLE).lines) == {
+        Line("node /talker", "topic /chatter"),
+        Line("topic /chatter", "node /listener"),
+        Line("node /server", "service /getGeometry", both=True),
+    }
+
+
+def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
+    """/rosout and the logger services are noise to a beginner."""
+    assert {shape.name for shape in picture(WHOLE).shapes} == {"/talker", "/listener", "/server", "/chatter", "/getGeometry"}
+    assert {"/rosout", "/server/get_loggers"} <= {shape.name for shape in picture(WHOLE, noise=True).shapes}
+
+
+def test_a_hidden_node_takes_its_services_and_its_own_topics_along() -> None:
+    """No line leads to a node that is not shown."""
+    shown = picture(WHOLE, hide=["/server", "/talker"])
+    assert {shape.name for shape in shown.shapes} == {"/listener", "/chatter"}
+    assert shown.lines == (Line("topic /chatter", "node /listener"),)
+
+
+def test_the_order_of_the_snapshot_does_not_matter() -> None:
+    """The same graph gives the same picture, and so the same drawing."""
+    turned = Snapshot(WHOLE.master, WHOLE.nodes[::-1], WHOLE.topics[::-1], WHOLE.services[::-1])
+    assert picture(turned) == picture(WHOLE)
+
+
+def test_the_graph_in_words_names_no_port() -> None:
+    """The text is the same on every run: who publishes, subscribes and serves what."""
+    assert graph_text(WHOLE) == (
+        "/listener\n  subscribes /chatter  (std_msgs/String)\n"
+        "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
+        "/talker\n  publishes  /chatter  (std_msgs/String)"
+    )
+    assert graph_text(snapshot()) == "no nodes"
+
+
+def test_shapes_do_not_overlap_and_lie_inside() -> None:
+    """Graphviz gives every shape a place of its own in the picture."""
+    layout = laid_out(picture(WHOLE, noise=True))
+    boxes = []
+    for placed in layout.shapes:
+        (x, y), wide, high = placed.centre, placed.width / 2, placed.height / 2
+        boxes.append((x - wide, x + wide, y - high, y + high))
+        assert x - wide >= -1
+        assert x + wide <= layout.width + 1
+        assert y - high >= -1
+        assert y + high <= layout.height + 1
+    for number, (left, right, top, bottom) in enumerate(boxes):
+        for other in boxes[:number]:
+            assert right <= other[0] or other[1] <= left or bottom <= other[2] or other[3] <= top
+    assert len(layout.lines) == len(picture(WHOLE, noise=True).lines)
+
+
+def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
+    """Both ends of the name stay, the whole name is in the words."""
+    name = "/robot/" + "x" * 60 + "/pose"
+    shown = picture(snapshot(topics=(TopicSeen(name, "a/B", ("/n",), ()),)))
+    placed = next(each for each in laid_out(shown).shapes if each.shape.kind is Kind.TOPIC)
+    assert len(placed.label) <= LONGEST
+    assert placed.label.endswith("/pose")
+    assert f"topic {name}" in svg(laid_out(shown))
+
+
+def test_the_drawing_says_in_words_what_it_shows() -> None:
+    """Each shape is a button with a name; a node that does not answer says so."""
+    root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))
+    buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
+    assert buttons == {
+        "node /listener, does not answer",
+        "node /server",
+        "node /talker",
+        "service /getGeometry",
+        "topic /chatter",
+    }
+    assert root.findtext(f"{SVG}desc") == "five shapes"
+    assert len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1  # an arrow each, two for the service, and its shape
+
+
+def test_a_name_cannot_bring_markup_into_the_page() -> None:
+    """Whatever a node calls itself is text."""
+    evil = '/<script>alert("x")</script>'
+    drawn = svg(laid_out(picture(snapshot(topics=(TopicSeen(evil, "a/B", ("/n",), ()),)))))
+    assert "<script" not in drawn
+    assert ElementTree.fromstring(drawn) is not None
+
+
+class Wall:
+    """A model and what it said."""
+
+    def __init__(self, **options: Any) -> None:  # noqa: ANN401 - passed on
+        self.said: list[dict[str, Any]] = []
+        self.model = GraphModel(lambda **parts: self.said.append(parts), **options)
+
+
+def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
+    """A change in what is hidden costs no drawing."""
+    wall = Wall()
+    wall.model.see(WHOLE)
+    more = ServiceSeen("/server/set_logger_level", "roscpp/SetLoggerLevel", "/server", "x", "answered")
+    wall.model.see(Snapshot(WHOLE.master, WHOLE.nodes, WHOLE.topics, (*WHOLE.services, more)))
+    assert len(wall.said) == 1
+
+
+def test_a_choice_draws_anew() -> None:
+    """Asking for the noise shows it."""
+    wall = Wall(own="/server")
+    wall.model.see(WHOLE)
+    wall.model.choose(noise=True, show_own=False)
+    assert "/rosout" in wall.said[-1]["drawing"]
+    assert "/getGeometry" not in wall.said[-1]["drawing"]
+
+
+def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """One sentence says what to install, and the list says what the drawing would."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    wall = Wall()
+    wall.model.see(WHOLE)
+    assert wall.said[-1]["drawing"] == ""
+    assert "apt install graphviz" in wall.said[-1]["trouble"]
+    assert {"key": "topic /chatter", "kind": "topic", "name": "/chatter", "lost": False} == {
+        key: value for key, value in wall.said[-1]["facts"][-1].items() if key != "facts"
+    }
+
+
+@pytest.mark.parametrize(("script", "stretch"), [("exec sleep 60", "took over"), ("echo bad >&2; exit 3", "failed")])
+def test_graphviz_has_a_deadline(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str) -> None:
+    """A graphviz that hangs or fails is one sentence, not a hang."""
+    dot = tmp_path / "dot"
+    dot.write_text(f"#!/bin/sh\n{script}\n")
+    dot.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    with pytest.raises(DrawingFailed, match=stretch):
+        laid_out(picture(WHOLE), timeout=0.2)
+
+
+def test_a_graph_that_cannot_be_seen_keeps_the_old_picture() -> None:
+    """The reason is said; when the graph is back, so is the picture."""
+    wall = Wall()
+    wall.model.see(WHOLE)
+    wall.model.lose("No master answers.")
+    assert wall.said[-1] == {"trouble": "No master answers."}
+    wall.model.see(WHOLE)
+    assert wall.said[-1]["trouble"] == ""
+
+
+def test_an_empty_graph_needs_no_graphviz(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Nothing to draw is not an error."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert laid_out(picture(snapshot())) == Layout()
