@@ -69,10 +69,8 @@ class BrokenDefinition(InterfaceError):
     ) -> None:
         # A tab is one column here, so that the mark stands below the right letter.
         shown = text.replace("\t", " ").rstrip()
-        mark = " " * (column - 1) + "^"
-        super().__init__(
-            f"{source}, line {line}, column {column}: {problem}; {remedy}\n    {shown}\n    {mark}"
-        )
+        excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
+        super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
         self.source = source
         self.line = line
         self.column = column

@@ -89,7 +89,10 @@ def _yaml_text(text: str) -> str:
 
 def _is_plain(text: str) -> bool:
     try:
-        return bool(yaml.safe_load(text) == text and yaml.safe_load(f"[{text}, {{{text}: {text}}}]") == [text, {text: text}])
+        return bool(
+            yaml.safe_load(text) == text
+            and yaml.safe_load(f"[{text}, {{{text}: {text}}}]") == [text, {text: text}]
+        )
     except (yaml.YAMLError, ValueError):
         # A ValueError for what looks like a date, and is none.
         return False
@@ -141,7 +144,11 @@ class _Python:
         for name in sorted(self._messages):
             package, _, short = name.partition("/")
             if self._is_built(name):
-                yield f"import {package}.msg" if name in self._clashing else f"from {package}.msg import {short}"
+                yield (
+                    f"import {package}.msg"
+                    if name in self._clashing
+                    else f"from {package}.msg import {short}"
+                )
 
     def _unbuilt(self) -> list[str]:
         return [name for name in sorted(self._messages) if not self._is_built(name)]

@@ -11,14 +11,15 @@ from threading import Lock
 from types import SimpleNamespace
 from typing import Any
 
-import genmsg
 import rospkg
-from genmsg.msg_loader import load_depends, load_msg_from_string, load_srv_from_string
+from genmsg.base import InvalidMsgSpec, MsgGenerationException
+from genmsg.gentools import compute_full_text, compute_md5
+from genmsg.msg_loader import MsgContext, load_depends, load_msg_from_string, load_srv_from_string
 from genmsg.msgs import bare_msg_type, is_builtin, resolve_type
 from genpy.generator import make_python_safe, msg_generator
 
 from course_pkg.errors import BrokenDefinition
-from course_pkg.interfaces.definition import unix
+from course_pkg.interfaces.definition import lines, unix
 from course_pkg.interfaces.diagnosis import validate
 from course_pkg.interfaces.path import Half, built_class, definition_file, split
 
@@ -35,7 +36,7 @@ def compiled_service(name: str, text: str, source: str, strict: bool = False) ->
     attributes = {
         "__module__": f"{package}.srv",
         "_type": name,
-        "_md5sum": genmsg.compute_md5(generation.context, spec),
+        "_md5sum": compute_md5(generation.context, spec),
         "_request_class": generation.message(spec.request, source),
         "_response_class": generation.message(spec.response, source),
         "_dependencies": generation.classes,
@@ -63,21 +64,27 @@ class _Generation:
     """
 
     def __init__(self) -> None:
-        self.context = genmsg.MsgContext.create_default()
+        self.context = MsgContext.create_default()
         self.classes: dict[str, Any] = {}
         self._finder = rospkg.RosPack()
 
     def load(
-        self, name: str, text: str, source: str, half: Half, strict: bool = False, within: tuple[str, ...] = ()
+        self,
+        name: str,
+        text: str,
+        source: str,
+        half: Half,
+        strict: bool = False,
+        within: tuple[str, ...] = (),
     ) -> Any:  # noqa: ANN401 - a genmsg specification
         """Return the specification of a text, with all that it depends on loaded and generated."""
         package, _ = split(name)
         text = unix(text)
         validate(text, source, package, half, self._exists, strict)
-        load = load_srv_from_string if half == "srv" else load_msg_from_string
+        load: Any = load_srv_from_string if half == "srv" else load_msg_from_string
         try:
             spec = load(self.context, text, name)
-        except (genmsg.InvalidMsgSpec, ValueError) as error:
+        except (InvalidMsgSpec, ValueError) as error:
             raise _refused(source, text, error) from error
         for message in (spec.request, spec.response) if half == "srv" else (spec,):
             self._require(message, source, (*within, name))
@@ -86,12 +93,12 @@ class _Generation:
 
     def message(self, spec: Any, source: str) -> Any:  # noqa: ANN401 - a specification to a class
         """Return the class of a loaded message."""
-        full_text = genmsg.compute_full_text(self.context, spec)
+        full_text = compute_full_text(self.context, spec)
         constants = make_python_safe(spec).constants
         try:
             namespace = {"__name__": f"{spec.package}.msg", **self._packages()}
             exec(compile(self._code(spec), f"<{spec.full_name}>", "exec"), namespace)  # noqa: S102 - genpy's code
-        except (SyntaxError, genmsg.MsgGenerationException) as error:
+        except (SyntaxError, MsgGenerationException) as error:
             raise _refused(source, spec.text, error) from error
         cls: Any = namespace[spec.short_name]
         cls._full_text = full_text
@@ -122,15 +129,14 @@ class _Generation:
             if is_builtin(name) or name in self.classes:
                 continue
             if name in within:
-                chain = " in ".join((*reversed(within[within.index(name) :]), name))
-                raise BrokenDefinition(source, 1, 1, "", f"{name} would contain itself", f"part this circle: {chain}")
+                raise _circle(source, spec.text, type_name, (*within[within.index(name) :], name))
             self._add(name, within)
 
     def _add(self, name: str, within: tuple[str, ...]) -> None:
         text, source = self._text(name)
         spec = self.load(name, text, source, "msg", within=within)
         built = built_class(name, "msg")
-        if built and built._md5sum == genmsg.compute_md5(self.context, spec):
+        if built and built._md5sum == compute_md5(self.context, spec):
             self.classes[name] = built
         else:
             self.classes[name] = self.message(spec, source)
@@ -145,7 +151,16 @@ class _Generation:
         return bool(definition_file(name, "msg", self._finder) or built_class(name, "msg"))
 
 
+def _circle(source: str, text: str, type_name: str, chain: tuple[str, ...]) -> BrokenDefinition:
+    short = bare_msg_type(type_name).rpartition("/")[2]
+    line = next(each for each in lines(text) if short in each.code)
+    problem = f"{chain[0]} would contain itself ({' → '.join(chain)})"
+    return BrokenDefinition(source, line.number, 1, line.text, problem, "part this circle")
+
+
 def _refused(source: str, text: str, error: Exception) -> BrokenDefinition:
     """Return the error for what genmsg or genpy refuses and the diagnosis let through."""
     first = text.split("\n", maxsplit=1)[0]
-    return BrokenDefinition(source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg")
+    return BrokenDefinition(
+        source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg"
+    )

@@ -56,7 +56,9 @@ class Line:
         """Return the words as genmsg parts them: at spaces, never at tabs."""
         found = ((each[0], each.start()) for each in _WORD.finditer(self.code.rstrip()))
         return [
-            Word(text.strip(), start + 1 + len(text) - len(text.lstrip())) for text, start in found if text.strip()
+            Word(text.strip(), start + 1 + len(text) - len(text.lstrip()))
+            for text, start in found
+            if text.strip()
         ]
 
 

@@ -70,26 +70,36 @@ class _Diagnosis:
     def read(self, text: str) -> None:
         last = Line(1, "")
         for last in lines(text):
-            if last.is_separator or re.fullmatch(r"[-\N{EN DASH}\N{EM DASH}_=\s]*[-\N{EN DASH}\N{EM DASH}_=]\s*", last.code):
+            if last.is_separator or re.fullmatch(
+                r"[-\N{EN DASH}\N{EM DASH}_=\s]*[-\N{EN DASH}\N{EM DASH}_=]\s*", last.code
+            ):
                 self._separator(last)
             elif last.is_constant:
                 self._constant(last)
             elif last.code.strip():
                 self._field(last)
         if self.half == "srv" and self.strict and not self.separators:
-            raise self._broken(last, 1, "no line parts the request from the response", "add a line of three dashes, ---")
+            raise self._broken(
+                last, 1, "no line parts the request from the response", "add a line of three dashes, ---"
+            )
 
     def _separator(self, line: Line) -> None:
         column = len(line.text) - len(line.text.lstrip()) + 1
         if self.half == "msg":
-            raise self._broken(line, column, "a message has no --- line", "remove it, or make a service of it")
+            raise self._broken(
+                line, column, "a message has no --- line", "remove it, or make a service of it"
+            )
         if not line.is_separator:
             advice = "write --- with nothing in front of it and nothing in between"
             raise self._broken(line, column, "this is no line of three dashes", advice)
         if self.strict and line.code.strip() != "---":
-            raise self._broken(line, 4, "something stands behind the three dashes", "write --- alone on its line")
+            raise self._broken(
+                line, 4, "something stands behind the three dashes", "write --- alone on its line"
+            )
         if self.strict and self.separators:
-            raise self._broken(line, 1, "a second --- line", "remove it: a service has two halves, request and response")
+            raise self._broken(
+                line, 1, "a second --- line", "remove it: a service has two halves, request and response"
+            )
         self.separators += 1
         self.names = {}
 
@@ -105,10 +115,14 @@ class _Diagnosis:
         first = words[0]
         if "\t" in first.text:
             column = first.column + first.text.index("\t")
-            return self._broken(line, column, "a tab stands between type and name", "write a space: ROS takes nothing else")
+            return self._broken(
+                line, column, "a tab stands between type and name", "write a space: ROS takes nothing else"
+            )
         if len(words) == 1:
             end = first.column + len(first.text)
-            return self._broken(line, end, f"a name is missing behind {first.text}", f"write {first.text} and a name")
+            return self._broken(
+                line, end, f"a name is missing behind {first.text}", f"write {first.text} and a name"
+            )
         advice = "write one field to a line, its type and its name"
         if words[1].text.startswith("["):
             advice = f"write {first.text}{words[1].text} {words[2].text}"
@@ -120,19 +134,25 @@ class _Diagnosis:
         elif words[1].text.endswith(",") or "," in words[2].text:
             advice = "write one field to a line, without commas"
         elif all(_NAME.fullmatch(word.text) for word in words[1:]):
-            advice = f"write {first.text} {'_'.join(word.text for word in words[1:])}, or # in front of a comment"
+            advice = (
+                f"write {first.text} {'_'.join(word.text for word in words[1:])}, or # in front of a comment"
+            )
         return self._broken(line, words[2].column, "more than a type and a name stand here", advice)
 
     def _type(self, line: Line, word: Word, name: Word) -> None:
         found = _TYPE.fullmatch(word.text)
         if not found:
-            raise self._broken(line, word.column, f"{word.text!r} cannot be a type", self._type_advice(word.text, name.text))
+            raise self._broken(
+                line, word.column, f"{word.text!r} cannot be a type", self._type_advice(word.text, name.text)
+            )
         base = found[1]
         if base in _BUILTIN or base == "Header":
             return
         full = base if "/" in base else f"{self.package}/{base}"
         if not self.exists(full):
-            raise self._broken(line, word.column, f"unknown type {base!r}", self._known_advice(base, found[2], name.text))
+            raise self._broken(
+                line, word.column, f"unknown type {base!r}", self._known_advice(base, found[2], name.text)
+            )
 
     def _type_advice(self, text: str, name: str) -> str:
         if text.count("[") > 1:
@@ -161,7 +181,9 @@ class _Diagnosis:
         if not _NAME.fullmatch(name):
             raise self._broken(line, word.column, f"{name!r} cannot be a name", self._name_advice(line, name))
         if name in _METHODS:
-            raise self._broken(line, word.column, f"{name} is a method of every message", f"write {name}_it, for example")
+            raise self._broken(
+                line, word.column, f"{name} is a method of every message", f"write {name}_it, for example"
+            )
         if self.strict and (name in keyword.kwlist or name == "self"):
             problem = f"{name} is a word of Python's own, where the field would be {name}_"
             raise self._broken(line, word.column, problem, "write another name")
@@ -177,7 +199,11 @@ class _Diagnosis:
         if base and name[base.end() :] in (";", ",", ":", "."):
             return f"write {base[0]}, with nothing behind it"
         if base and "-" in name:
-            return f"write {name.replace('-', '_')}" if _NAME.fullmatch(name.replace("-", "_")) else "use letters only"
+            return (
+                f"write {name.replace('-', '_')}"
+                if _NAME.fullmatch(name.replace("-", "_"))
+                else "use letters only"
+            )
         return "begin with a letter of a to z, and go on with those, digits and _"
 
     def _constant(self, line: Line) -> None:
@@ -199,15 +225,23 @@ class _Diagnosis:
 
     def _constant_advice(self, type_name: str) -> str:
         near = difflib.get_close_matches(type_name.lower(), _BUILTIN, n=1, cutoff=0.7)
-        known = _FROM_ELSEWHERE.get(type_name.lower()) or (near[0] if near and near[0] not in ("time", "duration") else "")
-        return f"write {known}" if known and "[" not in known else "write a built-in number type, bool or string"
+        known = _FROM_ELSEWHERE.get(type_name.lower()) or (
+            near[0] if near and near[0] not in ("time", "duration") else ""
+        )
+        return (
+            f"write {known}" if known and "[" not in known else "write a built-in number type, bool or string"
+        )
 
     def _string(self, line: Line, value: str) -> None:
         if line.text[:1].isspace():
-            raise self._broken(line, 1, "a string constant cannot be indented", "begin it in the first column")
+            raise self._broken(
+                line, 1, "a string constant cannot be indented", "begin it in the first column"
+            )
         if self.strict and "\\" in value:
             column = line.text.index("\\") + 1
-            raise self._broken(line, column, "Python would read the backslash as an escape", "write it without")
+            raise self._broken(
+                line, column, "Python would read the backslash as an escape", "write it without"
+            )
 
     def _number(self, line: Line, type_name: str, value: str) -> None:
         text = value.strip()

@@ -71,7 +71,11 @@ def list_types(half: Half, package: str | None = None) -> list[str]:
     """Return the names of all types of one half, sorted; of a package that is not there, none."""
     packages = [package] if package is not None else rospkg.RosPack().list()
     return sorted(
-        {f"{each}/{file.stem}" for each, folder in _each_folder(half, packages) for file in folder.glob(f"*.{half}")}
+        {
+            f"{each}/{file.stem}"
+            for each, folder in _each_folder(half, packages)
+            for file in folder.glob(f"*.{half}")
+        }
     )
 
 
@@ -88,14 +92,16 @@ def unknown(name: str, half: Half) -> UnknownType:
     elif package in rospkg.RosPack().list():
         advice = f"the package {package} has no {half}/{short}.{half}"
     else:
-        advice = f"no package {package} is on ROS_PACKAGE_PATH; is it spelt so, built, and its setup.bash sourced?"
+        advice = (
+            f"no package {package} is on ROS_PACKAGE_PATH; is it spelt so, built, and its setup.bash sourced?"
+        )
     same = [each for each in known if each.lower() == name.lower()]
     problem = "upper and lower case differ" if same else f"no {what} type has this name"
     return UnknownType(name, f"{name}: {problem}; {advice}")
 
 
 def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
-    """Return the names most like `name`: the same but for case, the same in another package, nearly the same."""
+    """Return the names most like `name`: the same but for case, of another package, or nearly the same."""
     names = list(known)
     short = name.rpartition("/")[2].lower()
     for likeness in (

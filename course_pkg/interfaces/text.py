@@ -121,4 +121,6 @@ def _not_a_number(field: Field, text: str, path: str) -> FieldError:
     if not text.strip():
         return FieldError(path, text, allowed(field), "nothing is written here")
     meant = nearest_number(text, field.kind is Kind.INTEGER)
-    return FieldError(path, text, allowed(field), f"{brief(text)} is not {wanted}", f"write {meant}" if meant else "")
+    return FieldError(
+        path, text, allowed(field), f"{brief(text)} is not {wanted}", f"write {meant}" if meant else ""
+    )

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import genmsg
 import genpy
-from genmsg.msg_loader import load_msg_from_string
+from genmsg.msg_loader import MsgContext, load_msg_from_string
+from genmsg.msgs import parse_type
 
 from course_pkg.errors import UnknownType
 from course_pkg.interfaces.compile import compiled_message, compiled_service, dependency
@@ -16,7 +16,7 @@ from course_pkg.interfaces.definition import comments
 from course_pkg.interfaces.fields import Constant, Field, Kind, TextTree, Value, builtin_field
 from course_pkg.interfaces.path import built_class, definition_file, unknown
 from course_pkg.interfaces.text import read_fields, show
-from course_pkg.interfaces.values import build, check_fields, default, from_message
+from course_pkg.interfaces.values import build, check_fields, default
 
 _END_OF_OWN_TEXT = "\n" + "=" * 80 + "\n"
 
@@ -41,8 +41,8 @@ class MessageType:
         """Return the values of a message that nobody filled in."""
         return {each.name: default(each) for each in self.fields}
 
-    def check(self, plain: Mapping[str, Value]) -> dict[str, Value]:
-        """Return plain values as the message holds them. Raises FieldError."""
+    def check(self, plain: Mapping[str, Value] | genpy.Message) -> dict[str, Value]:
+        """Return plain values as the message holds them, messages within taken apart. Raises FieldError."""
         return check_fields(self.fields, plain, "", self._shape)
 
     def parse(self, texts: TextTree) -> dict[str, Value]:
@@ -62,7 +62,7 @@ class MessageType:
 
         Raises FieldError where somebody put into the message what its field cannot hold.
         """
-        return self.check({each.name: from_message(each, getattr(message, each.name)) for each in self.fields})
+        return self.check(message)
 
     @property
     def _shape(self) -> str:
@@ -152,7 +152,9 @@ def _service(cls: Any) -> ServiceType:  # noqa: ANN401 - a generated class
     request, response = _message(cls._request_class), _message(cls._response_class)
     # genmsg ends each half with a newline of its own.
     text = f"{request.text}---\n{response.text.removesuffix(chr(10))}"
-    return ServiceType(cls._type, cls._md5sum, text, request, response, cls, not hasattr(cls, "_dependencies"))
+    return ServiceType(
+        cls._type, cls._md5sum, text, request, response, cls, not hasattr(cls, "_dependencies")
+    )
 
 
 def _message(cls: Any) -> MessageType:  # noqa: ANN401 - a generated class
@@ -166,7 +168,7 @@ def _message(cls: Any) -> MessageType:  # noqa: ANN401 - a generated class
 
 
 def _field(cls: type, name: str, type_name: str, help_text: str = "") -> Field:
-    base, is_array, length = genmsg.msgs.parse_type(type_name)
+    base, is_array, length = parse_type(type_name)
     if is_array:
         return Field(name, type_name, Kind.ARRAY, length=length, item=_field(cls, "", base), help=help_text)
     if builtin := builtin_field(name, base, help_text):
@@ -179,5 +181,5 @@ def _field(cls: type, name: str, type_name: str, help_text: str = "") -> Field:
 def _constants(name: str, text: str) -> tuple[Constant, ...]:
     if "=" not in text:
         return ()
-    spec = load_msg_from_string(genmsg.MsgContext.create_default(), text, name)
+    spec = load_msg_from_string(MsgContext.create_default(), text, name)
     return tuple(Constant(each.name, each.type, each.val) for each in spec.constants)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from numbers import Integral, Real
 
 import genpy
+from genpy.rostime import TVal
 
 from course_pkg.errors import FieldError
 from course_pkg.interfaces.fields import Field, Kind, Value
@@ -41,6 +42,8 @@ def check(field: Field, value: Value, path: str) -> Value:
 
 def check_fields(fields: tuple[Field, ...], values: Value, path: str, expected: str) -> dict[str, Value]:
     """Return the checked values of a message's fields, in their order. Raises FieldError."""
+    if isinstance(values, (genpy.Message, TVal)):
+        values = {name: getattr(values, name) for name in values.__slots__}
     same_names(fields, values, path, expected)
     return {field.name: check(field, values[field.name], member(path, field.name)) for field in fields}
 
@@ -53,7 +56,9 @@ def same_names(fields: tuple[Field, ...], values: Value, path: str, expected: st
     known = f"the fields {', '.join(names)}" if names else "no field at all"
     for name in values:
         if name not in names:
-            raise FieldError(member(path, str(name)), values[name], known, "no such field", _closest(name, names))
+            raise FieldError(
+                member(path, str(name)), values[name], known, "no such field", _closest(name, names)
+            )
     for field in fields:
         if field.name not in values:
             raise FieldError(member(path, field.name), None, allowed(field), "this field is missing")
@@ -73,22 +78,14 @@ def to_message(field: Field, value: Value) -> Value:
     return value
 
 
-def build(cls: type, fields: tuple[Field, ...], values: Mapping[str, Value]) -> genpy.Message:
+def build(
+    cls: Callable[[], genpy.Message], fields: tuple[Field, ...], values: Mapping[str, Value]
+) -> genpy.Message:
     """Return a message of class `cls` with checked values in it."""
     message = cls()
     for field in fields:
         setattr(message, field.name, to_message(field, values[field.name]))
     return message
-
-
-def from_message(field: Field, value: Value) -> Value:
-    """Return what genpy holds as a plain value that has not been checked yet."""
-    if field.kind is Kind.ARRAY:
-        assert field.item is not None
-        return list(value) if field.item.kind.is_scalar else [from_message(field.item, each) for each in value]
-    if field.kind is Kind.MESSAGE or field.fields:
-        return {part.name: from_message(part, getattr(value, part.name)) for part in field.fields}
-    return value
 
 
 def allowed(field: Field) -> str:
@@ -125,11 +122,12 @@ def _check_array(field: Field, value: Value, path: str) -> list[Value]:
     assert field.item is not None
     if field.is_bytes and isinstance(value, (bytes, bytearray)):
         value = list(value)
-    elif isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Collection):
-        if not hasattr(value, "tolist"):
-            raise FieldError(path, value, allowed(field), f"{brief(value)} is not a list")
-    # numpy's own numbers are slow one by one, its lists are plain.
-    items = value.tolist() if hasattr(value, "tolist") else list(value)
+    if hasattr(value, "tolist"):
+        # numpy's own numbers are slow one by one.
+        value = value.tolist()
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Collection):
+        raise FieldError(path, value, allowed(field), f"{brief(value)} is not a list")
+    items = list(value)
     right_length(field, items, path)
     if _plain_numbers(field.item, items):
         return items
@@ -153,9 +151,8 @@ def _plain_numbers(item: Field, items: list[Value]) -> bool:
 
 def _check_integer(field: Field, value: Value, path: str) -> int:
     if isinstance(value, bool) or not isinstance(value, Integral):
-        hint = ""
-        if isinstance(value, Real) and not isinstance(value, bool) and float(value).is_integer():
-            hint = f"write {int(value)}"
+        whole = isinstance(value, float) and value.is_integer()
+        hint = f"write {int(value)}" if whole else ""
         raise FieldError(path, value, allowed(field), f"{brief(value)} is not an integer", hint)
     number = int(value)
     assert field.low is not None
@@ -180,7 +177,7 @@ def _check_float(field: Field, value: Value, path: str) -> float:
 def _check_bool(field: Field, value: Value, path: str) -> bool:
     if isinstance(value, bool) or (isinstance(value, Integral) and value in (0, 1)):
         return bool(value)
-    if type(value).__name__ in ("bool_", "bool") and hasattr(value, "item"):
+    if hasattr(value, "item") and isinstance(value.item(), bool):
         return bool(value)
     raise FieldError(path, value, allowed(field), f"{brief(value)} is neither true nor false")
 
@@ -192,7 +189,10 @@ def _check_string(field: Field, value: Value, path: str) -> str:
         value.encode()
     except UnicodeEncodeError as error:
         raise FieldError(
-            path, value, allowed(field), f"character {error.start + 1} is half of a surrogate pair, which UTF-8 cannot hold"
+            path,
+            value,
+            allowed(field),
+            f"character {error.start + 1} is half of a surrogate pair, which UTF-8 cannot hold",
         ) from None
     return str(value)
 
