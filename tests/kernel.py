@@ -25,6 +25,7 @@ for line in sys.stdin:
     reply = {"value": None, "error": "", "words": ""}
     names.pop("result", None)
     try:
+        print("begun", file=replies, flush=True)
         exec(compile(json.loads(line), "cell", "exec"), names)
         reply["value"] = names.get("result")
     except BaseException as error:
@@ -84,21 +85,15 @@ class Kernel:
         return reply.value
 
     def begin(self, cell: str) -> None:
-        """Begin a cell, and do not wait for it."""
+        """Begin a cell, and do not wait for its end."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
+        assert self._line(PATIENCE) == "begun\n"
 
     def reply(self, patience: float = PATIENCE) -> Reply:
         """Return what the cell that was begun came to."""
-        guard = threading.Timer(patience, self.kill)
-        guard.start()
-        try:
-            line = self._replies.readline()
-        finally:
-            guard.cancel()
-        assert line, f"the cell did not end within {patience:g} s, or its process did"
-        return Reply(**json.loads(line))
+        return Reply(**json.loads(self._line(patience)))
 
     def kill(self) -> None:
         """Kill it, as the system does when memory runs out."""
@@ -119,6 +114,16 @@ class Kernel:
         finally:
             self._replies.close()
         return printed
+
+    def _line(self, patience: float) -> str:
+        guard = threading.Timer(patience, self.kill)
+        guard.start()
+        try:
+            line = self._replies.readline()
+        finally:
+            guard.cancel()
+        assert line, f"the cell did not end within {patience:g} s, or its process did"
+        return line
 
     @property
     def returncode(self) -> int | None:

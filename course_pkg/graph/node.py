@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import rospy
@@ -84,12 +85,12 @@ class Node:
 
         `name` renames the node, so that several of one program can run. Raises UnknownExecutable.
         """
-        self._require()
-        label = name or f"{package}/{executable}"
-        if label in self._processes:
-            self._processes.pop(label).stop()
-        self._processes[label] = NodeProcess.rosrun(package, executable, *args, name=name)
-        return self._processes[label]
+        start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
+        return self._started(name or f"{package}/{executable}", start)
+
+    def launch(self, package: str, file: str, *args: str) -> NodeProcess:
+        """Run a launch file with arguments such as "client:=true", in the place of the one started before."""
+        return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def leave(self) -> None:
         """End all processes, services and subscriptions of this node, and take it off the graph; join() returns."""
@@ -113,6 +114,13 @@ class Node:
 
     def __repr__(self) -> str:
         return f"<node {self.name}>"
+
+    def _started(self, label: str, start: Callable[[], NodeProcess]) -> NodeProcess:
+        self._require()
+        if label in self._processes:
+            self._processes.pop(label).stop()
+        self._processes[label] = start()
+        return self._processes[label]
 
     def _proxy(self, name: str, kind: Any) -> BoundedProxy:  # noqa: ANN401
         cls = service_class(kind)
