@@ -96,7 +96,7 @@ class Link:
         self._asked += 1
         self.send({"ask": self._asked, "do": do, **what})
         answer = self.receive(timeout)
-        if answer.get("answer") != self._asked:
+        if type(answer.get("answer")) is not int or answer["answer"] != self._asked:
             raise LinkBroken(f"an answer to another question: {str(answer)[:80]}")
         if "wrong" in answer:
             raise LinkBroken(f"{do} could not be answered: {answer['wrong']}")
@@ -113,8 +113,16 @@ def connect(address: str) -> Link:
     try:
         if host and port.isdigit() and os.sep not in host:
             return Link(socket.create_connection((host, int(port)), timeout=5.0))
-        sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        sock.connect(address)
+        return Link(_unix_socket(address))
     except OSError as error:
         raise LinkClosed(f"no examiner waits at {address}: {error}") from error
-    return Link(sock)
+
+
+def _unix_socket(path: str) -> socket.socket:
+    sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        sock.connect(path)
+    except OSError:
+        sock.close()
+        raise
+    return sock

@@ -37,11 +37,11 @@ def _compound(value: Value, depth: int) -> Plain:
         return {str(key): plain(item, depth) for key, item in list(value.items())[:ITEMS]}
     if isinstance(value, (list, tuple)):
         return [plain(item, depth) for item in value[:ITEMS]]
+    if hasattr(value, "secs") and hasattr(value, "nsecs"):  # a time or a duration of genpy
+        return {"secs": value.secs, "nsecs": value.nsecs}
     if hasattr(value, "_slot_types"):  # a message of genpy
         return {name: plain(getattr(value, name), depth) for name in value.__slots__}
-    if type(value).__module__ == "genpy.rostime":
-        return {"secs": value.secs, "nsecs": value.nsecs}
-    if type(value).__module__ == "numpy" and hasattr(value, "tolist"):
+    if hasattr(value, "tolist"):  # an array, or a number of NumPy's
         return plain(value.tolist(), depth)
     return _exact(value)
 

@@ -1,0 +1,148 @@
+"""The checks of chapter 00: the graph is read, a service asked, a topic heard."""
+
+from course_pkg.examiner import Exam, part, says
+
+
+@part(
+    "00.1",
+    points=1,
+    goal="Name the node that measures boxes, the service that it serves, and the type of that service.",
+    needs=["name_of_node", "name_of_service", "name_of_type"],
+)
+def read_the_graph(exam: Exam) -> None:
+    """Three names, compared with those that the graph has."""
+    exam.expect(
+        "the name of the node",
+        expected="/SERVER_NODE",
+        seen=exam.read("name_of_node"),
+        hints={
+            "SERVER_NODE": "Almost: names on the graph start with a slash.",
+            says("^/?server$"): "That is the program. Ask rosnode list which name it took on the graph.",
+            says("^/chapter"): "That is this notebook, which asks. Who answers?",
+            says("getGeometry"): "That is a service. A node is a program that serves it.",
+        },
+    )
+    exam.expect(
+        "the name of the service",
+        expected="/getGeometry",
+        seen=exam.read("name_of_service"),
+        hints={
+            "getGeometry": "Almost: names on the graph start with a slash.",
+            says("logger"): "Every node has that one. Which one is special to /SERVER_NODE?",
+            says("^/?SERVER_NODE$"): "That is the node. Ask rosservice list what can be called.",
+            says("course_pkg"): "That is the type. The name is what is called.",
+        },
+    )
+    exam.expect(
+        "the type of the service",
+        expected="course_pkg/geometry",
+        seen=exam.read("name_of_type"),
+        hints={
+            says("^geometry$"): "Almost: a type is written with its package, package/type.",
+            says(r"^course_pkg/geometry\.srv$"): "That is the file. The type has no ending.",
+            says("float32|---"): "Those are the fields. What is the type that has them called?",
+            says("getGeometry"): "That is the name of the service. Ask rosservice type what it is made of.",
+            says("(?-i:course_pkg/Geometry)"): "This type is spelt with a small g.",
+        },
+    )
+
+
+@part(
+    "00.2",
+    points=2,
+    goal="Return the volume that the service answers with.",
+    needs=["ask_for_volume"],
+)
+def ask_a_question(exam: Exam) -> None:
+    """Two servers with volumes of their own, so that only asking helps."""
+    for _ in range(2):
+        name = f"/{exam.draw.word()}"
+        length, width, height = exam.draw.numbers(3, 0.5, 9.0)
+        area, volume = exam.draw.numbers(2, 1000.0, 9000.0)
+        server = exam.serve(name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v})
+        returned = exam.run("ask_for_volume", name, length, width, height).value
+        exam.hold(
+            "the service that was named is asked",
+            bool(server.requests),
+            expected=f"a call of {name}",
+            seen="no call of it",
+            hints={
+                says(
+                    ""
+                ): "Whatever was returned, it was not asked for. Call node.call with the name in `service`."
+            },
+        )
+        exam.expect(
+            "the sides are sent in the order length, width, height",
+            expected={"length": length, "width": width, "height": height},
+            seen=server.requests[0],
+            near=1e-4,
+            hints="Compare the order of your arguments with the order in rossrv show course_pkg/geometry.",
+        )
+        exam.expect(
+            "the volume of the answer is returned",
+            expected=volume,
+            seen=returned,
+            near=1e-4,
+            hints={
+                None: "The function came to its end without a return line.",
+                area: "That is the area.",
+                says("area"): "That is the whole response. Return its volume.",
+                length
+                * width
+                * height: "You multiplied. This server measures in its own way: return what it says.",
+            },
+        )
+
+
+@part(
+    "00.3",
+    points=2,
+    goal="Return the next three numbers that are published on a topic.",
+    needs=["listen"],
+    deadline=25.0,
+)
+def hear_a_stream(exam: Exam) -> None:
+    """A topic of this check's own, that counts from a number nobody can guess."""
+    topic = f"/{exam.draw.word()}"
+    first = exam.draw.integer(1000, 9000)
+    exam.publish(topic, "std_msgs/UInt32", [{"data": first + number} for number in range(300)], every=0.1)
+    heard = exam.run("listen", topic, within=12.0).value
+    exam.hold(
+        "a list is returned",
+        isinstance(heard, list),
+        expected="a list of three numbers",
+        seen=heard,
+        hints={
+            None: "The function came to its end without a return line.",
+            says(""): "One value is no list. Collect three numbers in a list.",
+        },
+    )
+    exam.hold(
+        "the list holds numbers",
+        all(type(item) is int for item in heard),
+        expected="numbers",
+        seen=heard,
+        hints={
+            says("data"): "Those are whole messages. A message's number is in its field data.",
+            says("'"): "Those are texts. A message's data is a number already.",
+        },
+    )
+    exam.expect("three numbers are returned", expected=3, seen=len(heard), hints="Wait for three messages.")
+    exam.hold(
+        "the numbers are those of the topic",
+        all(first <= number < first + 1000 for number in heard),
+        expected=f"numbers from {first} on",
+        seen=heard,
+        hints="Those were not published on the topic that was named. Subscribe to the name in `topic`.",
+    )
+    exam.expect(
+        "the oldest comes first, and none is left out",
+        expected=[heard[0], heard[0] + 1, heard[0] + 2],
+        seen=heard,
+        hints={
+            says(
+                ""
+            ): "The numbers follow one another on the topic. Return them in the order in which they came.",
+        },
+    )
