@@ -33,7 +33,7 @@ class Command(NamedTuple):
 
 def lab(options: SimpleNamespace) -> int:
     """Start a master and JupyterLab."""
-    from course_pkg.lab import serve_lab
+    from course_pkg.lab.serve import serve_lab
 
     return serve_lab(options.notebook, port=options.port, ip=options.ip, browser=options.browser)
 
