@@ -146,7 +146,8 @@ class _Diagnosis:
                 line, word.column, f"{word.text!r} cannot be a type", self._type_advice(word.text, name.text)
             )
         base = found[1]
-        if base in _BUILTIN or base == "Header":
+        # genmsg takes Header for std_msgs/Header only where it is no array.
+        if base in _BUILTIN or word.text == "Header":
             return
         full = base if "/" in base else f"{self.package}/{base}"
         if not self.exists(full):

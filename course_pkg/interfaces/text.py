@@ -28,7 +28,12 @@ def show(field: Field, value: Value) -> TextTree:
     """Return the text tree of a value; a list or dict of texts where the value is one of values."""
     if field.kind is Kind.ARRAY:
         assert field.item is not None
-        return [show(field.item, each) for each in value]
+        # An image has a million of them.
+        return (
+            list(map(str, value))
+            if field.item.kind is Kind.INTEGER
+            else [show(field.item, each) for each in value]
+        )
     if field.kind is Kind.MESSAGE or field.fields:
         return {part.name: show(part, value[part.name]) for part in field.fields}
     if field.kind is Kind.FLOAT:
