@@ -49,9 +49,10 @@ def run(name: str, notebook: Notebook) -> None:
         try:
             client.execute(env=environment)
         except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
-            raise AuthoringError(f"\n{name}: {_what_went_wrong(notebook, error)}") from error
+            raise AuthoringError(f"{name}: {_what_went_wrong(client.nb, error)}") from error
         finally:
             sys.stderr.write("\n")
+        notebook.update(client.nb)
 
 
 @contextmanager

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import copy
+import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import nbformat
+from nbformat.v4.rwbase import rejoin_lines
 
 import course_pkg
 from course_pkg.authoring.blank import blank
@@ -85,9 +87,14 @@ def derived(solution: Notebook) -> Notebook:
 def read(path: Path) -> Notebook:
     """Return the notebook at `path`, its texts joined."""
     try:
-        notebook: Notebook = nbformat.reads(path.read_text("utf-8"), as_version=4)
-    except (OSError, ValueError, nbformat.reader.NotJSONError) as error:
-        raise AuthoringError(f"{path.name} is not a notebook: {error}") from error
+        data = json.loads(path.read_text("utf-8"))
+        notebook: Notebook = rejoin_lines(nbformat.from_dict(data))  # nbformat.reads would repair it unasked
+    except (OSError, ValueError, TypeError, AttributeError, KeyError) as error:
+        raise AuthoringError(f"{path.name} is not a notebook: {error!r}") from error
+    if notebook.get("nbformat") != 4:
+        raise AuthoringError(
+            f"{path.name} is a notebook of another format: save it with a front end of today."
+        )
     return notebook
 
 

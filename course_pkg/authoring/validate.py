@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -17,11 +19,13 @@ def validate(
 ) -> subprocess.CompletedProcess[str]:
     """Run nbval over `notebooks`, each on a master of its own, `workers` at once, within `timeout` s.
 
-    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two.
+    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two. It runs as a
+    copy, for nbval gives the kernel the notebook's own folder to work in.
     """
     with surroundings() as (folder, environment):
+        copies = [shutil.copy(path, folder) for path in notebooks]
         return subprocess.run(
-            command(notebooks, workers=workers, folder=folder),
+            command([Path(copy) for copy in copies], workers=workers),
             env=environment,
             capture_output=True,
             text=True,
@@ -30,12 +34,12 @@ def validate(
         )
 
 
-def command(notebooks: Sequence[Path], *, workers: int, folder: Path) -> list[str]:
+def command(notebooks: Sequence[Path], *, workers: int) -> list[str]:
     """Return the command; no configuration of the repository's own tests takes part in it."""
     parallel = ["-n", str(workers), "--dist", "loadfile"] if workers > 1 else ["-p", "no:xdist"]
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval", "-p", "no:cacheprovider", *parallel),
-        *("-c", "/dev/null", "--rootdir", str(folder), "--nbval-cell-timeout", str(CELL)),
-        *("--nbval-sanitize-with", str(SANITIZE), "--nbval-cwd", str(folder)),
+        *("-c", os.devnull, "--rootdir", str(notebooks[0].parent), "--nbval-cell-timeout", str(CELL)),
+        *("--nbval-sanitize-with", str(SANITIZE)),
         *map(str, notebooks),
     ]

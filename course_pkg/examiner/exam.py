@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
-from roslib.message import get_message_class, get_service_class
-
 from course_pkg.errors import ExamError
 from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
@@ -25,6 +23,7 @@ from course_pkg.examiner.scripted import Absent, Script, ScriptedServer
 from course_pkg.examiner.show import shown
 from course_pkg.graph.probe import header_fields
 from course_pkg.graph.snapshot import Snapshot, look
+from course_pkg.interfaces import message_type, service_type
 
 if TYPE_CHECKING:
     from course_pkg.examiner.parts import Part
@@ -115,7 +114,7 @@ class Exam:
 
     def service_class(self, kind: str) -> ServiceClass:
         """Return the class of the service type `kind`, such as "course_pkg/geometry"."""
-        return get_service_class(kind)
+        return service_type(kind).cls
 
     def look(self) -> Snapshot:
         """Return who is on the graph, and who publishes, subscribes and serves what."""
@@ -138,8 +137,8 @@ class Exam:
     def publish(
         self, topic: str, kind: str, messages: Iterable[Mapping[str, Plain]], *, every: float = 0.05
     ) -> Publishing:
-        """Publish `messages` (fields by name) of the type `kind` in turn, every `every` s, until it is over."""
-        cls = get_message_class(kind)
+        """Publish `messages` (fields by name) of the type `kind` in turn, every `every` s."""
+        cls = message_type(kind).cls
         return self._open.enter_context(Publishing(topic, cls, messages, every))
 
     # -- what the student wrote, in the kernel

@@ -18,7 +18,7 @@ class Publishing:
         self._messages = [kind(**message) for message in messages]
         self._every = every
         self._over = threading.Event()
-        self._publisher = rospy.Publisher(topic, kind, queue_size=None)
+        self._publisher = rospy.Publisher(topic, kind, queue_size=100)
 
     def __enter__(self) -> Publishing:
         threading.Thread(target=self._publish, daemon=True).start()

@@ -48,7 +48,7 @@ class Late:
 
 
 Act = Mapping[str, Plain] | genpy.Message | Refuse | HangUp | Silence | Late
-Script = Callable[[Any], Act]
+Script = Callable[..., Act]  # of the request
 
 
 @dataclass

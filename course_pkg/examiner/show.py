@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
+from course_pkg.interfaces import rosservice_line, service_type
 
 
 def command_line(name: str, kind: ServiceClass, request: Message) -> str:
     """Return the `rosservice call` that asks the same."""
-    return f"rosservice call {name} {shown(plain(request))}"
+    return rosservice_line(name, service_type(kind), plain(request))
 
 
 def explained(words: str) -> str:

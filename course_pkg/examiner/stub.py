@@ -9,6 +9,7 @@ from types import CodeType, FunctionType
 
 from course_pkg.examiner.plain import Value
 
+
 def is_stub(value: Value) -> bool:
     """Return whether `value` is `...`, or a function or a class in which only `...` is written."""
     if isinstance(value, type):

@@ -43,7 +43,8 @@ class Summary:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         cells = "".join(
-            f"<tr><td>{line.check}</td><td>{escape(line.verdict)}</td><td>{line.points} of {line.possible}</td>"
+            f"<tr><td>{line.check}</td><td>{escape(line.verdict)}</td>"
+            f"<td>{line.points} of {line.possible}</td>"
             f"<td style='text-align:left'>{escape(line.goal)}</td></tr>"
             for line in self.lines
         )

@@ -1,5 +1,7 @@
 """The three rules by which an answer is taken out, and nothing but the answer."""
 
+# ruff: noqa: E501 -- sources and what becomes of them stand one above the other
+
 from __future__ import annotations
 
 import ast

@@ -33,6 +33,9 @@ HANG = """
 """
 
 
+pytestmark = pytest.mark.usefixtures("master")
+
+
 @contextmanager
 def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[str]]:
     """Run cells as a program of a student's, below the set-up that every notebook has."""
@@ -78,7 +81,7 @@ def record(state: Path) -> dict[str, Any]:
 
 
 def test_a_pass_reads_the_same_every_time_and_is_on_record(master: PrivateMaster, tmp_path: Path) -> None:
-    """nbval compares the text; points come from the record. No judge stays on the graph."""
+    """The text is what nbval compares; points come from the record. No judge stays on the graph."""
     out = output(SERVE + '    print(check("05.1"))\n    print(check("05.1"))', tmp_path)
     first, second = out[: len(out) // 2], out[len(out) // 2 :]
     assert first == second
@@ -88,7 +91,7 @@ def test_a_pass_reads_the_same_every_time_and_is_on_record(master: PrivateMaster
     assert not examiners(master)
 
 
-def test_a_seed_draws_the_same_inputs_again(master: PrivateMaster, tmp_path: Path) -> None:
+def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
     """With COURSE_SEED from a record, a failure is seen once more."""
     cells = '    node.serve("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
     cells += '    print(check("05.1"))'
@@ -115,9 +118,7 @@ def test_a_seed_draws_the_same_inputs_again(master: PrivateMaster, tmp_path: Pat
         ),
     ],
 )
-def test_what_stands_in_the_way_is_told_in_the_report(
-    master: PrivateMaster, tmp_path: Path, cells: str, words: str
-) -> None:
+def test_what_stands_in_the_way_is_told_in_the_report(tmp_path: Path, cells: str, words: str) -> None:
     """Never a traceback: the report says what to do."""
     assert words in output(cells, tmp_path)
 
@@ -149,7 +150,7 @@ def test_an_interrupt_ends_the_check_and_the_judge(master: PrivateMaster, tmp_pa
 
 
 def test_a_file_of_the_students_does_not_shadow_the_judges_modules(
-    master: PrivateMaster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A rospy.py beside the notebook is the student's affair alone."""
     monkeypatch.chdir(tmp_path)

@@ -8,11 +8,11 @@ from array import array
 from typing import Any
 
 import pytest
+from course_pkg.srv import geometryResponse
 from geometry_msgs.msg import Point
 from rospy import Duration
 
 from course_pkg.examiner.plain import plain
-from course_pkg.srv import geometryResponse
 
 
 class Everything(float):

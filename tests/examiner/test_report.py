@@ -17,7 +17,7 @@ FAILED = Report(
 
 
 def test_a_pass_tells_no_values() -> None:
-    """nbval compares the text, so a pass holds nothing that was drawn, even when it is on record."""
+    """The text is what nbval compares, so a pass holds nothing that was drawn, even when it is on record."""
     rule = Rule("it answers", True, asked="f(0.123)", expected="1", seen="1", hint="none")
     text = str(Report("05.1", Verdict.PASSED, "Answer.", 2, 2, (rule,), printed="0.123"))
     assert text == "05.1 passed: 2 of 2 points\n  ✓ it answers"

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import rospy
+from course_pkg.srv import AddTwoInts, geometry
 
 from course_pkg.examiner.node import Node
 from course_pkg.examiner.scripted import Absent, Act, HangUp, Late, Refuse, ScriptedServer, Silence
 from course_pkg.graph import MasterClient, PrivateMaster
-from course_pkg.srv import AddTwoInts, geometry
-
 from tests.support import eventually
 
 # rospy's client leaves its sockets to the garbage collector.
@@ -21,7 +20,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptio
 
 @pytest.fixture
 def node(master: PrivateMaster) -> Node:
-    """A name on the graph for the scripts, and the way there for rospy's client."""
+    """Give the scripts a name on the graph."""
     return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
 
 
@@ -32,7 +31,7 @@ def ask(name: str, *sides: float) -> tuple[float, float]:
 
 
 def test_it_answers_and_keeps_what_it_was_asked(node: Node) -> None:
-    """rospy's own client gets the answer; the request is on record."""
+    """A client of rospy's gets the answer; the request is on record."""
     with ScriptedServer(node, "/a", geometry, lambda r: {"area": r.length, "volume": 2.0}) as server:
         rospy.wait_for_service("/a", timeout=2)
         assert ask("/a", 1.5, 2.0, 3.0) == (1.5, 2.0)
@@ -78,10 +77,12 @@ def test_late_and_silent(node: Node) -> None:
     """A late answer comes; silence lasts until the script is over."""
     with ScriptedServer(node, "/l", geometry, lambda _: Late(0.05, {"area": 4.0})):
         assert ask("/l", 1, 2, 3) == (4.0, 0.0)
-    server = ScriptedServer(node, "/s", geometry, lambda _: Silence())
-    with server, pytest.raises(rospy.ServiceException):
-        threading.Thread(target=lambda: eventually(lambda: server.requests) and server.leave()).start()
-        ask("/s", 1, 2, 3)
+    with ScriptedServer(node, "/s", geometry, lambda _: Silence()) as server:
+        asked = ThreadPoolExecutor(1).submit(ask, "/s", 1, 2, 3)
+        eventually(lambda: server.requests)
+        assert not asked.done()
+    with pytest.raises(rospy.ServiceException):
+        asked.result(5)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,113 @@
+"""Solutions and notebooks are in step, or it is said where they are not."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from course_pkg.authoring import sync
+from course_pkg.errors import AuthoringError
+from course_pkg.examiner.parts import parts_of
+from tests.authoring.books import book, check, code, exercise, text
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """Make a checkout with one chapter that has every part that the checks declare."""
+    cells = [text("# Write a server")]
+    for part in parts_of("05"):
+        cells += [exercise(part.check, part.points), check(part.check)]
+    write(tmp_path, book(*cells))
+    return tmp_path
+
+
+def write(root: Path, notebook: dict[str, Any], name: str = "05_write_a_server") -> None:
+    """Write a solution as a front end would."""
+    (root / "solutions").mkdir(exist_ok=True)
+    (root / "solutions" / f"{name}.ipynb").write_text(json.dumps(notebook))
+
+
+def test_sync_brings_into_step_and_check_sees_it(root: Path) -> None:
+    """After a sync nothing is out of step, and a second one writes nothing."""
+    with pytest.raises(AuthoringError, match=r"course sync[\s\S]*notebooks/05_write_a_server.ipynb"):
+        sync(check=True, root=root)
+    assert sync(root=root) == 0
+    assert sync(check=True, root=root) == 0
+    stamps = {path: path.stat().st_mtime_ns for path in root.rglob("*.ipynb")}
+    assert len(stamps) == 2
+    sync(root=root)
+    assert {path: path.stat().st_mtime_ns for path in root.rglob("*.ipynb")} == stamps
+
+
+def test_the_answer_is_in_the_solution_alone(root: Path) -> None:
+    """A student gets the signature, and metadata and id of the cell."""
+    sync(root=root)
+    derived = json.loads((root / "notebooks" / "05_write_a_server.ipynb").read_text())
+    cell = derived["cells"][1]
+    assert "".join(cell["source"]) == "def handle_geometry(request):\n    ..."
+    assert cell["id"] == "exercise-05-1"
+    assert cell["metadata"]["course"] == {"exercise": "05.1", "points": 2}
+
+
+def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
+    """A derived notebook is never edited: one byte is seen."""
+    sync(root=root)
+    path = root / "notebooks" / "05_write_a_server.ipynb"
+    path.write_text(path.read_text() + "\n")
+    with pytest.raises(AuthoringError, match="out of step"):
+        sync(check=True, root=root)
+    sync(root=root)
+    sync(check=True, root=root)
+
+
+def test_a_notebook_without_a_solution_goes(root: Path) -> None:
+    """A renamed chapter leaves nothing behind."""
+    sync(root=root)
+    (root / "notebooks" / "05_old_name.ipynb").write_text("{}")
+    with pytest.raises(AuthoringError, match="05_old_name"):
+        sync(check=True, root=root)
+    sync(root=root)
+    assert not (root / "notebooks" / "05_old_name.ipynb").exists()
+
+
+@pytest.mark.parametrize(
+    ("cells", "words"),
+    [
+        ([exercise(), exercise(), check()], r"cell exercise-05-1.*: part 05.1 already stands"),
+        ([check()], "check 05.1 has no exercise cell above it"),
+        ([exercise()], "exercise 05.1 has no check cell"),
+        ([exercise(points=None), check()], "cell exercise-05-1: exercise 05.1 has no points"),
+        ([exercise(points=9), check()], "9 points here, 2 in the check"),
+        ([exercise("05.99"), check("05.99")], "no check is declared for 05.99"),
+        ([exercise(source="print(1)"), check()], "nothing in this exercise to take out"),
+        ([exercise(), code("1", course={"check": "05.1"})], r'does not say check\("05.1"\)'),
+        ([text("x")], "part 05.1 is declared in the checks and has no exercise cell"),
+        (
+            [
+                code(
+                    "1/0",
+                    id="boom",
+                    outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": []}],
+                    execution_count=1,
+                )
+            ],
+            "cell boom: ends with E: v; tag it raises-exception",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_solution_is_told(tmp_path: Path, cells: list[Any], words: str) -> None:
+    """With the notebook's name and the cell's id."""
+    write(tmp_path, book(*cells))
+    with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
+        sync(root=tmp_path)
+
+
+def test_what_is_no_notebook_is_named(tmp_path: Path) -> None:
+    """A file that was cut short is not taken for an empty notebook."""
+    (tmp_path / "solutions").mkdir()
+    (tmp_path / "solutions" / "05_x.ipynb").write_text('{"cells": [')
+    with pytest.raises(AuthoringError, match="05_x.ipynb is not a notebook"):
+        sync(root=tmp_path)
