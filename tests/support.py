@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TypeVar
 
 Result = TypeVar("Result")
@@ -17,3 +21,31 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
             raise AssertionError(f"not within {timeout:g} s: {condition}")
         time.sleep(interval)
     return value
+
+
+@contextmanager
+def stopped(pid: int) -> Iterator[None]:
+    """Stop a process by SIGSTOP for the block; all its threads stand still when the block begins."""
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))
+        yield
+    finally:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGCONT)
+
+
+def process_state(pid: int) -> str:
+    """Return the letter for the state of a process, as in ps; "Z" also for one that is gone."""
+    return _state(Path(f"/proc/{pid}/stat"))
+
+
+def _thread_states(pid: int) -> list[str]:
+    return [_state(thread / "stat") for thread in Path(f"/proc/{pid}/task").iterdir()]
+
+
+def _state(stat: Path) -> str:
+    try:
+        return stat.read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"

@@ -25,7 +25,7 @@ from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.types import service_class
 from course_pkg.graph.watchdog import Watchdog
 
-KEPT = "_use_tcp_keepalive"  # rospy asks the master for this, once and without a limit, at its first connection
+KEPT = "_use_tcp_keepalive"  # where rospy keeps that parameter, None as long as it has not asked
 
 
 class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
@@ -123,7 +123,7 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
     def _connected(self, call: _Call) -> TCPROSTransport:
         uri = self._looked_up(call)
         host, port = parse_rosrpc_uri(uri)
-        self._settle_keepalive()
+        settle_keepalive(self._current_master())
         transport = TCPROSTransport(self.protocol, self.resolved_name)
         transport.buff_size = self.buff_size
         call.transport = transport
@@ -175,10 +175,6 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
             self._master = MasterClient(master_uri())
         return self._master
 
-    def _settle_keepalive(self) -> None:
-        if getattr(tcpros_base, KEPT, True) is None:
-            setattr(tcpros_base, KEPT, self._current_master().get_param("/tcp_keepalive", True))
-
 
 class _Call:
     """One call under way: its deadline, its transport once there is one, and why it was broken off."""
@@ -217,6 +213,12 @@ class _Call:
         if sock is not None:
             with suppress(OSError):  # not connected yet: the watchdog comes again
                 sock.shutdown(socket.SHUT_RDWR)
+
+
+def settle_keepalive(master: MasterClient) -> None:
+    """Ask the master what rospy would ask it at its first connection, without a limit."""
+    if getattr(tcpros_base, KEPT, True) is None:
+        setattr(tcpros_base, KEPT, master.get_param("/tcp_keepalive", True))
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:

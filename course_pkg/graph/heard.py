@@ -25,12 +25,13 @@ class Heard:
         self.count = 0
         self._callback = callback
         self._arrived = threading.Condition()
+        self._cls = cls
         self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._hear)
         self.name = str(self._subscriber.resolved_name)
         self.type = str(cls._type)
 
     def wait(self, count: int = 1, timeout: float = 5.0) -> list[Any]:
-        """Return the first `count` messages from now on those already heard included, as soon as there are so many.
+        """Return the first `count` of `messages`, as soon as there are so many.
 
         Raises NothingHeard when there are fewer after `timeout` s.
         """
@@ -48,6 +49,11 @@ class Heard:
         subscriber, self._subscriber = self._subscriber, None
         if subscriber is not None:
             subscriber.unregister()
+
+    def renew(self) -> None:
+        """Subscribe again in a rospy that has begun anew, if nobody has stopped it."""
+        if self._subscriber is not None:
+            self._subscriber = rospy.Subscriber(self.name, self._cls, self._hear)
 
     def __enter__(self) -> Heard:
         return self

@@ -11,14 +11,14 @@ from functools import cache
 
 import rosgraph.names
 import rospy
-from rospy.impl import tcpros_base
 
 from course_pkg.errors import GraphError, NodeNameTaken, NotJoined
+from course_pkg.graph.calls import settle_keepalive
 from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.logs import logging_kept
 from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
-from course_pkg.graph.node import OVER, Node
+from course_pkg.graph.node import Node
 from course_pkg.graph.probe import Reach, ask_all, node_probe
 from course_pkg.graph.registrar import (
     hasten_shutdown,
@@ -27,6 +27,7 @@ from course_pkg.graph.registrar import (
     registration_manager,
     unregister_all,
 )
+from course_pkg.graph.revival import begin_again, can_begin_again
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.stale import remove_stale
 
@@ -54,6 +55,8 @@ def _kernel(pid: int) -> _Kernel:
 
 
 class _Kernel:
+    """This process's membership: its node, the master it owns if any, and who clears up after a SIGKILL."""
+
     def __init__(self, pid: int) -> None:
         self._pid = pid
         self._node: Node | None = None
@@ -67,31 +70,34 @@ class _Kernel:
         _apply_environment()
         self._settle_master()
         master = MasterClient(master_uri())
+        self._settle_rospy(full, master)
         if self._node is None:
-            self._node = self._first(name, full, master)
-        elif not node_known(master):
-            _free(full, master)
-            register_all(master)
+            self._node = Node()
+            atexit.register(self._at_exit)
+        self._node.renew()
         self._hire(master)
         return self._node
 
     def leave(self, node: Node) -> None:
         node.close_all()
-        undertaker, self._undertaker = self._undertaker, None
-        if undertaker is not None:
-            undertaker.end()
+        self._dismiss()
         unregister_all(MasterClient(master_uri()))
 
-    def _first(self, name: str, full: str, master: MasterClient) -> Node:
+    def _settle_rospy(self, full: str, master: MasterClient) -> None:
+        """Have rospy running as this node, and the master knowing it."""
+        if rospy.core.is_shutdown():
+            self._dismiss()
+            begin_again()
         if not rospy.core.is_initialized():
-            _free(full, master)
-            setattr(tcpros_base, "_use_tcp_keepalive", master.get_param("/tcp_keepalive", True))  # noqa: B010
+            _make_room(full, master)
+            settle_keepalive(master)
             with logging_kept():
-                rospy.init_node(name, disable_signals=True)
+                rospy.init_node(full.removeprefix("/"), disable_signals=True)
             hasten_shutdown()
+        elif not node_known(master):
+            _make_room(full, master)
+            register_all(master)
         guard_against_idle_connections()
-        atexit.register(self._at_exit)
-        return Node()
 
     def _settle_master(self) -> None:
         """Have a master that answers; a private one that was lost is replaced at the same address."""
@@ -106,6 +112,11 @@ class _Kernel:
         ours = self._private is not None and self._private.uri == master.uri
         if self._undertaker is None and not ours:
             self._undertaker = Leash([], forget=(master.uri, rospy.get_name(), rospy.get_node_uri()))
+
+    def _dismiss(self) -> None:
+        undertaker, self._undertaker = self._undertaker, None
+        if undertaker is not None:
+            undertaker.end()
 
     def _at_exit(self) -> None:
         if os.getpid() != self._pid or self._node is None:
@@ -134,8 +145,11 @@ def _full(name: str) -> str:
 
 
 def _require_same(full: str) -> None:
-    if rospy.core.is_shutdown():
-        raise NotJoined(OVER)
+    if rospy.core.is_shutdown() and not can_begin_again():
+        raise NotJoined(
+            "This kernel's node has been shut down, and this release of rospy cannot begin again in one process: "
+            "restart the kernel, and run the cells again."
+        )
     if rospy.core.is_initialized() and rospy.get_name() != full:
         base = rospy.get_name().removeprefix("/")
         raise NotJoined(
@@ -154,7 +168,7 @@ def _apply_environment() -> None:
         os.environ["ROS_HOSTNAME"] = "localhost"
 
 
-def _free(full: str, master: MasterClient) -> None:
+def _make_room(full: str, master: MasterClient) -> None:
     """Make sure that nobody living has the name, and that nothing of somebody dead is left under it."""
     deadline = time.monotonic() + HANDOVER
     while (uri := master.lookup_node(full)) is not None:

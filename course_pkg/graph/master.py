@@ -75,10 +75,9 @@ class PrivateMaster:
         program = shutil.which("rosmaster")
         if program is None:
             raise SetupError("rosmaster is not on PATH. Run `./course doctor`: it says what is missing.")
-        log = f"__log:={logs / f'master-{self.port}.log'}"
-        self._leash = Leash(
-            [program, "--core", "-p", str(self.port), log], env=_local_environment(), remove=logs if own else None
-        )
+        command = [program, "--core", "-p", str(self.port), f"__log:={logs / f'master-{self.port}.log'}"]
+        environment = {**_local_environment(), "ROS_LOG_DIR": str(logs)}
+        self._leash = Leash(command, env=environment, remove=logs if own else None)
         ready = False
         try:
             ready = self._wait(self._leash)

@@ -26,10 +26,12 @@ class Node:
     def __init__(self) -> None:
         self._output = HandlerOutput()
         self._watchdog = Watchdog()
+        self._master = MasterClient(master_uri())
         self._served: dict[str, Served] = {}
         self._heard: dict[str, Heard] = {}
         self._processes: dict[str, NodeProcess] = {}
         self._proxies: dict[tuple[str, Any], BoundedProxy] = {}
+        self._uri = rospy.get_node_uri()
 
     @property
     def name(self) -> str:
@@ -54,7 +56,7 @@ class Node:
         self._require()
         served = Served(name, service_class(kind), handler, self._output)
         self._output.install()
-        served.start(MasterClient(master_uri()))
+        served.start(self._client())
         self._served[served.name] = served
         return served
 
@@ -73,7 +75,7 @@ class Node:
     def subscribe(self, topic: str, kind: Any, callback: Callable[[Any], object] | None = None) -> Heard:  # noqa: ANN401
         """Listen to a topic, in the place of an earlier subscription to it; `callback` runs on rospy's thread."""
         self._require()
-        MasterClient(master_uri()).pid()  # rospy.Subscriber would wait for ever
+        self._client().pid()  # rospy.Subscriber would wait for ever
         full = rospy.resolve_name(topic)
         if full in self._heard:
             self._heard.pop(full).stop()
@@ -98,6 +100,16 @@ class Node:
 
         leave(self)
 
+    def renew(self) -> None:
+        """Serve and subscribe again, if rospy has begun anew since; what rospy itself was asked for is lost."""
+        if self._uri == rospy.get_node_uri():
+            return
+        self._uri = rospy.get_node_uri()
+        for served in self._served.values():
+            served.renew(self._client())
+        for heard in self._heard.values():
+            heard.renew()
+
     def close_all(self) -> None:
         """End all processes, subscriptions, services and calls that were begun here."""
         for process in self._processes.values():
@@ -115,6 +127,12 @@ class Node:
     def __repr__(self) -> str:
         return f"<node {self.name}>"
 
+    def _client(self) -> MasterClient:
+        """Return the client of the master that rospy talks to, which may be another than before."""
+        if self._master.uri != master_uri():
+            self._master = MasterClient(master_uri())
+        return self._master
+
     def _started(self, label: str, start: Callable[[], NodeProcess]) -> NodeProcess:
         self._require()
         if label in self._processes:
@@ -131,10 +149,8 @@ class Node:
 
     def _require(self) -> None:
         if rospy.core.is_shutdown():
-            raise NotJoined(OVER)
+            raise NotJoined(
+                "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting rospy.spin(), or "
+                "by another node that took its name. Run the set-up cell with join() again: it begins anew."
+            )
 
-
-OVER = (
-    "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting rospy.spin(), or by another "
-    "node that took its name. rospy cannot begin again in one process: restart the kernel, and run the cells again."
-)

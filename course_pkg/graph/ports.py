@@ -17,8 +17,10 @@ def family(pid: int) -> list[int]:
     return [pid, *descendants(pid)]
 
 
-def listening_ports(pids: Iterable[int]) -> frozenset[int]:
-    """Return the TCP ports on which these processes listen; empty where there is no /proc."""
+def listening_ports(pids: Iterable[int]) -> frozenset[int] | None:
+    """Return the TCP ports on which these processes listen, or None where there is no /proc to tell."""
+    if not Path("/proc/net/tcp").exists():
+        return None
     mine = {inode for pid in pids for inode in _sockets(pid)}
     return frozenset(port for inode, port in _listeners() if inode in mine)
 

@@ -122,7 +122,7 @@ class NodeProcess:
         if uri is None:
             return False
         ports = listening_ports(family(self.pid))
-        if ports and port_of(uri) not in ports:
+        if ports is not None and port_of(uri) not in ports:
             return False
         probe = service_probe(name, uri)
         ask_all([probe], timeout=1.0)
@@ -130,7 +130,7 @@ class NodeProcess:
 
     def _registered(self) -> tuple[dict[str, str], dict[str, str]]:
         """Return the nodes and the services of this process with their addresses, told by their ports."""
-        ports = listening_ports(family(self.pid))
+        ports = listening_ports(family(self.pid)) or frozenset()
         try:
             master = MasterClient(master_uri())
             state = master.system_state()

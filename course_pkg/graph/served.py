@@ -43,8 +43,7 @@ class Served:
         self._printed = Printed()
         self._output = output
         self._impl = ServiceImpl(name, cls, self._answer, error_handler=self._failed)
-        self._node = rospy.get_name()
-        self._node_uri = rospy.get_node_uri()
+        self._wanted = True
 
     @property
     def name(self) -> str:
@@ -81,7 +80,7 @@ class Served:
             before = manager.map.get(self.name)
             manager.map[self.name] = self._impl
         try:
-            master.register_service(self._node, self.name, self._impl.uri, self._node_uri)
+            master.register_service(rospy.get_name(), self.name, self._impl.uri, rospy.get_node_uri())
         except BaseException:
             with manager.lock:
                 manager.map.pop(self.name)
@@ -93,12 +92,20 @@ class Served:
 
     def stop(self) -> None:
         """End the service and withdraw it from the master; a second stop changes nothing."""
+        self._wanted = False
         manager = get_service_manager()
         with manager.lock:
             if self.stopped:
                 return
             del manager.map[self.name]
-        MasterClient(master_uri()).unregister_service(self._node, self.name, self._impl.uri)
+        MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self._impl.uri)
+
+    def renew(self, master: MasterClient) -> None:
+        """Serve again in a rospy that has begun anew, if nobody has stopped it."""
+        if self._wanted:
+            cls = self._impl.service_class
+            self._impl = ServiceImpl(self.name, cls, self._answer, error_handler=self._failed)
+            self.start(master)
 
     def __enter__(self) -> Served:
         return self
@@ -112,7 +119,11 @@ class Served:
         return f"<{self.name} of type {self.type}, {'stopped' if self.stopped else 'served'}>"
 
     def _relieve(self, before: ServiceImpl) -> None:
-        """Have connections that clients keep to the predecessor answered as this service answers."""
+        """Have connections that clients keep to the predecessor answered as this service answers.
+
+        Its address is spoilt: its own shutdown() would withdraw whatever is registered there, which is this service.
+        """
+        before.uri = "rosrpc://replaced:0"
         same = before.service_class._md5sum == self._impl.service_class._md5sum
         before.handler = self._answer if same else self._replaced
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import socket
 import sys
@@ -13,7 +12,7 @@ import pytest
 from course_pkg.graph import Leash, MasterClient, NodeProcess, PrivateMaster
 from course_pkg.graph.ports import family, listening_ports
 from tests.kernel import Kernel
-from tests.support import eventually
+from tests.support import eventually, process_state, stopped
 
 EVERYTHING = """
 from course_pkg.graph import join
@@ -28,15 +27,7 @@ result = node.master
 
 def gone(pids: list[int]) -> bool:
     """Whether none of the processes is left; one that only waits to be collected counts as gone."""
-    return not [pid for pid in pids if os.path.exists(f"/proc/{pid}") and state(pid) != "Z"]
-
-
-def state(pid: int) -> str:
-    """Return the letter for the state of a process."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
-        return "Z"
+    return all(process_state(pid) == "Z" for pid in pids)
 
 
 def port_is_free(uri: str) -> bool:
@@ -130,14 +121,15 @@ def test_stopped_node_is_ended(master: PrivateMaster) -> None:
     """A node that is stopped by SIGSTOP ends when it is told to, and takes its registrations along."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry")
-        os.kill(server.pid, signal.SIGSTOP)
+        with stopped(server.pid):
+            server.stop()
     assert MasterClient(master.uri).lookup_service("/getGeometry") is None
 
 
 def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
     """No socket of a kernel, its master, its nodes or a launch listens anywhere but on 127.0.0.1."""
     kernel.run(EVERYTHING)
-    ports = listening_ports(family(kernel.pid))
+    ports = listening_ports(family(kernel.pid)) or frozenset()
     assert len(ports) >= 7
     tables = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
     listeners = [line.split()[1].split(":") for line in tables.splitlines() if " 0A " in line]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import socket
 import sys
 from collections.abc import Iterator
@@ -14,7 +13,7 @@ import pytest
 from course_pkg.graph import MasterClient, PrivateMaster
 from course_pkg.graph.processes import NodeProcess
 from tests.kernel import Kernel
-from tests.support import eventually
+from tests.support import eventually, stopped
 
 CALL = """
 from std_srvs.srv import Trigger
@@ -78,16 +77,6 @@ def registered(name: str, uri: str) -> Iterator[None]:
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
     master.unregister_service("/pretender", name, uri)
-
-
-@contextmanager
-def stopped(pid: int) -> Iterator[None]:
-    """A process that is stopped by SIGSTOP, and goes on afterwards."""
-    os.kill(pid, signal.SIGSTOP)
-    try:
-        yield
-    finally:
-        os.kill(pid, signal.SIGCONT)
 
 
 def times_out(kernel: Kernel, name: str) -> str:

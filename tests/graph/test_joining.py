@@ -1,0 +1,291 @@
+"""A kernel becomes a node, stays one however often its cells run, and comes back when its master was lost."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from course_pkg.graph import MasterClient, PrivateMaster, look
+from tests.kernel import Kernel
+from tests.support import eventually, stopped
+
+JOIN = "from course_pkg.graph import join\nnode = join('student')"
+
+
+def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
+    """The set-up cell gives the same node each time, and the kernel is registered once."""
+    kernel.run(JOIN)
+    assert kernel.run("result = join('student') is node, node.name, repr(node)") == [True, "/student", "<node /student>"]
+
+
+def test_private_master_where_none_is_named() -> None:
+    """Without ROS_MASTER_URI a kernel starts a master of its own, and its tools find it."""
+    with Kernel({"ROS_MASTER_URI": None}) as kernel:
+        kernel.run(JOIN)
+        names = "import subprocess; result = subprocess.check_output(['rosnode', 'list'], text=True).split()"
+        assert kernel.run(names) == ["/student"]
+
+
+@pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
+def test_malformed_uri(uri: str) -> None:
+    """A malformed ROS_MASTER_URI is named at once, with what is right; corrected, the kernel joins."""
+    with Kernel({"ROS_MASTER_URI": uri}) as kernel:
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MalformedMasterUri"
+        assert repr(uri) in reply.words
+        assert "http://localhost:11311" in reply.words
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']")
+        assert kernel.run(JOIN + "; result = node.name") == "/student"
+
+
+def test_nobody_at_the_uri() -> None:
+    """A dead address is named at once, and the kernel can join when it is corrected."""
+    with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MasterUnreachable"
+        assert "http://localhost:1" in reply.words
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']")
+        assert kernel.run(JOIN + "; result = node.name") == "/student"
+
+
+def test_mute_at_the_uri() -> None:
+    """An address that takes connections and says nothing costs two seconds."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        with Kernel({"ROS_MASTER_URI": f"http://localhost:{listener.getsockname()[1]}"}) as kernel:
+            kernel.run("from course_pkg.graph import join")
+            reply = kernel.ask(JOIN)
+            assert reply.error == "MasterSilent"
+            assert reply.took < 4
+
+
+def test_another_program_at_the_uri(tmp_path: Path) -> None:
+    """A web server is not taken for a master."""
+    command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
+        assert web.stdout is not None
+        port = web.stdout.readline().split(b"port ")[1].split()[0].decode()
+        with Kernel({"ROS_MASTER_URI": f"http://localhost:{port}"}) as kernel:
+            assert kernel.ask(JOIN).error == "NotAMaster"
+        web.terminate()
+
+
+def test_two_kernels_with_one_name(kernel: Kernel) -> None:
+    """The second is told that the name is taken, and the first one lives on."""
+    kernel.run(JOIN)
+    with Kernel() as second:
+        reply = second.ask(JOIN)
+        assert reply.error == "NodeNameTaken"
+        assert "/student" in reply.words
+        assert second.run("node = join('student_2'); result = node.name") == "/student_2"
+    assert kernel.run("import rospy; result = rospy.is_shutdown()") is False
+
+
+def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
+    """A kernel that is started again after SIGKILL takes its name, and nothing of its former life is left."""
+    former = Kernel()
+    former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
+    former.kill()
+    former.exit()
+    with Kernel() as kernel:
+        kernel.run(JOIN)
+        assert "/former" not in MasterClient(master.uri).system_state().services
+
+
+def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
+    """One process is one node: a second name is refused, and the node is as it was."""
+    kernel.run(JOIN)
+    reply = kernel.ask("join('other')")
+    assert reply.error == "NotJoined"
+    assert "join('student')" in reply.words
+    assert kernel.run("result = node.name") == "/student"
+
+
+@pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
+def test_illegal_name(kernel: Kernel, name: str) -> None:
+    """A name that ROS does not take is refused before anything is started."""
+    assert kernel.ask(f"from course_pkg.graph import join\njoin({name!r})").error == "NotJoined"
+
+
+def test_joining_on_a_thread_spoils_nothing(kernel: Kernel) -> None:
+    """join() on a thread is refused before rospy has seen it, so that the main thread can still join."""
+    kernel.run("""
+        import threading
+        from course_pkg.errors import NotJoined
+        from course_pkg.graph import join
+        result = []
+        def attempt():
+            try:
+                join("student")
+            except NotJoined as error:
+                result.append(str(error))
+        thread = threading.Thread(target=attempt)
+        thread.start()
+        thread.join()
+        assert result, "not refused"
+        node = join("student")
+    """)
+
+
+def test_private_master_killed() -> None:
+    """When its own master was killed, the set-up cell starts another, and services and topics are there again."""
+    with Kernel({"ROS_MASTER_URI": None}) as kernel:
+        kernel.run(JOIN)
+        uri = kernel.run("""
+            import rospy
+            from std_msgs.msg import UInt32
+            from std_srvs.srv import Trigger
+            node.serve("/served", Trigger, lambda request: (True, "here"))
+            raw = rospy.Service("/raw", Trigger, lambda request: (True, "raw"))
+            publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
+            publisher.publish(7)
+            heard = node.subscribe("/numbers", UInt32)
+            heard.wait(1)
+            result = node.master
+        """)
+        os.kill(MasterClient(uri).pid(), signal.SIGKILL)
+        reply = kernel.ask("node.call('/served', Trigger)")
+        assert (reply.error, reply.words) == ("ServiceException", "unable to contact master")
+        assert kernel.ask("node.serve('/more', Trigger, print)").error == "MasterUnreachable"
+        assert kernel.ask("node.subscribe('/more', UInt32)").error == "MasterUnreachable"
+        kernel.run("node = join('student')")
+        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == ["here", "raw"]
+        seen = look(uri)
+        assert [topic.name for topic in seen.topics if topic.subscribers] == ["/numbers"]
+        assert [topic.name for topic in seen.topics if topic.publishers] == ["/numbers", "/rosout"]
+        assert kernel.run("raw2 = rospy.Service('/raw2', Trigger, lambda r: (True, '2'))\n"
+                          "result = node.call('/raw2', Trigger).message") == "2"
+
+
+def test_shared_master_restarted() -> None:
+    """When a shared master was started again, the set-up cell registers what it has forgotten."""
+    with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
+        kernel.run(JOIN)
+        kernel.run("from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))")
+        master.stop()
+        assert kernel.ask("join('student')").error == "MasterUnreachable"
+        with PrivateMaster(master.port):
+            kernel.run("join('student')")
+            assert kernel.run("result = node.call('/served', Trigger).message") == "here"
+
+
+def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
+    """While the master is stopped, each thing that needs it fails within its deadline, and works afterwards."""
+    kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
+    with stopped(master.pid):
+        for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
+            reply = kernel.ask(cell)
+            assert reply.error == "MasterSilent", (cell, reply)
+            assert reply.took < 4
+    kernel.run("node.serve('/x', Trigger, print)")
+
+
+def test_exit_while_the_master_is_stopped(master: PrivateMaster) -> None:
+    """A kernel ends in bounded time although its master does not answer."""
+    kernel = Kernel()
+    kernel.run(JOIN)
+    with stopped(master.pid):
+        kernel.exit(patience=12)
+
+
+def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
+    """leave() takes everything off the graph and ends every process; join() comes back."""
+    kernel.run(JOIN + """
+from std_srvs.srv import Trigger
+from std_msgs.msg import UInt32
+node.serve("/mine", Trigger, lambda request: (True, "here"))
+node.subscribe("/numbers", UInt32)
+server = node.run("course_pkg", "server")
+server.wait_for_service("/getGeometry")
+node.leave()
+result = server.running
+""")
+    assert MasterClient(master.uri).system_state().nodes == ()
+    kernel.run("node = join('student'); node.serve('/mine', Trigger, lambda request: (True, 'again'))")
+    assert kernel.run("result = node.call('/mine', Trigger).message") == "again"
+
+
+def test_leaving_is_prompt(kernel: Kernel) -> None:
+    """Neither leave() nor the end of the process waits for rospy's threads to notice."""
+    kernel.run(JOIN)
+    assert kernel.ask("node.leave()").took < 0.3
+    started = time.monotonic()
+    kernel.exit()
+    assert time.monotonic() - started < 2
+
+
+def test_root_logger_is_left_alone(kernel: Kernel) -> None:
+    """Joining takes no handler from the root logger and adds none, and sends no other library's words to ROS."""
+    assert kernel.run("""
+        import logging
+        logging.basicConfig(level=logging.ERROR)
+        before = logging.getLogger().handlers[:]
+        from course_pkg.graph import join
+        join("student")
+        root = logging.getLogger()
+        result = root.handlers == before, root.level == logging.ERROR
+    """) == [True, True]
+
+
+def test_log_of_a_handler_stays_out_of_the_cell(master: PrivateMaster) -> None:
+    """What rospy logs on a handler's thread goes to the node's file; what the cell itself logs is printed."""
+    kernel = Kernel()
+    kernel.run(JOIN + """
+import rospy
+from std_srvs.srv import Trigger
+raw = rospy.Service("/raw", Trigger, lambda request: rospy.logerr("from the handler") or 1 / 0)
+try:
+    node.call("/raw", Trigger)
+except rospy.ServiceException:
+    pass
+rospy.loginfo("from the cell")
+""")
+    log = Path(os.environ["ROS_LOG_DIR"]) / "student.log"
+    eventually(lambda: "division by zero" in log.read_text())
+    printed = kernel.exit()
+    assert "from the cell" in printed
+    assert "from the handler" not in printed
+    assert "division by zero" not in printed
+    assert "from the handler" in log.read_text()
+
+
+SPIN = """
+import os, signal, threading
+threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+rospy.spin()
+"""
+
+
+@pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
+def test_node_that_was_shut_down_begins_anew(kernel: Kernel, master: PrivateMaster, how: str) -> None:
+    """After a shutdown, an interrupted rospy.spin() too, everything says so, and the set-up cell brings it all back."""
+    kernel.run(JOIN + """
+import rospy
+from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
+served = node.serve("/served", Trigger, lambda request: (True, "here"))
+heard = node.subscribe("/numbers", UInt32)
+""")
+    kernel.run(how)
+    assert kernel.run("result = rospy.is_shutdown()") is True
+    for cell in ("node.serve('/x', Trigger, print)", "node.run('course_pkg', 'server')"):
+        reply = kernel.ask(cell)
+        assert reply.error == "NotJoined"
+        assert "Run the set-up cell" in reply.words
+    assert kernel.run("result = join('student') is node, rospy.is_shutdown()") == [True, False]
+    assert kernel.run("result = node.call('/served', Trigger).message, len(served.calls)") == ["here", 1]
+    kernel.run("""
+        publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
+        publisher.publish(7)
+        assert heard.wait(1)[0].data == 7
+        raw = rospy.Service("/raw", Trigger, lambda request: (True, "raw"))
+        assert node.call("/raw", Trigger).message == "raw"
+    """)
+    kernel.exit()
+    assert MasterClient(master.uri).system_state().nodes == ()

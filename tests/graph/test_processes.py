@@ -1,0 +1,127 @@
+"""Nodes as processes: found, waited for, and ended with their registrations."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+
+import pytest
+
+from course_pkg.errors import GraphError, NodeFailed, UnknownExecutable
+from course_pkg.graph import MasterClient, NodeProcess, PrivateMaster
+from tests.kernel import Kernel
+
+pytestmark = pytest.mark.usefixtures("master")
+
+
+@pytest.mark.parametrize(
+    ("package", "program", "told"),
+    [
+        ("no_such_package", "server", "no package 'no_such_package'"),
+        ("course_pkg", "sever", "Did you mean 'server'?"),
+        ("course_pkg", "zzz", "pulse, server."),
+    ],
+)
+def test_missing_program(package: str, program: str, told: str) -> None:
+    """A package or a program that is not there is named at once, with what is there."""
+    with pytest.raises(UnknownExecutable) as error:
+        NodeProcess.rosrun(package, program)
+    assert told in str(error.value)
+
+
+def test_command_that_cannot_be_started() -> None:
+    """A command that does not exist is an error of the call, and leaves no process."""
+    with pytest.raises(GraphError, match="No such file"):
+        NodeProcess(["/no/such/command"])
+
+
+def test_output_is_kept() -> None:
+    """What a node prints, to stdout and stderr, is there while it runs and after it has ended."""
+    with NodeProcess([sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]) as process:
+        assert process.wait(5) == 0
+        assert sorted(process.output().split()) == ["err", "out"]
+    assert "out" in process.output()
+
+
+def test_waiting_fails_fast_when_the_node_dies() -> None:
+    """Waiting for a service of a process that ends is over when it ends, and shows the end of its output."""
+    with NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process:
+        started = time.monotonic()
+        with pytest.raises(NodeFailed, match="no luck today") as error:
+            process.wait_for_service("/never", timeout=20)
+        assert time.monotonic() - started < 5
+        assert error.value.returncode == 1
+
+
+def test_waiting_has_a_limit() -> None:
+    """Waiting for a service that never comes is over after the time given, and the process goes on."""
+    with NodeProcess.rosrun("course_pkg", "pulse") as process:
+        with pytest.raises(NodeFailed, match="after 0.2 s"):
+            process.wait_for_service("/never", timeout=0.2)
+        assert process.running
+
+
+def test_waiting_is_for_this_process(kernel: Kernel) -> None:
+    """A name that another node serves already does not count: the wait is for this process to serve it."""
+    kernel.run("""
+        from course_pkg.srv import geometry
+        from course_pkg.graph import join
+        node = join("first")
+        node.serve("/contested", geometry, lambda request: (-1, -1))
+        other = node.run("course_pkg", "server", "getGeometry:=/contested")
+        other.wait_for_service("/contested")
+        assert node.call("/contested", geometry, 1, 2, 3).area == 2
+    """)
+
+
+def test_stopping_withdraws(master: PrivateMaster) -> None:
+    """A process that was stopped is off the graph when stop() returns, also if it had to be killed."""
+    ignore = "import signal; signal.signal = lambda *_: None; import rospy; rospy.init_node('deaf', disable_signals=True)"
+    deaf = f"import signal as s\nfor n in (2, 15): s.signal(n, s.SIG_IGN)\n{ignore}\nimport threading; threading.Event().wait()"
+    client = MasterClient(master.uri)
+    process = NodeProcess([sys.executable, "-c", deaf])
+    process.wait_for_service("/deaf/get_loggers")
+    process.stop(grace=0.2)
+    assert not process.running
+    assert client.system_state().nodes == ()
+    process.stop()
+
+
+def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
+    """kill() is SIGKILL and nothing else, so that what it leaves can be studied; the next of the name takes over."""
+    process = NodeProcess.rosrun("course_pkg", "server")
+    process.wait_for_service("/getGeometry")
+    process.kill()
+    assert process.returncode == -signal.SIGKILL
+    assert MasterClient(master.uri).lookup_service("/getGeometry") is not None
+    with NodeProcess.rosrun("course_pkg", "server") as successor:
+        successor.wait_for_service("/getGeometry")
+    assert MasterClient(master.uri).lookup_service("/getGeometry") is None
+
+
+def test_running_again_replaces(kernel: Kernel) -> None:
+    """A cell that runs a node, run again, ends the former process; another name is another process."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("student")
+        first = node.run("course_pkg", "server")
+        first.wait_for_service("/getGeometry")
+        second = node.run("course_pkg", "server")
+        second.wait_for_service("/getGeometry")
+        third = node.run("course_pkg", "server", "getGeometry:=/third", name="third")
+        third.wait_for_service("/third")
+        assert (first.running, second.running, third.running) == (False, True, True)
+        assert (repr(first), repr(third)) == ("<course_pkg/server, ended>", "<third, running>")
+    """)
+
+
+def test_launch_file() -> None:
+    """roslaunch runs with its nodes, and its nodes end with it."""
+    with NodeProcess.roslaunch("course_pkg", "geometry.launch", "client:=true") as process:
+        process.wait_for_service("/getGeometry")
+        deadline = time.monotonic() + 10
+        while "volume: 55.536" not in process.output() and time.monotonic() < deadline:
+            os.sched_yield()
+        assert "area: 6.24" in process.output()
