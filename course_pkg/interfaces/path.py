@@ -84,7 +84,7 @@ def unknown(name: str, half: Half) -> UnknownType:
     package, short = split(name)
     what = "service" if half == "srv" else "message"
     known = list_types(half)
-    of_package = [each for each in known if each.startswith(f"{package}/")]
+    of_package = [each.rpartition("/")[2] for each in known if each.startswith(f"{package}/")]
     if close := closest(name, known):
         advice = f"did you mean {' or '.join(close)}?"
     elif of_package:
@@ -111,7 +111,14 @@ def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
         if likeness:
             return sorted(likeness)[:count]
     lower = {each.lower(): each for each in names}
-    return [lower[each] for each in difflib.get_close_matches(name.lower(), lower, n=count, cutoff=0.75)]
+    near = difflib.get_close_matches(name.lower(), lower, n=len(lower) or 1, cutoff=0.75)
+    # A long name of a package makes all its types alike; what counts is the type's own.
+    alike = [each for each in near if _likeness(short, each.rpartition("/")[2]) >= 0.65]
+    return [lower[each] for each in alike[:count]]
+
+
+def _likeness(one: str, other: str) -> float:
+    return difflib.SequenceMatcher(None, one, other).ratio()
 
 
 def _each_folder(

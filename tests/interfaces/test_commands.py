@@ -1,0 +1,162 @@
+"""The commands are those that one would type, and they work where they are pasted."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import FieldError
+from course_pkg.graph import PrivateMaster
+from course_pkg.interfaces import compile_service, rospy_line, rosservice_line, service_type
+from tests.interfaces.drawing import AWKWARD
+from tests.kernel import Kernel
+
+
+def line(text: str, **values: object) -> str:
+    """Return the shell line for a request of the given definition."""
+    return rosservice_line("/x", compile_service("course_pkg/Demo", f"{text}\n---\n"), values)
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "expected"),
+    [
+        ("", {}, "rosservice call /x"),
+        ("float32 a\nfloat32 b", {"a": 1.2, "b": 5.2}, "rosservice call /x 1.2 5.2"),
+        ("float32 a\nint8 b", {"a": -1.0, "b": 2}, "rosservice call /x -- -1.0 2"),
+        ("float64 a", {"a": 1e20}, "rosservice call /x 1.0e+20"),
+        ("bool a\nstring b", {"a": True, "b": "hello"}, "rosservice call /x true hello"),
+        ("string a", {"a": "two words"}, "rosservice call /x 'two words'"),
+        ("string a", {"a": "yes"}, "rosservice call /x '\"yes\"'"),
+        ("string a", {"a": ""}, "rosservice call /x ''"),
+        ("string a", {"a": "a:=b"}, "rosservice call /x '\"a:\\x3Db\"'"),
+        ("int8[] a", {"a": [1, 2]}, "rosservice call /x '{a: [1, 2]}'"),
+        ("time a", {"a": {"secs": 1, "nsecs": 2}}, "rosservice call /x '{a: {secs: 1, nsecs: 2}}'"),
+        ("int8[] on", {"on": [1]}, "rosservice call /x '{\"on\": [1]}'"),
+    ],
+)
+def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expected: str) -> None:
+    """Scalars stand alone, anything else makes one dict of it, and what YAML would misread is quoted."""
+    assert line(text, **values) == expected
+
+
+def test_bash_hands_on_what_was_meant() -> None:
+    """The shell gives rosservice one argument for each field, on one line, with no byte changed."""
+    fields = "\n".join(f"string f{index}" for index in range(len(AWKWARD)))
+    command = line(fields, **{f"f{index}": text for index, text in enumerate(AWKWARD)})
+    assert "\n" not in command
+    shown = subprocess.run(
+        ["bash", "-c", f"rosservice() {{ echo $#; }}; {command}"], capture_output=True, check=True
+    )
+    assert int(shown.stdout) == len(["call", "/x", "--", *AWKWARD])
+
+
+def test_values_that_do_not_fit_make_no_command() -> None:
+    """A command is never made of values that the service refuses."""
+    with pytest.raises(FieldError, match="length"):
+        rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
+
+
+def test_python_is_written_as_a_person_would() -> None:
+    """Imports, the proxy, and one call with keyword arguments."""
+    values = {"length": 1.2, "width": 5.2, "height": 8.9}
+    assert rospy_line("/getGeometry", service_type("course_pkg/geometry"), values) == (
+        "import rospy\n"
+        "from course_pkg.srv import geometry\n"
+        "\n"
+        'call = rospy.ServiceProxy("/getGeometry", geometry)\n'
+        "response = call(length=1.2, width=5.2, height=8.9)"
+    )
+
+
+def test_python_keeps_types_of_one_name_apart() -> None:
+    """A message type with the short name of the service is written with its package."""
+    kind = compile_service("course_pkg/Point", "geometry_msgs/Point p\n---\n")
+    lines = rospy_line("/x", kind, kind.request.default())
+    assert "import geometry_msgs.msg\n" in lines
+    assert "call(p=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0))" in lines
+
+
+def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
+    """Types that are not built come from their texts, those of parts too."""
+    assert packages.is_dir()
+    kind = service_type("raw_pkg/Pack")
+    value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
+    lines = rospy_line("/x", kind, value)
+    names: dict[str, object] = {}
+    exec(lines.rpartition("\nresponse")[0], names)  # noqa: S102 - that they run is what is tested
+    assert {"Pack", "Crate", "Part"} <= set(names)
+
+
+SERVER = """
+import rospy
+from odd_pkg.srv import Everything, EverythingResponse, Scalars, ScalarsResponse
+from course_pkg.interfaces import compile_service, service_type
+rospy.init_node("odd", disable_signals=True)
+heard = []
+def keep(response):
+    def handler(request):
+        heard.append(service_type("odd_pkg/" + type(request).__name__[:-7]).request.to_values(request))
+        return response
+    return handler
+services = [
+    rospy.Service("/everything", Everything, keep(EverythingResponse())),
+    rospy.Service("/scalars", Scalars, keep(ScalarsResponse("well"))),
+]
+"""
+
+
+@pytest.fixture
+def server(packages: Path, master: PrivateMaster) -> Iterator[Kernel]:
+    """Run a node that serves the built types and keeps what it is asked."""
+    assert packages.is_dir()
+    assert master.running
+    with Kernel() as kernel:
+        kernel.run(SERVER)
+        yield kernel
+
+
+def shell(command: str) -> str:
+    """Run a line in bash, and return what it printed."""
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_lines_call_a_living_service(server: Kernel) -> None:
+    """Shell line and Python lines, run by bash and Python, bring the very values to a server."""
+    scalars, everything = service_type("odd_pkg/Scalars"), service_type("odd_pkg/Everything")
+    one = {"a": -1.5, "b": -7, "c": True, "d": "it's 'yes': a:=b\n$HOME 🐢", "e": 2**64 - 1}
+    many = {
+        **everything.request.default(),
+        # Whatever seq is asked for, rospy counts the calls of the process in it.
+        "header": {"seq": 1, "stamp": {"secs": 1, "nsecs": 5}, "frame_id": "map"},
+        "data": [0, 255],
+        "signed": [-128, 127],
+        "names": ["no", "1.0", "", "a, b"],
+        "times": [{"secs": 4, "nsecs": 5}],
+        "waited": {"secs": -1, "nsecs": 5},
+        "parts": [{"size": 0.1, "label": "{x}"}],
+    }
+    assert "well" in shell(rosservice_line("/scalars", scalars, one))
+    shell(rosservice_line("/everything", everything, many))
+    python = rospy_line("/everything", everything, many)
+    subprocess.run([sys.executable, "-c", python], env=os.environ, timeout=60, check=True)
+    assert server.run("result = heard") == [one, many, many]
+
+
+def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
+    """On both sides, rospy takes a class made from text; its md5 is that of the built one."""
+    told = server.run("""
+text = service_type("odd_pkg/Scalars").text
+compiled = compile_service("odd_pkg/Scalars", text).cls
+services[1].shutdown()
+again = rospy.Service("/again", compiled, lambda request: (request.d * 2,))
+result = rospy.ServiceProxy("/again", Scalars)(d="ab").told
+result += rospy.ServiceProxy("/again", compiled)(d="cd").told
+""")
+    assert told == "ababcdcd"
