@@ -21,7 +21,7 @@ from genpy.generator import make_python_safe, msg_generator
 from course_pkg.errors import BrokenDefinition
 from course_pkg.interfaces.definition import lines, unix
 from course_pkg.interfaces.diagnosis import validate
-from course_pkg.interfaces.path import Half, built_class, definition_file, split
+from course_pkg.interfaces.path import Half, built_class, definition_file, read_definition, split
 
 # genpy's generator keeps its state in module globals.
 _GENERATOR = Lock()
@@ -94,7 +94,6 @@ class _Generation:
     def message(self, spec: Any, source: str) -> Any:  # noqa: ANN401 - a specification to a class
         """Return the class of a loaded message."""
         full_text = compute_full_text(self.context, spec)
-        constants = make_python_safe(spec).constants
         try:
             namespace = {"__name__": f"{spec.package}.msg", **self._packages()}
             exec(compile(self._code(spec), f"<{spec.full_name}>", "exec"), namespace)  # noqa: S102 - genpy's code
@@ -103,15 +102,16 @@ class _Generation:
         cls: Any = namespace[spec.short_name]
         cls._full_text = full_text
         cls._dependencies = self.classes
-        for constant in constants:
+        for constant in make_python_safe(spec).constants:
             setattr(cls, constant.name, constant.val)
         return cls
 
     def _code(self, spec: Any) -> str:  # noqa: ANN401 - a genmsg specification
-        """Return genpy's code for a message, without what it copies in and what it imports."""
+        """Return genpy's code for a message, without imports, and without what genpy copies in unescaped."""
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))
-        return "\n".join(piece for piece in pieces if not _IMPORT.fullmatch(piece))
+        copied = ("  _full_text = ", *(f"  {each.name} = " for each in make_python_safe(spec).constants))
+        return "\n".join(each for each in pieces if not (_IMPORT.fullmatch(each) or each.startswith(copied)))
 
     def _packages(self) -> dict[str, SimpleNamespace]:
         """Return what the code knows as `geometry_msgs`, with its `msg.Point`."""
@@ -143,7 +143,7 @@ class _Generation:
 
     def _text(self, name: str) -> tuple[str, str]:
         if file := definition_file(name, "msg", self._finder):
-            return file.read_text(), str(file)
+            return read_definition(file), str(file)
         own: str = built_class(name, "msg")._full_text.split("\n" + "=" * 80 + "\n")[0]
         return own, f"{name}.msg"
 

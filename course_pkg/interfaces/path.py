@@ -57,6 +57,11 @@ def definition_file(name: str, half: Half, finder: rospkg.RosPack | None = None)
     return None
 
 
+def read_definition(file: Path) -> str:
+    """Return the text of a definition; a byte that is no UTF-8 becomes a mark, as in old comments."""
+    return file.read_text(encoding="utf-8", errors="replace")
+
+
 def list_service_types(package: str | None = None) -> list[str]:
     """Return the names of all service types on ROS_PACKAGE_PATH, or of one package's, sorted."""
     return list_types("srv", package)

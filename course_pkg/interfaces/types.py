@@ -14,7 +14,7 @@ from course_pkg.errors import UnknownType
 from course_pkg.interfaces.compile import compiled_message, compiled_service, dependency
 from course_pkg.interfaces.definition import comments
 from course_pkg.interfaces.fields import Constant, Field, Kind, TextTree, Value, builtin_field
-from course_pkg.interfaces.path import built_class, definition_file, unknown
+from course_pkg.interfaces.path import built_class, definition_file, read_definition, unknown
 from course_pkg.interfaces.text import read_fields, show
 from course_pkg.interfaces.values import build, check_fields, default
 
@@ -31,9 +31,9 @@ class MessageType:
 
     name: str
     md5: str
-    text: str
-    fields: tuple[Field, ...]
-    constants: tuple[Constant, ...] = ()
+    text: str = field(repr=False)
+    fields: tuple[Field, ...] = field(repr=False)
+    constants: tuple[Constant, ...] = field(default=(), repr=False)
     cls: Any = field(default=None, repr=False, compare=False)
     help: str = field(default="", repr=False, compare=False)
 
@@ -80,9 +80,9 @@ class ServiceType:
 
     name: str
     md5: str
-    text: str
-    request: MessageType
-    response: MessageType
+    text: str = field(repr=False)
+    request: MessageType = field(repr=False)
+    response: MessageType = field(repr=False)
     cls: Any = field(default=None, repr=False, compare=False)
     built: bool = field(default=True, compare=False)
 
@@ -100,7 +100,7 @@ def service_type(type_or_name: Any) -> ServiceType:  # noqa: ANN401 - a name or 
     if cls := built_class(type_or_name, "srv"):
         return _service(cls)
     if file := definition_file(type_or_name, "srv"):
-        return _service(compiled_service(type_or_name, file.read_text(), str(file)))
+        return _service(compiled_service(type_or_name, read_definition(file), str(file)))
     raise unknown(type_or_name, "srv")
 
 
@@ -117,7 +117,7 @@ def message_type(type_or_name: Any) -> MessageType:  # noqa: ANN401 - a name or 
     if cls := built_class(name, "msg"):
         return _message(cls)
     if file := definition_file(name, "msg"):
-        return _message(compiled_message(name, file.read_text(), str(file)))
+        return _message(compiled_message(name, read_definition(file), str(file)))
     raise unknown(name, "msg")
 
 

@@ -78,6 +78,20 @@ def test_a_part_that_changed_since_its_build_is_taken_as_it_is_now(
     assert [each.name for each in kind.request.fields[0].fields] == ["size", "label", "added"]
 
 
+def test_what_a_build_accepts_is_accepted_from_a_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What genmsg lets through counts on the path: names get an underscore, separators may repeat."""
+    text = 'string from  # "quoted\\xzz"\nstring PATH=C:\\new\\\nstring in="\n----\nint8 x\n---\nint8 y\n'
+    package(tmp_path, "lax_pkg", Lax_srv=text)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
+    kind = service_type("lax_pkg/Lax")
+    assert [field.name for field in (*kind.request.fields, *kind.response.fields)] == ["from_", "x", "y"]
+    assert kind.request.fields[0].help == '"quoted\\xzz"'
+    assert (kind.request.cls.PATH, kind.request.cls.in_) == ("C:\\new\\", '"')
+    assert kind.request.to_message({"from_": "here"}).from_ == "here"
+
+
 def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Messages that contain one another are named in their order, with the line that closes the circle."""
     package(tmp_path, "round_pkg", A_msg="B b\n", B_msg="# back again\nA[] a\n")
