@@ -69,14 +69,20 @@ def doctor(options: SimpleNamespace) -> int:
 
 def sync(options: SimpleNamespace) -> int:
     """Derive the notebooks from the solutions."""
+    from course_pkg.authoring import execute
     from course_pkg.authoring import sync as derive
 
+    if options.execute is not None:
+        execute(options.execute)
     return int(derive(check=options.check))
 
 
 def sync_arguments(parser: ArgumentParser) -> None:
     """Declare what `course sync` takes."""
     parser.add_argument("--check", action="store_true", help="change nothing; say what is out of step")
+    parser.add_argument(
+        "--execute", nargs="*", metavar="CHAPTER", help="first run the solutions of these chapters, or all"
+    )
 
 
 def lock(options: SimpleNamespace) -> int:

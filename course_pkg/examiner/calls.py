@@ -35,11 +35,14 @@ class Reply:
 class Service:
     """A service of the student's; call it with the fields of a request, get the response."""
 
-    def __init__(self, ledger: Ledger, name: str, kind: ServiceClass, hints: Hints, patience: float) -> None:
+    def __init__(
+        self, ledger: Ledger, name: str, kind: ServiceClass, label: str, hints: Hints, patience: float
+    ) -> None:
         self.name = name
         self.kind = kind
         self.took = 0.0  # s, of the last call
         self._ledger = ledger
+        self._label = label  # how rules call it
         self._hints = hints
         self._patience = patience
 
@@ -70,7 +73,7 @@ class Service:
         return self.kind._request_class(*values, **fields)
 
     def _answered(self, reply: Reply) -> Message:
-        rule = f"{self.name} answers"
+        rule = f"{self._label} answers"
         self.took = reply.took
         self._ledger.asked = lambda: command_line(self.name, self.kind, reply.request)
         if reply.error:

@@ -15,6 +15,7 @@ class Draw:
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 -- inputs to try, not secrets
+        self._words: list[str] = []
 
     def number(self, low: float, high: float, *, digits: int = 2) -> float:
         """Return a number between `low` and `high` with at most `digits` digits after the point."""
@@ -47,4 +48,9 @@ class Draw:
 
     def word(self, length: int = 6) -> str:
         """Return a word of lower-case letters."""
-        return "".join(self._random.choices(string.ascii_lowercase, k=length))
+        self._words.append("".join(self._random.choices(string.ascii_lowercase, k=length)))
+        return self._words[-1]
+
+    def made(self, text: str) -> bool:
+        """Return whether a word that was drawn is in `text`: then no rule may show it, for it changes."""
+        return any(word in text for word in self._words)

@@ -92,13 +92,14 @@ class Exam:
         failed call; ROS's own words are explained without them.
         """
         self.doing = f"waiting for {name}"
-        rule = f"{name} is served as {kind}"
+        label = "the service" if self.draw.made(name) else name
+        rule = f"{label} is served as {kind}"
         seen = self._type_of(name, rule)
         if seen != kind:
             hint = f"Serve it with the type that the exercise names: {kind}."
             self._ledger.fails(rule, expected=kind, seen=seen, hint=hint)
         self._ledger.passes(rule)
-        return Service(self._ledger, name, self.service_class(kind), hints, timeout)
+        return Service(self._ledger, name, self.service_class(kind), label, hints, timeout)
 
     def _type_of(self, name: str, rule: str) -> str:
         probe = self._node.probe(name)

@@ -46,12 +46,12 @@ class Rehearsal:
     ) -> None:
         self._process.communicate()  # an end of its input ends it
 
-    def run(self, answer: Answer, source: str | None = None) -> Report:
+    def run(self, answer: Answer, source: str | None = None, seed: int | None = None) -> Report:
         """Run `answer`, or `source` in its place, and return what the check reported."""
         cells = [answer.before, answer.source if source is None else source, answer.after]
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        self._process.stdin.write(json.dumps({"check": answer.check, "cells": cells}) + "\n")
+        self._process.stdin.write(json.dumps({"check": answer.check, "cells": cells, "seed": seed}) + "\n")
         self._process.stdin.flush()
         outcome = json.loads(self._process.stdout.readline() or '{"error": "the rehearsal ended"}')
         if "error" in outcome:
@@ -110,6 +110,8 @@ def _student(job: dict[str, Any], folder: str, writing: int) -> None:
         COURSE_STATE=folder,
         COURSE_EXAMINER=os.path.join(folder, "judge"),
     )
+    if job["seed"] is not None:
+        os.environ["COURSE_SEED"] = str(job["seed"])
     _fork(lambda: _master(port))
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(os.environ["COURSE_EXAMINER"])

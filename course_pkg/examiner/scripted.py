@@ -13,7 +13,6 @@ import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
 
 import genpy
 from rosgraph.network import ROSHandshakeException, read_ros_handshake_header, write_ros_handshake_header

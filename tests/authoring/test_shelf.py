@@ -109,5 +109,5 @@ def test_what_is_no_notebook_is_named(tmp_path: Path) -> None:
     """A file that was cut short is not taken for an empty notebook."""
     (tmp_path / "solutions").mkdir()
     (tmp_path / "solutions" / "05_x.ipynb").write_text('{"cells": [')
-    with pytest.raises(AuthoringError, match="05_x.ipynb is not a notebook"):
+    with pytest.raises(AuthoringError, match=r"05_x\.ipynb is not a notebook"):
         sync(root=tmp_path)

@@ -44,6 +44,15 @@ def test_exercise_left_as_it_is_reads_not_attempted(part: Part, rehearsal: Rehea
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
+def test_a_pass_reads_the_same_whatever_was_drawn(part: Part, rehearsal: Rehearsal) -> None:
+    """The text and the HTML of a pass are stored in the solutions, and nbval compares both."""
+    right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
+    one, other = (rehearsal.run(right, seed=seed) for seed in (1, 2))
+    assert str(one) == str(other)
+    assert one.html() == other.html()
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
 def test_part_has_enough_answers(part: Part) -> None:
     """A part is held to two right answers and to four wrong ones, each with a hint of its own."""
     right = [answer for answer in ANSWERS if answer.check == part.check and answer.right]
