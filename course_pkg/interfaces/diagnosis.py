@@ -118,6 +118,10 @@ class _Diagnosis:
             return self._broken(
                 line, column, "a tab stands between type and name", "write a space: ROS takes nothing else"
             )
+        if first.text.startswith(("//", "/*", "*", ";")):
+            return self._broken(
+                line, first.column, f"{first.text!r} begins no comment here", "write # instead"
+            )
         if len(words) == 1:
             end = first.column + len(first.text)
             return self._broken(
@@ -131,6 +135,11 @@ class _Diagnosis:
             sign = "u" if first.text == "unsigned" else ""
             size = "64" if "long" in whole else "32"
             advice = f"write {sign}int{size} {words[-1].text}"
+        elif len(words) == 3 and words[2].text[:1] in "+-.0123456789":
+            default, constant = words[2].text, words[1].text.upper()
+            advice = (
+                f"write {first.text} {words[1].text}, which begins as 0, or {first.text} {constant}={default}"
+            )
         elif words[1].text.endswith(",") or "," in words[2].text:
             advice = "write one field to a line, without commas"
         elif all(_NAME.fullmatch(word.text) for word in words[1:]):

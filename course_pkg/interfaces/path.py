@@ -116,10 +116,12 @@ def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
         if likeness:
             return sorted(likeness)[:count]
     lower = {each.lower(): each for each in names}
-    near = difflib.get_close_matches(name.lower(), lower, n=len(lower) or 1, cutoff=0.75)
     # A long name of a package makes all its types alike; what counts is the type's own.
-    alike = [each for each in near if _likeness(short, each.rpartition("/")[2]) >= 0.65]
-    return [lower[each] for each in alike[:count]]
+    alike = [each for each in lower if _likeness(short, each.rpartition("/")[2]) >= 0.65]
+    if "/" not in name:
+        shorts = {each.rpartition("/")[2]: lower[each] for each in alike}
+        return [shorts[each] for each in difflib.get_close_matches(short, shorts, n=count, cutoff=0.75)]
+    return [lower[each] for each in difflib.get_close_matches(name.lower(), alike, n=count, cutoff=0.75)]
 
 
 def _likeness(one: str, other: str) -> float:

@@ -157,7 +157,7 @@ def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
     with pytest.raises(FieldError, match="f32: this field is missing"):
         mixed.check(values)
     with pytest.raises(FieldError, match="did you mean header"):
-        mixed.check({**mixed.default(), "haeder": {}})
+        mixed.check({**mixed.default(), "headr": {}})
 
 
 def test_a_string_holds_what_utf_8_holds(mixed: MessageType, refusal: Callable[..., FieldError]) -> None:
