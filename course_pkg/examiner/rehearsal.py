@@ -127,18 +127,22 @@ def _checked(job: dict[str, Any]) -> dict[str, Any]:
 
     names: dict[str, Any] = {"__name__": "__main__"}
     sys.modules["__main__"].__dict__.update(names)
-    for number, cell in enumerate(job["cells"]):
+    before, *others = job["cells"]
+    if words := _run_cell(before, "<cell 0>", names):
+        return {"error": f"the cells before the answer raised {words}"}
+    for number, cell in enumerate(others, 1):
         _run_cell(cell, f"<cell {number}>", names)
     return {"report": check(job["check"], names).as_dict()}
 
 
-def _run_cell(source: str, name: str, names: dict[str, Any]) -> None:
-    """Run a cell as a kernel does: its source can be looked up, and an error in it does not end the run."""
+def _run_cell(source: str, name: str, names: dict[str, Any]) -> str:
+    """Run a cell as a kernel does: its source can be looked up, and its error is returned, not raised."""
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
     try:
         exec(compile(source, name, "exec"), names)  # noqa: S102 -- a cell
     except Exception as error:  # noqa: BLE001 -- whatever the cell raises
-        sys.stderr.write(f"{name}: {type(error).__name__}: {error}\n")
+        return f"{type(error).__name__}: {error}"
+    return ""
 
 
 def _judge(listener: socket.socket) -> None:
