@@ -105,6 +105,9 @@ class _Diagnosis:
 
     def _field(self, line: Line) -> None:
         words = line.words()
+        if words[0].text.startswith(("//", "/*", "*", ";")):
+            problem = f"{words[0].text!r} begins no comment here"
+            raise self._broken(line, words[0].column, problem, "write # instead")
         if len(words) != 2:
             raise self._wrong_count(line, words)
         type_word, name = words
@@ -117,10 +120,6 @@ class _Diagnosis:
             column = first.column + first.text.index("\t")
             return self._broken(
                 line, column, "a tab stands between type and name", "write a space: ROS takes nothing else"
-            )
-        if first.text.startswith(("//", "/*", "*", ";")):
-            return self._broken(
-                line, first.column, f"{first.text!r} begins no comment here", "write # instead"
             )
         if len(words) == 1:
             end = first.column + len(first.text)
