@@ -10,7 +10,7 @@ from course_pkg.examiner import Exam, part, says
     needs=["name_of_node", "name_of_service", "name_of_type"],
 )
 def read_the_graph(exam: Exam) -> None:
-    """Three names, compared with those that the graph has."""
+    """Compare the names with those that the graph has."""
     exam.expect(
         "the name of the node",
         expected="/SERVER_NODE",
@@ -54,7 +54,7 @@ def read_the_graph(exam: Exam) -> None:
     needs=["ask_for_volume"],
 )
 def ask_a_question(exam: Exam) -> None:
-    """Two servers with volumes of their own, so that only asking helps."""
+    """Serve twice, with volumes of their own, so that only asking helps."""
     for _ in range(2):
         name = f"/{exam.draw.word()}"
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
@@ -103,7 +103,7 @@ def ask_a_question(exam: Exam) -> None:
     deadline=25.0,
 )
 def hear_a_stream(exam: Exam) -> None:
-    """A topic of this check's own, that counts from a number nobody can guess."""
+    """Publish on a topic of this check's own, which counts from a number nobody can guess."""
     topic = f"/{exam.draw.word()}"
     first = exam.draw.integer(1000, 9000)
     exam.publish(topic, "std_msgs/UInt32", [{"data": first + number} for number in range(300)], every=0.1)

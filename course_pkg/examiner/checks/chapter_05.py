@@ -20,7 +20,7 @@ MESSAGE = {
     needs=["handle_geometry"],
 )
 def area_and_volume(exam: Exam) -> None:
-    """Three boxes of three different sides each."""
+    """Send three boxes of three different sides each."""
     get_geometry = exam.service("/getGeometry", "course_pkg/geometry")
     for _ in range(3):
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
@@ -34,10 +34,8 @@ def area_and_volume(exam: Exam) -> None:
                 0.0: "The field area was never given a value: a field that is left out is 0.",
                 width + length: "That is width + length. An area is a product.",
                 2 * (width + length): "That is the way around the floor. An area is a product.",
-                width
-                * height: "That is width times height, the front of the box. Its floor is width times length.",
-                length
-                * height: "That is length times height, a side of the box. Its floor is width times length.",
+                width * height: "That is the front of the box, width times height, and not its floor.",
+                length * height: "That is a side of the box, length times height, and not its floor.",
                 width * length * height: "That is the volume. The response has area first, then volume.",
             },
         )
@@ -62,7 +60,7 @@ def area_and_volume(exam: Exam) -> None:
     needs=["Counter"],
 )
 def a_counter_that_resets(exam: Exam) -> None:
-    """A reset first, since the count goes on from whatever earlier calls have left; then two rounds."""
+    """Reset first, since the count goes on from whatever earlier calls have left; then two rounds."""
     count = exam.service("/count", "std_srvs/Trigger")
     reset = exam.service(
         "/reset_count",
@@ -104,7 +102,7 @@ def _is_above(number: int) -> Callable[[str], bool]:
     needs=["handle_checked_geometry"],
 )
 def a_box_that_cannot_be(exam: Exam) -> None:
-    """A good box, a flat one, and then each side negative in turn."""
+    """Send a good box, a flat one, and then each side negative in turn."""
     get_geometry = exam.service(
         "/getGeometryChecked",
         "course_pkg/geometry",

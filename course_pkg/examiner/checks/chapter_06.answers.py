@@ -87,7 +87,7 @@ def is_there(service, seconds):
         return False
     return True
 
-# %% 06.2 wrong: takes None for an answer | hint: its value is no answer
+# %% 06.2 wrong: takes None for an answer | hint: returns nothing when it succeeds
 def is_there(service, seconds):
     try:
         return bool(rospy.wait_for_service(service, timeout=seconds))
