@@ -27,7 +27,7 @@ class Command(NamedTuple):
     summary: str
     run: Callable[[SimpleNamespace], int]
     needs: frozenset[str] = frozenset({"course"})  # and "test"; "libraries" if it imports what is installed
-    arguments: Callable[[ArgumentParser], None] = lambda parser: None
+    arguments: Callable[[ArgumentParser], None] | None = None
     rest: str = ""  # the words after such a command are another program's, and are handed on as they are
 
 
@@ -60,7 +60,7 @@ def test(options: SimpleNamespace) -> int:
     return run_suite(options.rest)
 
 
-def doctor(options: SimpleNamespace) -> int:
+def doctor(_options: SimpleNamespace) -> int:
     """Say what is installed, missing and stale."""
     from course_pkg.provision.doctor import examine
 
@@ -85,7 +85,7 @@ def sync_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def lock(options: SimpleNamespace) -> int:
+def lock(_options: SimpleNamespace) -> int:
     """Pin every library."""
     from course_pkg.provision import Places
     from course_pkg.provision.lock import write_locks
@@ -97,12 +97,24 @@ def lock(options: SimpleNamespace) -> int:
 
 COMMANDS = {
     "lab": Command("start a ROS master and JupyterLab on the first chapter", lab, arguments=lab_arguments),
-    "run": Command("run a command in the environment, with a master of its own", run, rest="COMMAND [ARGUMENT …]"),
-    "test": Command(
-        "run the whole suite: lint, types, spelling, tests", test, frozenset({"course", "test"}), rest="[PYTEST ARGUMENT …]"
+    "run": Command(
+        "run a command in the environment, with a master of its own", run, rest="COMMAND [ARGUMENT …]"
     ),
-    "doctor": Command("say what is installed, missing and stale, and what to do about it", doctor, frozenset()),
-    "sync": Command("derive the students' notebooks from the solutions", sync, frozenset({"course", "libraries"}), sync_arguments),
+    "test": Command(
+        "run the whole suite: lint, types, spelling, tests",
+        test,
+        frozenset({"course", "test"}),
+        rest="[PYTEST ARGUMENT …]",
+    ),
+    "doctor": Command(
+        "say what is installed, missing and stale, and what to do about it", doctor, frozenset()
+    ),
+    "sync": Command(
+        "derive the students' notebooks from the solutions",
+        sync,
+        frozenset({"course", "libraries"}),
+        sync_arguments,
+    ),
     "lock": Command("pin every library that pyproject.toml needs", lock),
 }
 
@@ -141,7 +153,8 @@ def _parser() -> ArgumentParser:
         sub = commands.add_parser(
             name, help=command.summary, description=f"{command.summary.capitalize()}.", usage=usage
         )
-        command.arguments(sub)
+        if command.arguments:
+            command.arguments(sub)
     return parser
 
 
@@ -164,7 +177,7 @@ def _enter_environment(command: Command, words: Sequence[str]) -> None:
     environment.apply(places)
     if "libraries" in command.needs:
         os.environ[INSIDE] = str(places.python)
-        os.execv(places.python, [str(places.python), "-m", "course_pkg.cli", *words])
+        os.execv(places.python, [str(places.python), "-m", "course_pkg.cli", *words])  # noqa: S606
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The master that a command of `course` runs with: the user's own where ROS_MASTER_URI names one, else private."""
+"""The master of a command of `course`: the user's own where ROS_MASTER_URI names one, else a private one."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def master_of_this_command() -> Iterator[None]:
 
 @contextmanager
 def master_coming_up() -> Iterator[Callable[[], object]]:
-    """Put a master's address into ROS_MASTER_URI at once, and yield a function that waits until it answers."""
+    """Set ROS_MASTER_URI to a master's address at once, and yield a function that waits until it answers."""
     if os.environ.get("ROS_MASTER_URI"):
         yield lambda: None
         return

@@ -19,4 +19,6 @@ def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
                 return int(probe.getsockname()[1])
         except (OSError, OverflowError) as error:
             reason = getattr(error, "strerror", None) or str(error)
-    raise PortBusy(f"JupyterLab cannot listen on {ip}:{tried}: {reason}. Leave --port out to get a free port.")
+    raise PortBusy(
+        f"JupyterLab cannot listen on {ip}:{tried}: {reason}. Leave --port out to get a free port."
+    )

@@ -73,9 +73,7 @@ def _stopping_on_signals() -> Iterator[None]:
 
 
 @contextmanager
-def _server(
-    places: Places, page: str, port: int, ip: str, ready: Path, output: BinaryIO
-) -> Iterator[Leash]:
+def _server(places: Places, page: str, port: int, ip: str, ready: Path, output: BinaryIO) -> Iterator[Leash]:
     """Run the server, and end it with all its kernels and terminals, also when this process is killed."""
     options = {
         "ServerApp.root_dir": places.checkout,
@@ -128,7 +126,9 @@ def _page(checkout: Path, notebook: str | None) -> str:
     if not path.is_file():
         raise SetupError(f"There is no notebook {notebook}. The chapters are in {checkout / 'notebooks'}.")
     if not path.is_relative_to(checkout):
-        raise SetupError(f"{path} is not in {checkout}, and JupyterLab serves that folder only. Copy it there.")
+        raise SetupError(
+            f"{path} is not in {checkout}, and JupyterLab serves that folder only. Copy it there."
+        )
     return str(path.relative_to(checkout))
 
 
@@ -139,7 +139,9 @@ def _await(server: Leash, ready: Path, log: Path) -> str:
         if ready.exists():
             return str(json.loads(ready.read_text())["address"])
         if server.wait(LOOK):
-            raise CourseError(f"JupyterLab ended with status {server.returncode} as it started:\n{_tail(log)}")
+            raise CourseError(
+                f"JupyterLab ended with status {server.returncode} as it started:\n{_tail(log)}"
+            )
     raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(log)}")
 
 

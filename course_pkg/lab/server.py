@@ -15,9 +15,18 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-RARE_FORMATS = ("rfc3987_syntax", "rfc3987", "rfc3986_validator", "isoduration", "fqdn", "webcolors", "uri_template")
+RARE_FORMATS = (
+    "rfc3987_syntax",
+    "rfc3987",
+    "rfc3986_validator",
+    "isoduration",
+    "fqdn",
+    "webcolors",
+    "uri_template",
+)
+EXTENSIONS = ("jupyter_server_terminals", "course_pkg.lab.exporters", "course_pkg.lab.nodelay")
 NOT_NEEDED = (*RARE_FORMATS, "gi")  # jsonschema and send2trash do without
-sys.modules.update(dict.fromkeys(NOT_NEEDED))  # None: an import of it raises ImportError
+sys.modules.update(dict.fromkeys(NOT_NEEDED))  # type: ignore[arg-type]  # None: an import raises ImportError
 
 from jupyter_server._version import version_info  # noqa: E402
 from jupyterlab_server import LabServerApp  # noqa: E402
@@ -36,7 +45,7 @@ class CourseLab(LabServerApp):
     app_name = "JupyterLab"
     load_other_extensions = True
     serverapp_config = {  # noqa: RUF012 -- as the base class declares it
-        "jpserver_extensions": {"jupyter_server_terminals": True, "course_pkg.lab.nodelay": True},
+        "jpserver_extensions": dict.fromkeys(EXTENSIONS, True),
         "terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
     }
     first_notebook = Unicode(help="the notebook whose kernel to start at once").tag(config=True)

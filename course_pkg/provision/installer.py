@@ -44,7 +44,14 @@ def installed_uv(places: Places, journal: Journal) -> Path:
     if not uv.exists():
         folder = uv.parents[1]
         fresh = folder.with_name(f"{folder.name}.{os.getpid()}")
-        options = ["--target", fresh, "--no-deps", "--only-binary=:all:", "--require-hashes", "--no-compile"]
+        options: list[str | Path] = [
+            "--target",
+            fresh,
+            "--no-deps",
+            "--only-binary=:all:",
+            "--require-hashes",
+            "--no-compile",
+        ]
         journal.run(
             [*pip_command(), "install", "--quiet", *options, "-r", lock_file("uv")], env=_clean_environment()
         )
@@ -62,7 +69,7 @@ def uv_environment() -> dict[str, str]:
 
 
 def in_words_of_uv(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return the variables that give uv pip's `settings`: uv reads no pip.conf. What `environ` sets stands."""
+    """Return the variables that give uv pip's `settings`; uv reads no pip.conf. What `environ` sets stands."""
     words = dict(UV_SETTINGS)
     for option, variable in PIP_TO_UV.items():
         values = [value for value in settings.get(option, []) if _exists(value)]

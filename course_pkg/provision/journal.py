@@ -29,7 +29,7 @@ class Journal:
         command: Sequence[str | Path],
         *,
         env: Mapping[str, str] | None = None,
-        watch: Callable[[str], None] = lambda line: None,
+        watch: Callable[[str], None] | None = None,
     ) -> None:
         """Run `command` to its end; `watch` sees the last line of its output twice a second.
 
@@ -48,7 +48,8 @@ class Journal:
                         status = process.wait(WATCH_INTERVAL)
                         break
                     except subprocess.TimeoutExpired:
-                        watch("".join(self._tail(start, 1)))
+                        if watch:
+                            watch("".join(self._tail(start, 1)))
         if status:
             raise self._failure(command, status, start)
 

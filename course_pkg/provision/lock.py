@@ -7,8 +7,8 @@ import subprocess
 from pathlib import Path
 
 from course_pkg.errors import SetupError
-from course_pkg.provision.places import Places
 from course_pkg.provision.installer import uv_program
+from course_pkg.provision.places import Places
 from course_pkg.provision.python import lock_file
 
 UV = "uv==0.13.8"
@@ -28,7 +28,7 @@ def write_locks(places: Places) -> list[Path]:
 def _compile(uv: Path, checkout: Path, what: list[str], target: Path, text: str = "") -> None:
     options = ["--universal", "--generate-hashes", "--no-header", "--no-annotate", "--python-version", "3.10"]
     env = {**os.environ, "UV_NO_CONFIG": "1"}
-    command = [uv, "pip", "compile", "--quiet", *options, *what]
+    command: list[str | Path] = [uv, "pip", "compile", "--quiet", *options, *what]
     result = subprocess.run(
         command, cwd=checkout, env=env, input=text, capture_output=True, text=True, check=False
     )

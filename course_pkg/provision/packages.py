@@ -83,7 +83,9 @@ def become_root(names: Sequence[str]) -> list[str]:
     if subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False).returncode == 0:
         return ["sudo", "-n"]
     if not sys.stdin.isatty() or subprocess.run(["sudo", "-v"], check=False).returncode:
-        raise SetupError(f"Packages are missing, and sudo did not let you install them. {advice}\nand start again.")
+        raise SetupError(
+            f"Packages are missing, and sudo did not let you install them. {advice}\nand start again."
+        )
     return ["sudo", "-n"]
 
 

@@ -12,7 +12,9 @@ from course_pkg.provision.places import Places
 from course_pkg.provision.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-UNWANTED = "a1_coverage.pth"  # it makes every Python of the environment start 30 ms later, nodes and kernels too
+UNWANTED = (
+    "a1_coverage.pth"  # it makes every Python of the environment start 30 ms later, nodes and kernels too
+)
 
 
 def lock_file(extra: str) -> Path:
@@ -35,18 +37,26 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
     from course_pkg.provision import installer
 
     uv, env = installer.installed_uv(places, journal), installer.uv_environment()
-    if not places.conda and not _is_on_base(places):
+    if not _is_on_base(places):
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", _base(), places.venv], env=env
         )
     lock = lock_file(extra)
-    journal.run([uv, "pip", "install", "--python", places.python, "--require-hashes", "-r", lock], env=env)
+    options: list[str | Path] = [
+        "--python",
+        places.python,
+        "--require-hashes",
+        "--compile-bytecode",
+        "-r",
+        lock,
+    ]
+    journal.run([uv, "pip", "install", *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{UNWANTED}"):
         unwanted.unlink()
 
 
 def _base() -> str:
-    return os.path.realpath(sys._base_executable)  # type: ignore[attr-defined]
+    return str(os.path.realpath(sys._base_executable))  # type: ignore[attr-defined]
 
 
 def _is_on_base(places: Places) -> bool:
@@ -54,5 +64,7 @@ def _is_on_base(places: Places) -> bool:
     if not python_intact(places):
         return False
     question = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"
-    answer = subprocess.run([places.python, "-I", "-c", question], capture_output=True, text=True, check=False)
+    answer = subprocess.run(
+        [places.python, "-I", "-c", question], capture_output=True, text=True, check=False
+    )
     return answer.stdout.strip() == f"{_base()} {sys.version} {places.venv}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 from course_pkg.errors import SetupError
@@ -15,13 +16,13 @@ from course_pkg.provision.progress import Progress
 from course_pkg.provision.stamps import Stamps, digest, locked
 
 
-
 class Step(NamedTuple):
-    """A part of the set-up. `is_done` is asked at every start, so it is cheap."""
+    """A part of the set-up. `is_done` is asked at every start, so it is cheap; `makes` is what it fills."""
 
     title: str
     is_done: Callable[[], bool]
     make: Callable[[Journal, Progress], None]
+    makes: Path | None = None
 
 
 def ensure(places: Places, *, test: bool = False) -> None:
@@ -46,21 +47,14 @@ def steps_of(places: Places, *, test: bool = False) -> list[list[Step]]:
     stamps = Stamps(places.stamps)
     names = ["course", "test"] if test else ["course"]
     libraries = _library_step(places, stamps, names[-1])
-    catkin = _stamped(
-        stamps,
-        "workspace",
-        "Building the catkin workspace",
-        lambda: workspace.workspace_key(places),
-        lambda: workspace.workspace_intact(places),
-        lambda journal: workspace.build_workspace(places, journal),
-    )
-    if places.conda:
-        return [[libraries], [catkin]]
+    catkin = _workspace_step(places, stamps)
+    if places.conda:  # environment.yml has all that the packages and the libraries would be
+        return [[catkin]]
     platform = read_platform(places.checkout)
     wanted = [name for part in names for name in getattr(platform, part)]
     return [
         [_bootstrap_step(platform.bootstrap, libraries)],
-        [_package_step(f"Installing ROS from {platform.name}", wanted, stamps), libraries],
+        [_package_step(f"ROS and tools from {platform.name}", wanted, stamps), libraries],
         [catkin],
     ]
 
@@ -72,7 +66,7 @@ def _bootstrap_step(wanted: Sequence[str], libraries: Step) -> Step:
     def make(journal: Journal, progress: Progress) -> None:
         packages.install_packages(wanted, journal, progress.note)
 
-    return Step("Installing pip", is_done, make)
+    return Step("pip", is_done, make)
 
 
 def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
@@ -94,35 +88,30 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
-    return _stamped(
-        stamps,
-        f"python-{extra}",
-        "Installing the Python libraries",
-        lambda: python.python_key(extra),
-        lambda: python.python_intact(places),
-        lambda journal: python.make_environment(places, extra, journal),
-    )
-
-
-def _stamped(
-    stamps: Stamps,
-    name: str,
-    title: str,
-    key: Callable[[], str],
-    intact: Callable[[], bool],
-    make: Callable[[Journal], None],
-) -> Step:
-    """Return a step that is done if its stamp holds the hash of what it is made from."""
-
     def is_done() -> bool:
-        return stamps.read(name) == key() and intact()
+        made = (stamps.read(f"python-{name}") == python.python_key(name) for name in (extra, "test"))
+        return python.python_intact(places) and any(made)  # the tests' libraries are all and some more
 
-    def make_and_stamp(journal: Journal, _progress: Progress) -> None:
-        stamps.clear(name)
-        make(journal)
-        stamps.write(name, key())
+    def make(journal: Journal, _progress: Progress) -> None:
+        stamps.clear(f"python-{extra}")
+        python.make_environment(places, extra, journal)
+        stamps.write(f"python-{extra}", python.python_key(extra))
 
-    return Step(title, is_done, make_and_stamp)
+    return Step("Python libraries" + (" of the tests" if extra == "test" else ""), is_done, make, places.venv)
+
+
+def _workspace_step(places: Places, stamps: Stamps) -> Step:
+    def is_done() -> bool:
+        return stamps.read("workspace") == workspace.workspace_key(places) and workspace.workspace_intact(
+            places
+        )
+
+    def make(journal: Journal, _progress: Progress) -> None:
+        stamps.clear("workspace")
+        workspace.build_workspace(places, journal)
+        stamps.write("workspace", workspace.workspace_key(places))
+
+    return Step("catkin workspace", is_done, make, places.workspace)
 
 
 def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> None:

@@ -36,7 +36,7 @@ def build_workspace(places: Places, journal: Journal) -> None:
     source.mkdir(parents=True)
     for name, folder in _linked_packages(places):
         (source / name).symlink_to(folder)
-    build = [
+    build: list[str | Path] = [
         *(_tool(places, "catkin_make"), "-C", places.workspace),
         *(f"-DPYTHON_EXECUTABLE={places.python}", "-DCATKIN_ENABLE_TESTING=OFF"),
     ]
@@ -77,8 +77,6 @@ def _build_environment(places: Places) -> dict[str, str]:
 
 def _tell_the_interpreter(places: Places) -> None:
     """Let whoever only knows the interpreter (an editor, Binder) import the package and its types."""
-    if places.conda:
-        return
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         replace_text(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))
