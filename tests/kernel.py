@@ -46,7 +46,7 @@ class Reply:
 
 
 class Kernel:
-    """One such process. A cell that takes longer than its patience is killed with the process, and fails the test."""
+    """One such process. A cell that takes too long is killed with the process, and fails the test."""
 
     def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
         reader, writer = os.pipe()

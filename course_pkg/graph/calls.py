@@ -28,7 +28,7 @@ from course_pkg.graph.watchdog import Watchdog
 KEPT = "_use_tcp_keepalive"  # where rospy keeps that parameter, None as long as it has not asked
 
 
-class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
+class BoundedProxy(rospy.ServiceProxy):
     """A ServiceProxy whose calls end: with a response, with rospy's own error, or with the deadline.
 
     Threads may share it. A persistent one connects anew when its server has gone.
@@ -44,7 +44,7 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
         timeout: float = 5.0,
         watchdog: Watchdog | None = None,
     ) -> None:
-        super().__init__(name, service_class(kind), persistent, dict(headers or {}))
+        super().__init__(name, service_class(kind), persistent, dict(headers or {}))  # type: ignore[no-untyped-call]
         self.timeout = timeout
         self._watchdog = watchdog or Watchdog()
         self._master = MasterClient(master_uri())
@@ -97,7 +97,7 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
             transport.close()
 
     def _persistently(self, call: _Call, request: Any) -> Any:  # noqa: ANN401
-        if not self._turn.acquire(timeout=max(call.deadline - time.monotonic(), 0)):
+        if not self._turn.acquire(timeout=call.rest()):
             raise call.too_late("another call over this persistent proxy is still waiting for its answer")
         try:
             transport, self._kept = self._kept, None
@@ -125,7 +125,6 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
         host, port = parse_rosrpc_uri(uri)
         settle_keepalive(self._current_master())
         transport = TCPROSTransport(self.protocol, self.resolved_name)
-        transport.buff_size = self.buff_size
         call.transport = transport
         connected = False
         try:
@@ -144,11 +143,11 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
     def _looked_up(self, call: _Call) -> str:
         master = self._current_master()
         try:
-            uri = master.lookup_service(self.resolved_name, timeout=max(call.deadline - time.monotonic(), 0.001))
+            uri = master.lookup_service(self.resolved_name, timeout=call.rest())
         except MasterUnreachable as error:
             raise rospy.ServiceException("unable to contact master") from error
         except MasterSilent as error:
-            raise call.too_late(f"the master at {master.uri} takes connections and does not answer") from error
+            raise call.too_late(f"the master at {master.uri} does not answer") from error
         if call.verdict is not None:
             raise call.verdict
         if uri is None:
@@ -164,7 +163,8 @@ class BoundedProxy(rospy.ServiceProxy):  # type: ignore[misc]
             responses = transport.receive_once()
         except TransportException as error:
             if rospy.core.is_shutdown():
-                raise rospy.exceptions.ROSInterruptException("node shutdown interrupted service call") from error
+                words = "node shutdown interrupted service call"
+                raise rospy.exceptions.ROSInterruptException(words) from error
             raise rospy.ServiceException(f"transport error completing service call: {error}") from error
         if not responses:
             raise rospy.ServiceException(f"service [{self.resolved_name}] returned no response")
@@ -187,6 +187,10 @@ class _Call:
         self._name = name
         self._timeout = timeout
 
+    def rest(self) -> float:
+        """Return how many s are left, and never quite nothing."""
+        return max(self.deadline - time.monotonic(), 0.001)
+
     def too_late(self, why: str) -> CallTimeout:
         """Return the error for a deadline that has passed, with a reason."""
         return CallTimeout(f"service [{self._name}]: no answer within {self._timeout:g} s; {why}.")
@@ -204,7 +208,7 @@ class _Call:
         if self.transport is None or not self.transport.socket:
             return "it was not even reached"
         if self.transport.md5sum is None:
-            return "the server takes connections and does not speak: it is stopped, or busy with another connection"
+            return "the server takes connections and does not speak: stopped, or busy with another one"
         return "its handler is still working, or waits for something itself"
 
     def _break_off(self, verdict: GraphError) -> None:

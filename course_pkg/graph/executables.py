@@ -30,8 +30,8 @@ def _programs(package: str) -> Iterator[Path]:
         source = Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound as error:
         raise UnknownExecutable(
-            f"There is no package {package!r} on ROS_PACKAGE_PATH. Is the name right, and has its workspace been "
-            f"built and sourced? `rospack find {package}` asks the same."
+            f"There is no package {package!r} on ROS_PACKAGE_PATH. Is the name right, and has its workspace "
+            f"been built and sourced? `rospack find {package}` asks the same."
         ) from error
     if source.parent.name == "share":
         yield from _executables(source.parent.parent / "lib" / package)
@@ -50,4 +50,4 @@ def _missing(package: str, name: str, others: list[str]) -> str:
     if others:
         alike = difflib.get_close_matches(name, others, n=1)
         words += f" Did you mean {alike[0]!r}?" if alike else f" It has: {', '.join(others)}."
-    return f"{words} A script also needs its run bit (chmod +x) and a first line such as #!/usr/bin/env python3."
+    return f"{words} A script also needs its run bit (chmod +x) and a first line like #!/usr/bin/env python3."

@@ -1,8 +1,8 @@
 """A node that an idle connection cannot block.
 
-rospy reads the header of every connection on the one thread that accepts them, so a client that connects and says
-nothing stops all services and topics of the node. Here that thread hands a connection on only when its header has
-arrived; who takes longer waits on a thread of its own, and not for ever.
+rospy reads the header of every connection on the one thread that accepts them, so a client that connects and
+says nothing stops all services and topics of the node. Here that thread hands a connection on only when its
+header has arrived; who takes longer waits on a thread of its own, and not for ever.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from rospy.impl import tcpros_base
 PATIENCE = 10.0  # s for a header to arrive
 AT_ONCE = 2  # ms to wait before a thread is worth its while
 LONGEST = 65536  # bytes of a header that is worth waiting for
-BACKLOG = 128  # connections not yet accepted; rospy's 5 lets a burst of clients wait for TCP's repetition, 1 s
+BACKLOG = 128  # connections; rospy's 5 has a burst of clients wait 1 s for TCP's next try
 
 Serve = Callable[[socket.socket, Any], None]
 
@@ -37,7 +37,7 @@ def guard_against_idle_connections() -> bool:
     listener = getattr(server, "tcp_ros_server", None)
     serve = getattr(listener, "inbound_handler", None)
     if listener is None or not callable(serve):
-        logging.getLogger("rospy.course").warning("this rospy accepts connections in another way: not guarded")
+        logging.getLogger("rospy.course").warning("not guarded: this rospy accepts connections otherwise")
         return False
     if not (isinstance(serve, partial) and serve.func is _accepted):
         listener.inbound_handler = partial(_accepted, serve)

@@ -81,6 +81,6 @@ class Heard:
         publishers = self._subscriber.get_num_connections() if self._subscriber else 0
         why = f"{publishers} publishers are connected" if publishers else "no publisher is connected"
         return (
-            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and {why}. Is somebody "
-            f"publishing there, and {self.type}? See `rostopic info {self.name}`."
+            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and {why}. Is "
+            f"somebody publishing there, and {self.type}? See `rostopic info {self.name}`."
         )

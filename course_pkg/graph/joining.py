@@ -1,4 +1,4 @@
-"""How a kernel becomes a node, again and again: rospy allows one node for each process, and starts it once."""
+"""How a kernel becomes a node, again and again, where rospy allows one for each process, and one start."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from functools import cache
 import rosgraph.names
 import rospy
 
-from course_pkg.errors import GraphError, NodeNameTaken, NotJoined
+from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined
 from course_pkg.graph.calls import settle_keepalive
 from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.leash import Leash
@@ -37,8 +37,8 @@ HANDOVER = 2.0  # s for a former holder of the name to end, such as a kernel tha
 def join(name: str) -> Node:
     """Make this kernel the node `name`, and return it; run again, it returns the same node.
 
-    Uses the master of ROS_MASTER_URI, or starts one that ends with this kernel. After that master was lost and
-    another has taken its place, it registers again what this node had.
+    Uses the master of ROS_MASTER_URI, or starts one that ends with this kernel. After that master was lost
+    and another has taken its place, it registers again what this node had.
     """
     return _kernel(os.getpid()).join(name)
 
@@ -101,14 +101,18 @@ class _Kernel:
 
     def _settle_master(self) -> None:
         """Have a master that answers; a private one that was lost is replaced at the same address."""
-        if self._private is not None and self._private.uri == master_uri() and not self._private.running:
-            self._private = PrivateMaster(self._private.port).start()
-        found = find_or_start_master()
+        try:
+            found = find_or_start_master()
+        except MasterUnreachable:
+            if self._private is None or self._private.uri != master_uri():
+                raise
+            self._private.stop()
+            found = PrivateMaster(self._private.port).start()
         if isinstance(found, PrivateMaster):
             self._private = found
 
     def _hire(self, master: MasterClient) -> None:
-        """On a master that outlives this kernel, have somebody withdraw the node should the kernel be killed."""
+        """On a master that outlives this kernel, have the node withdrawn should the kernel be killed."""
         ours = self._private is not None and self._private.uri == master.uri
         if self._undertaker is None and not ours:
             self._undertaker = Leash([], forget=(master.uri, rospy.get_name(), rospy.get_node_uri()))
@@ -132,8 +136,8 @@ class _Kernel:
 def _require_main_thread() -> None:
     if threading.current_thread() is not threading.main_thread():
         raise NotJoined(
-            "join() was called on a thread. rospy can be started on the main thread only, and an attempt anywhere "
-            "else spoils this kernel for the next: call join() in a cell of its own."
+            "join() was called on a thread. rospy can be started on the main thread only, and an attempt "
+            "anywhere else spoils this kernel for the next: call join() in a cell of its own."
         )
 
 
@@ -147,8 +151,8 @@ def _full(name: str) -> str:
 def _require_same(full: str) -> None:
     if rospy.core.is_shutdown() and not can_begin_again():
         raise NotJoined(
-            "This kernel's node has been shut down, and this release of rospy cannot begin again in one process: "
-            "restart the kernel, and run the cells again."
+            "This kernel's node has been shut down, and this release of rospy cannot begin again in one "
+            "process: restart the kernel, and run the cells again."
         )
     if rospy.core.is_initialized() and rospy.get_name() != full:
         base = rospy.get_name().removeprefix("/")
@@ -185,6 +189,7 @@ def _make_room(full: str, master: MasterClient) -> None:
 def _taken(full: str, uri: str, reach: Reach) -> str:
     silent = " It does not answer: it is stopped, or hangs." if reach is Reach.SILENT else ""
     return (
-        f"Another node is {full} already, at {uri}.{silent} Two kernels with one notebook? Shut the other kernel down "
-        f"and run this cell again, or take another name here. Joining would have shut that node down."
+        f"Another node is {full} already, at {uri}.{silent} Two kernels with one notebook? Shut the other "
+        "kernel down and run this cell again, or take another name here. Joining would have shut that node "
+        "down."
     )

@@ -23,9 +23,9 @@ PROGRAM = Path(__file__).with_name("leashed.py")
 class Leash:
     """A command and its descendants, held by this process.
 
-    `command` may be empty: then there is nothing to hold, and only the last will is carried out when this process
-    is gone. The last will: `remove`, a folder to delete; `forget`, a (master's URI, node's name, node's URI)
-    whose registrations to withdraw.
+    `command` may be empty: then there is nothing to hold, and only the last will is carried out when this
+    process is gone. The last will: `remove`, a folder to delete; `forget`, a (master's URI, node's name,
+    node's URI) whose registrations to withdraw.
     """
 
     def __init__(

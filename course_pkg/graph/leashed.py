@@ -12,6 +12,11 @@ import select
 import signal
 import sys
 import time
+from contextlib import suppress
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # typing takes longer to import than all the rest
+    from typing import Any
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -74,10 +79,8 @@ class Leashed:
 
     def _wait(self, milliseconds: float | None) -> None:
         self._poll.poll(milliseconds)
-        try:
+        with suppress(BlockingIOError):
             os.read(self._wake, 512)
-        except BlockingIOError:
-            pass
 
     def _reap(self) -> bool:
         """Collect what has ended, and say whether any child is left."""
@@ -92,7 +95,7 @@ class Leashed:
                 self.status = status
 
     def _end_descendants(self) -> None:
-        """Ask all to end, kill those that do not; whoever loses its parent becomes a child of this process."""
+        """Ask all to end, kill those that do not; who loses its parent becomes a child of this process."""
         deadline = time.monotonic() + (0 if self.hurry else GRACE)
         if self._reap() and not self.hurry:
             _signal_all((signal.SIGCONT, signal.SIGTERM), self.child)
@@ -124,7 +127,7 @@ def _become(command: list[str], fail: int) -> None:
         for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
             signal.signal(number, signal.SIG_DFL)
         signal.set_wakeup_fd(-1)
-        os.execvp(command[0], command)
+        os.execvp(command[0], command)  # noqa: S606 -- no shell is what is wanted
     except OSError as error:
         os.write(fail, (error.strerror or str(error)).encode())
     finally:
@@ -134,10 +137,8 @@ def _become(command: list[str], fail: int) -> None:
 def _signal_all(numbers: tuple[int, ...], child: int | None) -> None:
     for pid in descendants(os.getpid()) or ([child] if child else []):
         for number in numbers:
-            try:
+            with suppress(ProcessLookupError, PermissionError):
                 os.kill(pid, number)
-            except (ProcessLookupError, PermissionError):
-                pass
 
 
 def descendants(root: int) -> list[int]:
@@ -163,14 +164,14 @@ def forget(master_uri: str, node: str, node_uri: str) -> None:
     """Withdraw from the master what the dead node registered, and nothing of a successor by the same name."""
     from xmlrpc.client import ServerProxy
 
-    master = ServerProxy(master_uri)
-    publishers, subscribers, services = master.getSystemState(node)[2]  # type: ignore[index, misc]
+    master: Any = ServerProxy(master_uri)
+    publishers, subscribers, services = master.getSystemState(node)[2]
     for topic in [name for name, nodes in publishers if node in nodes]:
         master.unregisterPublisher(node, topic, node_uri)
     for topic in [name for name, nodes in subscribers if node in nodes]:
         master.unregisterSubscriber(node, topic, node_uri)
     for service in [name for name, nodes in services if node in nodes]:
-        uri = str(master.lookupService(node, service)[2])  # type: ignore[index]
+        uri = str(master.lookupService(node, service)[2])
         if _dead(uri):
             master.unregisterService(node, service, uri)
 
@@ -195,10 +196,8 @@ def _execute_will(folder: str, master_uri: str, node: str, node_uri: str) -> Non
         from xmlrpc.client import Error
 
         socket.setdefaulttimeout(2.0)
-        try:
+        with suppress(OSError, Error, HTTPException):  # gone too, and with it what there was to withdraw
             forget(master_uri, node, node_uri)
-        except (OSError, Error, HTTPException):
-            pass  # the master is gone too, and with it what there was to withdraw
     if folder:
         import shutil
 

@@ -1,7 +1,7 @@
 """rospy's logging, without what it does to a notebook's.
 
-init_node() closes and removes the root logger's handlers, sends every library's messages to the node's log file, and
-prints from any thread into whichever cell is running.
+init_node() closes and removes the root logger's handlers, sends every library's messages to the node's log
+file, and prints from any thread into whichever cell is running.
 """
 
 from __future__ import annotations

@@ -7,10 +7,11 @@ import shutil
 import socket
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 
-from course_pkg.errors import GraphError, PortBusy, SetupError
+from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, PortBusy, SetupError
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.rpc import MasterClient
 
@@ -55,14 +56,14 @@ class PrivateMaster:
         self.stop()
 
     def start(self) -> PrivateMaster:
-        """Start it and wait until it answers; another program that takes the port meanwhile costs one more try."""
+        """Start it and wait until it answers; if another program takes the port meanwhile, try again."""
         for _ in range(1 if self._asked else TRIES):
             self.port = _free_port(self._asked)
             if self._try():
                 return self
         if self._asked:
             raise _busy(self._asked)
-        raise GraphError(f"Each of {TRIES} ports was taken by another program just before the master could have it.")
+        raise GraphError(f"{TRIES} times another program took the port before the master could. Try again.")
 
     def stop(self) -> None:
         """End it and remove what it wrote; a second stop changes nothing."""
@@ -105,6 +106,24 @@ def master_uri() -> str:
     return os.environ.get("ROS_MASTER_URI") or "http://localhost:11311"
 
 
+def await_master(tell: Callable[[str], object], every: float = 0.5) -> None:
+    """Return as soon as the master of ROS_MASTER_URI answers, as init_node() does, but to be ended by Ctrl-C.
+
+    `tell` is told once that there is none. Raises MalformedMasterUri and NotAMaster, which no waiting mends.
+    """
+    client, told = MasterClient(master_uri()), False
+    while True:
+        try:
+            client.pid()
+        except (MasterUnreachable, MasterSilent):
+            if not told:
+                tell(f"No ROS master answers at {client.uri}. Waiting for one; Ctrl-C ends this.")
+            told = True
+            time.sleep(every)
+        else:
+            return
+
+
 def find_or_start_master() -> PrivateMaster | MasterClient:
     """Return the master that ROS_MASTER_URI names, once it has answered, or a new private one.
 
@@ -133,8 +152,8 @@ def _free_port(asked: int | None) -> int:
 
 def _busy(port: int | None) -> PortBusy:
     return PortBusy(
-        f"Port {port} of 127.0.0.1 is taken by another program. Choose another, or leave it out to get a free one; "
-        f"if that program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
+        f"Port {port} of 127.0.0.1 is taken by another program. Choose another, or leave it out to get a "
+        f"free one; if that program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
     )
 
 

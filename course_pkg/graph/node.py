@@ -73,7 +73,7 @@ class Node:
         return BoundedProxy(name, kind, persistent=persistent, timeout=timeout, watchdog=self._watchdog)
 
     def subscribe(self, topic: str, kind: Any, callback: Callable[[Any], object] | None = None) -> Heard:  # noqa: ANN401
-        """Listen to a topic, in the place of an earlier subscription to it; `callback` runs on rospy's thread."""
+        """Listen to a topic, in the place of an earlier subscription; `callback` runs on rospy's thread."""
         self._require()
         self._client().pid()  # rospy.Subscriber would wait for ever
         full = rospy.resolve_name(topic)
@@ -95,13 +95,13 @@ class Node:
         return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def leave(self) -> None:
-        """End all processes, services and subscriptions of this node, and take it off the graph; join() returns."""
+        """End what this node has begun, and take it off the graph; join() brings it back."""
         from course_pkg.graph.joining import leave
 
         leave(self)
 
     def renew(self) -> None:
-        """Serve and subscribe again, if rospy has begun anew since; what rospy itself was asked for is lost."""
+        """Serve and subscribe again, if rospy has begun anew; what was asked of rospy itself is lost."""
         if self._uri == rospy.get_node_uri():
             return
         self._uri = rospy.get_node_uri()
@@ -150,7 +150,7 @@ class Node:
     def _require(self) -> None:
         if rospy.core.is_shutdown():
             raise NotJoined(
-                "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting rospy.spin(), or "
-                "by another node that took its name. Run the set-up cell with join() again: it begins anew."
+                "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting "
+                "rospy.spin(), or by another node that took its name. Run the set-up cell with join() "
+                "again: it begins anew."
             )
-

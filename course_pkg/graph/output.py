@@ -29,7 +29,7 @@ class Printed(io.TextIOBase):
 
 
 class RoutedStream(io.TextIOBase):
-    """Stands in front of sys.stdout or sys.stderr: a handler's thread writes to its own place, all others through.
+    """In front of sys.stdout or sys.stderr: a handler's thread writes to its own place, others through.
 
     The place is a context variable, so it holds for a handler's thread and not for threads beside it.
     """

@@ -90,8 +90,8 @@ def _address(uri: str) -> tuple[str, int]:
 
 def _begin(probe: Probe, selector: selectors.BaseSelector) -> None:
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(*probe.address, socket.AF_INET, socket.SOCK_STREAM)[0]
-        sock = socket.socket(family, kind, protocol)
+        address = socket.getaddrinfo(*probe.address, socket.AF_INET, socket.SOCK_STREAM)[0][4]
+        sock = socket.socket()
     except OSError:
         probe.reach = Reach.LOST
         return

@@ -63,7 +63,8 @@ class NodeProcess:
 
     def output(self) -> str:
         """Return what it has printed so far, both to stdout and to stderr."""
-        return os.pread(self._output.fileno(), os.fstat(self._output.fileno()).st_size, 0).decode("utf-8", "replace")
+        file = self._output.fileno()
+        return os.pread(file, os.fstat(file).st_size, 0).decode("utf-8", "replace")
 
     def wait_for_service(self, name: str, timeout: float = 10.0) -> None:
         """Return as soon as this process serves `name` and answers there.
@@ -80,7 +81,7 @@ class NodeProcess:
             time.sleep(LOOK)
 
     def wait(self, timeout: float = 10.0) -> int:
-        """Return the exit status once it has ended by itself; raises NodeFailed when it still runs after `timeout` s."""
+        """Return the exit status once it has ended by itself; raises NodeFailed after `timeout` s."""
         self._leash.wait(timeout)
         status = self.returncode
         if status is None:
@@ -93,7 +94,7 @@ class NodeProcess:
         self._leash.signal(signal.SIGINT)
 
     def stop(self, grace: float = GRACE) -> None:
-        """End it, and return when it and its registrations are gone; killed if it still runs after `grace` s."""
+        """End it, by force after `grace` s, and return when it and its registrations are gone."""
         if not self.running:
             return
         nodes, services = self._registered()
@@ -101,7 +102,7 @@ class NodeProcess:
         self._withdraw(nodes, services)
 
     def kill(self) -> None:
-        """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, and is stale."""
+        """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, stale."""
         self._leash.signal(signal.SIGKILL)
         self._leash.wait(GRACE)
 
@@ -137,7 +138,9 @@ class NodeProcess:
             found = master.lookup_all(state.nodes, state.services)
         except GraphError:
             return {}, {}  # nobody left to be registered with
-        nodes, services = ({name: uri for name, uri in kind.items() if port_of(uri) in ports} for kind in found)
+        nodes, services = (
+            {name: uri for name, uri in all_.items() if port_of(uri) in ports} for all_ in found
+        )
         return nodes, services
 
     def _withdraw(self, nodes: dict[str, str], services: dict[str, str]) -> None:

@@ -5,14 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 import rospy
-from rospy.impl.registration import RegManager, get_registration_listeners, get_service_manager, get_topic_manager
+from rospy.impl.registration import (
+    RegManager,
+    get_registration_listeners,
+    get_service_manager,
+    get_topic_manager,
+)
 
 from course_pkg.graph.rpc import MasterClient
 
 
 def node_known(master: MasterClient) -> bool:
     """Whether the master knows this process's node, at its address."""
-    return master.lookup_node(rospy.get_name()) == rospy.get_node_uri()
+    return master.lookup_node(rospy.get_name()) == str(rospy.get_node_uri())
 
 
 def register_all(master: MasterClient) -> None:
@@ -41,12 +46,14 @@ def unregister_all(master: MasterClient) -> None:
 
 def registration_manager() -> Any:  # noqa: ANN401 -- rospy has no types
     """Return rospy's own registrar, or None where rospy is built differently."""
-    found = [listener for listener in get_registration_listeners().listeners if isinstance(listener, RegManager)]
-    return found[0] if found else None
+    for listener in get_registration_listeners().listeners:
+        if isinstance(listener, RegManager):
+            return listener
+    return None
 
 
 def hasten_shutdown() -> None:
-    """Spare the interpreter's end the 0.5 s for which rospy's registrar sleeps through its own wake-up call."""
+    """Spare the end of the process the 0.5 s for which rospy's registrar sleeps through its wake-up call."""
     manager = registration_manager()
     if manager is None:
         return

@@ -1,4 +1,4 @@
-"""The master, asked in bounded time. Its protocol: http://wiki.ros.org/ROS/Master_API, XML-RPC over HTTP/1.1."""
+"""The master, asked in bounded time; http://wiki.ros.org/ROS/Master_API, XML-RPC over HTTP/1.1."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from xmlrpc.client import Fault, dumps, loads
 
 from course_pkg.errors import GraphError, MalformedMasterUri, MasterSilent, MasterUnreachable, NotAMaster
 
+Addresses = dict[str, str]  # of nodes or services, by name
 Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> the nodes that have it
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)  # of a kept connection
 RESTART = "Run the set-up cell with join() again, or start a master with `roscore`."
@@ -59,7 +60,7 @@ class MasterClient:
         """Return the http:// address of a node, or None when the master does not know it."""
         return self._found("lookupNode", name, timeout=timeout)
 
-    def lookup_all(self, nodes: Iterable[str], services: Iterable[str]) -> tuple[dict[str, str], dict[str, str]]:
+    def lookup_all(self, nodes: Iterable[str], services: Iterable[str]) -> tuple[Addresses, Addresses]:
         """Return the addresses of nodes and of services in one question; what is unknown is left out."""
         asked = [("lookupNode", name) for name in nodes] + [("lookupService", name) for name in services]
         if not asked:
@@ -132,13 +133,13 @@ class MasterClient:
             return loads(answer)[0][0]
         except TimeoutError as error:
             raise MasterSilent(
-                f"The program at {self.uri} takes connections and did not answer within {limit:g} s. If that is "
-                f"your master, it hangs or is stopped (SIGSTOP): end it and start another. {RESTART}"
+                f"The program at {self.uri} takes connections and did not answer within {limit:g} s. If "
+                f"that is your master, it hangs or is stopped (SIGSTOP): end it and start another. {RESTART}"
             ) from error
         except OSError as error:
             raise MasterUnreachable(
-                f"No ROS master at {self.uri} ({error.strerror or error}). {RESTART} If it should be elsewhere, "
-                "correct ROS_MASTER_URI."
+                f"No ROS master at {self.uri} ({error.strerror or error}). {RESTART} If it should be "
+                "elsewhere, correct ROS_MASTER_URI."
             ) from error
         except (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError) as error:
             raise NotAMaster(
@@ -183,7 +184,8 @@ class _Connection(HTTPConnection):
 
     def connect(self) -> None:
         """Connect before the deadline."""
-        plain = socket.create_connection((self.host, self.port), max(self._deadline - time.monotonic(), 0.001))
+        limit = max(self._deadline - time.monotonic(), 0.001)
+        plain = socket.create_connection((self.host, self.port), limit)
         plain.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.sock = _DeadlineSocket(fileno=plain.detach())
 
@@ -227,6 +229,6 @@ def address_of(uri: str) -> tuple[str, int]:
     except ValueError:
         pass  # a port that is no number, or a bracket that is not closed
     raise MalformedMasterUri(
-        f"ROS_MASTER_URI is {uri!r}, and has to be of the form http://HOST:PORT, such as http://localhost:11311. "
-        "Correct it, or unset it to have a master of your own."
+        f"ROS_MASTER_URI is {uri!r}, and has to be of the form http://HOST:PORT, such as "
+        "http://localhost:11311. Correct it, or unset it to have a master of your own."
     )

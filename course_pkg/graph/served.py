@@ -8,7 +8,6 @@ import traceback
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from types import TracebackType
 from typing import Any
 
 import rospy
@@ -25,7 +24,7 @@ REMEMBERED = 1000  # calls
 
 @dataclass(frozen=True)
 class ServedCall:
-    """One call as its server saw it: `time` in s since the epoch, and a response or the words of the error."""
+    """One call as its server saw it: `time` in s since the epoch, a response or the words of the error."""
 
     time: float
     request: Any
@@ -35,7 +34,7 @@ class ServedCall:
 
 
 class Served:
-    """A service that is being served. `calls` remembers the last 1000; `output` is what the handler printed."""
+    """A service of this kernel. `calls` remembers the last 1000; `output` is what the handler printed."""
 
     def __init__(self, name: str, cls: Any, handler: Handler, output: HandlerOutput) -> None:  # noqa: ANN401
         self.handler = handler
@@ -54,6 +53,11 @@ class Served:
     def type(self) -> str:
         """The name of its type."""
         return str(self._impl.service_class._type)
+
+    @property
+    def uri(self) -> str:
+        """Where it is served, rosrpc://HOST:PORT."""
+        return str(self._impl.uri)
 
     @property
     def errors(self) -> list[ServedCall]:
@@ -80,7 +84,7 @@ class Served:
             before = manager.map.get(self.name)
             manager.map[self.name] = self._impl
         try:
-            master.register_service(rospy.get_name(), self.name, self._impl.uri, rospy.get_node_uri())
+            master.register_service(rospy.get_name(), self.name, self.uri, rospy.get_node_uri())
         except BaseException:
             with manager.lock:
                 manager.map.pop(self.name)
@@ -98,7 +102,7 @@ class Served:
             if self.stopped:
                 return
             del manager.map[self.name]
-        MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self._impl.uri)
+        MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self.uri)
 
     def renew(self, master: MasterClient) -> None:
         """Serve again in a rospy that has begun anew, if nobody has stopped it."""
@@ -110,9 +114,7 @@ class Served:
     def __enter__(self) -> Served:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
         self.stop()
 
     def __repr__(self) -> str:
@@ -121,7 +123,8 @@ class Served:
     def _relieve(self, before: ServiceImpl) -> None:
         """Have connections that clients keep to the predecessor answered as this service answers.
 
-        Its address is spoilt: its own shutdown() would withdraw whatever is registered there, which is this service.
+        Its address is spoilt: its own shutdown() would withdraw whatever is registered there, which is this
+        service.
         """
         before.uri = "rosrpc://replaced:0"
         same = before.service_class._md5sum == self._impl.service_class._md5sum

@@ -1,7 +1,7 @@
 """Registrations that a dead node left at the master: finding them, and taking them away.
 
-Like `rosnode cleanup`, but bounded, without a question, and only for what is provably dead: nobody listens at the
-address any more. A node that is stopped is silent, and keeps its registrations.
+Like `rosnode cleanup`, but bounded, without a question, and only for what is provably dead: nobody listens
+at the address any more. A node that is stopped is silent, and keeps its registrations.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.probe import Probe, Reach, ask_all, node_probe, service_probe
-from course_pkg.graph.rpc import MasterClient, SystemState
+from course_pkg.graph.rpc import Addresses, MasterClient, SystemState
 
 PATIENCE = 0.5  # s
 
@@ -52,7 +52,7 @@ def withdraw(master: MasterClient, entry: StaleRegistration) -> bool:
     return ways[entry.kind](entry.node, entry.name, entry.uri)
 
 
-def entries_at(state: SystemState, nodes: dict[str, str], services: dict[str, str]) -> list[StaleRegistration]:
+def entries_at(state: SystemState, nodes: Addresses, services: Addresses) -> list[StaleRegistration]:
     """Return what is registered for these nodes and these services, given with their addresses."""
     found = [
         StaleRegistration(node, kind, topic, nodes[node])

@@ -29,7 +29,7 @@ def message_class(kind: Any) -> Any:  # noqa: ANN401
         kind = message_type(kind)
     cls = getattr(kind, "cls", kind)
     if not (isinstance(cls, type) and issubclass(cls, genpy.Message)):
-        raise NotAMessageType(f"{_name(cls)} is not a message type. Give a class such as std_msgs.msg.UInt32.")
+        raise NotAMessageType(f"{_name(cls)} is not a message type. Give a class like std_msgs.msg.UInt32.")
     return cls
 
 
@@ -40,8 +40,8 @@ def _wrong_service(cls: Any) -> str:  # noqa: ANN401
             whole = name.removesuffix(half)
             return f"{name} is the {half.lower()} of a service type. Give the type itself: {whole}."
     if isinstance(cls, genpy.Message) or hasattr(cls, "_slot_types"):
-        return f"{name} is a message type, for topics. A service needs a service type, such as std_srvs.srv.Trigger."
-    return f"{name} is not a service type. Give a class such as std_srvs.srv.Trigger, imported from a package's srv."
+        return f"{name} is a message type, for topics. A service needs one like std_srvs.srv.Trigger."
+    return f"{name} is not a service type. Give a class like std_srvs.srv.Trigger, from a package's srv."
 
 
 def _name(cls: Any) -> str:  # noqa: ANN401

@@ -19,7 +19,7 @@ USAGE = "usage: client LENGTH WIDTH HEIGHT   (three numbers, in metres, such as 
 
 
 def main() -> None:
-    """Measure the box of the command line; exit with 0, with 1 when nobody measures it, with 2 for a wrong line."""
+    """Measure the box of the command line; exit with 1 when nobody does, with 2 for a wrong line."""
     sides = read_sides(rospy.myargv(sys.argv)[1:])
     if sides is None:
         sys.exit(_complaint(USAGE, 2))

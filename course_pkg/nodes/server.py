@@ -8,6 +8,7 @@ from typing import Any
 import rospy
 
 from course_pkg.graph.handshake import guard_against_idle_connections
+from course_pkg.graph.master import await_master
 from course_pkg.graph.registrar import hasten_shutdown
 from course_pkg.srv import geometry, geometryResponse
 
@@ -15,9 +16,10 @@ from course_pkg.srv import geometry, geometryResponse
 def main() -> None:
     """Serve until the node is shut down."""
     try:
-        rospy.init_node("SERVER_NODE")
-    except rospy.ROSInitException:  # told to end before there was a master
+        await_master(rospy.logwarn)
+    except KeyboardInterrupt:
         return
+    rospy.init_node("SERVER_NODE")
     guard_against_idle_connections()
     hasten_shutdown()
     service = rospy.Service("getGeometry", geometry, measure)
@@ -31,9 +33,9 @@ def measure(request: Any) -> geometryResponse:  # noqa: ANN401 -- a class that c
         value = getattr(request, side)
         if value < 0 or not math.isfinite(value):
             rospy.logwarn("Refused: %s is %g", side, value)
-            raise rospy.ServiceException(f"{side} is {value:g}; the sides of a box are finite and not negative")
+            raise rospy.ServiceException(f"{side} is {value:g}, and a side is finite and not negative")
     area = request.width * request.length
-    response = geometryResponse(area=area, volume=area * request.height)
+    response = geometryResponse(area=area, volume=area * request.height)  # type: ignore[no-untyped-call]
     sides = (request.length, request.width, request.height)
     rospy.loginfo("%g x %g x %g: area %g, volume %g", *sides, response.area, response.volume)
     return response

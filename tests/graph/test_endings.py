@@ -37,7 +37,7 @@ def port_is_free(uri: str) -> bool:
 
 
 def test_killed_owner_of_a_private_master() -> None:
-    """After SIGKILL of a kernel no process of its tree is left, roslaunch's nodes included, and no port is held."""
+    """After SIGKILL of a kernel no process below it is left, roslaunch's nodes included, and no port held."""
     kernel = Kernel({"ROS_MASTER_URI": None})
     uri = kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -71,7 +71,9 @@ def test_graceful_end_leaves_nothing(master: PrivateMaster) -> None:
 
 def test_interrupt_leaves_the_nodes_alone(kernel: Kernel) -> None:
     """An interrupt of the kernel goes to its process group, and its nodes are not in it."""
-    kernel.run("from course_pkg.graph import join; node = join('owner'); server = node.run('course_pkg', 'server')")
+    kernel.run(
+        "from course_pkg.graph import join; node = join('owner'); server = node.run('course_pkg', 'server')"
+    )
     kernel.run("server.wait_for_service('/getGeometry')")
     kernel.begin("import time; time.sleep(20)")
     kernel.interrupt()

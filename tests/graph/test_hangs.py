@@ -128,7 +128,9 @@ def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
     """A server that vanishes during the call is an error at once, in rospy's words."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/dies', Trigger, timeout=20)")
     assert reply.error == "ServiceException"
-    assert reply.words.startswith("transport error completing service call: unable to receive data from sender")
+    assert reply.words.startswith(
+        "transport error completing service call: unable to receive data from sender"
+    )
     assert reply.took < LONGEST
 
 
@@ -183,7 +185,8 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
     """A deadline on a persistent connection closes that connection, and the next call makes another."""
-    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True); proxy()")
+    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
+    joined.run("proxy()")
     with stopped(raw.pid):
         reply = joined.ask("proxy.call(timeout=0.5)")
         assert reply.error == "CallTimeout"

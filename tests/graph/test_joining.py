@@ -22,7 +22,11 @@ JOIN = "from course_pkg.graph import join\nnode = join('student')"
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
     """The set-up cell gives the same node each time, and the kernel is registered once."""
     kernel.run(JOIN)
-    assert kernel.run("result = join('student') is node, node.name, repr(node)") == [True, "/student", "<node /student>"]
+    assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
+        True,
+        "/student",
+        "<node /student>",
+    ]
 
 
 def test_private_master_where_none_is_named() -> None:
@@ -57,12 +61,12 @@ def test_nobody_at_the_uri() -> None:
 
 def test_mute_at_the_uri() -> None:
     """An address that takes connections and says nothing costs two seconds."""
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        with Kernel({"ROS_MASTER_URI": f"http://localhost:{listener.getsockname()[1]}"}) as kernel:
-            kernel.run("from course_pkg.graph import join")
-            reply = kernel.ask(JOIN)
-            assert reply.error == "MasterSilent"
-            assert reply.took < 4
+    with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
+        uri = f"http://localhost:{mute.getsockname()[1]}"
+        kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.graph import join")
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MasterSilent"
+        assert reply.took < 4
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
@@ -134,7 +138,7 @@ def test_joining_on_a_thread_spoils_nothing(kernel: Kernel) -> None:
 
 
 def test_private_master_killed() -> None:
-    """When its own master was killed, the set-up cell starts another, and services and topics are there again."""
+    """When its own master was killed, the set-up cell starts another, and all is there again."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         uri = kernel.run("""
@@ -155,19 +159,29 @@ def test_private_master_killed() -> None:
         assert kernel.ask("node.serve('/more', Trigger, print)").error == "MasterUnreachable"
         assert kernel.ask("node.subscribe('/more', UInt32)").error == "MasterUnreachable"
         kernel.run("node = join('student')")
-        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == ["here", "raw"]
+        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
+            "here",
+            "raw",
+        ]
         seen = look(uri)
         assert [topic.name for topic in seen.topics if topic.subscribers] == ["/numbers"]
         assert [topic.name for topic in seen.topics if topic.publishers] == ["/numbers", "/rosout"]
-        assert kernel.run("raw2 = rospy.Service('/raw2', Trigger, lambda r: (True, '2'))\n"
-                          "result = node.call('/raw2', Trigger).message") == "2"
+        assert (
+            kernel.run(
+                "raw2 = rospy.Service('/raw2', Trigger, lambda r: (True, '2'))\n"
+                "result = node.call('/raw2', Trigger).message"
+            )
+            == "2"
+        )
 
 
 def test_shared_master_restarted() -> None:
     """When a shared master was started again, the set-up cell registers what it has forgotten."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
-        kernel.run("from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))")
+        kernel.run(
+            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+        )
         master.stop()
         assert kernel.ask("join('student')").error == "MasterUnreachable"
         with PrivateMaster(master.port):
@@ -176,7 +190,7 @@ def test_shared_master_restarted() -> None:
 
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
-    """While the master is stopped, each thing that needs it fails within its deadline, and works afterwards."""
+    """While the master is stopped, what needs it fails within its deadline, and works afterwards."""
     kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
     with stopped(master.pid):
         for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
@@ -196,7 +210,9 @@ def test_exit_while_the_master_is_stopped(master: PrivateMaster) -> None:
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
     """leave() takes everything off the graph and ends every process; join() comes back."""
-    kernel.run(JOIN + """
+    kernel.run(
+        JOIN
+        + """
 from std_srvs.srv import Trigger
 from std_msgs.msg import UInt32
 node.serve("/mine", Trigger, lambda request: (True, "here"))
@@ -205,7 +221,8 @@ server = node.run("course_pkg", "server")
 server.wait_for_service("/getGeometry")
 node.leave()
 result = server.running
-""")
+"""
+    )
     assert MasterClient(master.uri).system_state().nodes == ()
     kernel.run("node = join('student'); node.serve('/mine', Trigger, lambda request: (True, 'again'))")
     assert kernel.run("result = node.call('/mine', Trigger).message") == "again"
@@ -221,7 +238,7 @@ def test_leaving_is_prompt(kernel: Kernel) -> None:
 
 
 def test_root_logger_is_left_alone(kernel: Kernel) -> None:
-    """Joining takes no handler from the root logger and adds none, and sends no other library's words to ROS."""
+    """Joining takes no handler from the root logger, and adds none."""
     assert kernel.run("""
         import logging
         logging.basicConfig(level=logging.ERROR)
@@ -236,7 +253,9 @@ def test_root_logger_is_left_alone(kernel: Kernel) -> None:
 def test_log_of_a_handler_stays_out_of_the_cell(master: PrivateMaster) -> None:
     """What rospy logs on a handler's thread goes to the node's file; what the cell itself logs is printed."""
     kernel = Kernel()
-    kernel.run(JOIN + """
+    kernel.run(
+        JOIN
+        + """
 import rospy
 from std_srvs.srv import Trigger
 raw = rospy.Service("/raw", Trigger, lambda request: rospy.logerr("from the handler") or 1 / 0)
@@ -245,7 +264,8 @@ try:
 except rospy.ServiceException:
     pass
 rospy.loginfo("from the cell")
-""")
+"""
+    )
     log = Path(os.environ["ROS_LOG_DIR"]) / "student.log"
     eventually(lambda: "division by zero" in log.read_text())
     printed = kernel.exit()
@@ -264,14 +284,17 @@ rospy.spin()
 
 @pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
 def test_node_that_was_shut_down_begins_anew(kernel: Kernel, master: PrivateMaster, how: str) -> None:
-    """After a shutdown, an interrupted rospy.spin() too, everything says so, and the set-up cell brings it all back."""
-    kernel.run(JOIN + """
+    """After a shutdown everything says so, and the set-up cell brings it all back."""
+    kernel.run(
+        JOIN
+        + """
 import rospy
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
 served = node.serve("/served", Trigger, lambda request: (True, "here"))
 heard = node.subscribe("/numbers", UInt32)
-""")
+"""
+    )
     kernel.run(how)
     assert kernel.run("result = rospy.is_shutdown()") is True
     for cell in ("node.serve('/x', Trigger, print)", "node.run('course_pkg', 'server')"):

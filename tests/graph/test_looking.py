@@ -32,17 +32,20 @@ def test_what_is_there(server: NodeProcess) -> None:
     service = seen.service("/getGeometry")
     assert service is not None
     assert (service.type, service.node, service.reachable) == ("course_pkg/geometry", "/SERVER_NODE", True)
-    assert [topic for topic in seen.topics if topic.name == "/pulse"][0].type == "std_msgs/UInt32"
-    assert [topic for topic in seen.topics if topic.name == "/rosout"][0].publishers == ("/SERVER_NODE", "/pulse")
+    topics = {topic.name: topic for topic in seen.topics}
+    assert topics["/pulse"].type == "std_msgs/UInt32"
+    assert topics["/rosout"].publishers == ("/SERVER_NODE", "/pulse")
     assert [service.name for service in seen.services] == sorted(service.name for service in seen.services)
     assert json.loads(json.dumps(seen.as_dict()))["services"][1]["name"] == "/SERVER_NODE/set_logger_level"
 
 
 def test_the_same_graph_looks_the_same(server: NodeProcess) -> None:
-    """Two looks at one graph are equal, and have one hash, so that a follower sees whether anything changed."""
+    """Two looks at one graph are equal, so that a follower sees whether anything changed."""
     before = look()
     assert (look(), hash(look())) == (before, hash(before))
-    MasterClient(before.master).register_service("/more", "/more", "rosrpc://localhost:1", "http://localhost:1/")
+    MasterClient(before.master).register_service(
+        "/more", "/more", "rosrpc://localhost:1", "http://localhost:1/"
+    )
     assert look() != before
     remove_stale()
 
@@ -63,7 +66,7 @@ def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> 
 
 
 def test_killed_node_is_stale_until_removed(server: NodeProcess) -> None:
-    """After SIGKILL the registrations stay, are found, and are gone once removed; what lives is left alone."""
+    """After SIGKILL the registrations stay, are found, and can be removed; what lives is left alone."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         server.kill()

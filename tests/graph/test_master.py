@@ -16,7 +16,7 @@ from tests.support import eventually, stopped
 
 
 def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Inside the block it answers; after it the port is free and the process gone; its log is where logs go."""
+    """Inside the block it answers; after it it is gone; its log is where logs go."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     with PrivateMaster() as master:
         client = MasterClient(master.uri)
@@ -88,7 +88,9 @@ def test_dripping_answer_is_silence() -> None:
         thread.join()
 
 
-@pytest.mark.parametrize("uri", ["", "localhost:11311", "https://localhost:1", "http://:1", "http://localhost:99999"])
+@pytest.mark.parametrize(
+    "uri", ["", "localhost:11311", "https://localhost:1", "http://:1", "http://localhost:99999"]
+)
 def test_malformed_uri(uri: str) -> None:
     """A malformed address is refused before anybody is asked."""
     with pytest.raises(MalformedMasterUri, match="http://HOST:PORT"):

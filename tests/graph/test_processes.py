@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("master")
     [
         ("no_such_package", "server", "no package 'no_such_package'"),
         ("course_pkg", "sever", "Did you mean 'server'?"),
-        ("course_pkg", "zzz", "pulse, server."),
+        ("course_pkg", "zzz", "It has: client, "),
     ],
 )
 def test_missing_program(package: str, program: str, told: str) -> None:
@@ -39,7 +39,9 @@ def test_command_that_cannot_be_started() -> None:
 
 def test_output_is_kept() -> None:
     """What a node prints, to stdout and stderr, is there while it runs and after it has ended."""
-    with NodeProcess([sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]) as process:
+    with NodeProcess(
+        [sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]
+    ) as process:
         assert process.wait(5) == 0
         assert sorted(process.output().split()) == ["err", "out"]
     assert "out" in process.output()
@@ -58,7 +60,7 @@ def test_waiting_fails_fast_when_the_node_dies() -> None:
 def test_waiting_has_a_limit() -> None:
     """Waiting for a service that never comes is over after the time given, and the process goes on."""
     with NodeProcess.rosrun("course_pkg", "pulse") as process:
-        with pytest.raises(NodeFailed, match="after 0.2 s"):
+        with pytest.raises(NodeFailed, match=r"after 0\.2 s"):
             process.wait_for_service("/never", timeout=0.2)
         assert process.running
 
@@ -78,8 +80,13 @@ def test_waiting_is_for_this_process(kernel: Kernel) -> None:
 
 def test_stopping_withdraws(master: PrivateMaster) -> None:
     """A process that was stopped is off the graph when stop() returns, also if it had to be killed."""
-    ignore = "import signal; signal.signal = lambda *_: None; import rospy; rospy.init_node('deaf', disable_signals=True)"
-    deaf = f"import signal as s\nfor n in (2, 15): s.signal(n, s.SIG_IGN)\n{ignore}\nimport threading; threading.Event().wait()"
+    deaf = """
+import rospy, signal, threading
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+rospy.init_node("deaf", disable_signals=True)
+threading.Event().wait()
+"""
     client = MasterClient(master.uri)
     process = NodeProcess([sys.executable, "-c", deaf])
     process.wait_for_service("/deaf/get_loggers")
@@ -90,7 +97,7 @@ def test_stopping_withdraws(master: PrivateMaster) -> None:
 
 
 def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
-    """kill() is SIGKILL and nothing else, so that what it leaves can be studied; the next of the name takes over."""
+    """What kill() leaves at the master can be studied; the next node of the name takes over."""
     process = NodeProcess.rosrun("course_pkg", "server")
     process.wait_for_service("/getGeometry")
     process.kill()
@@ -118,7 +125,7 @@ def test_running_again_replaces(kernel: Kernel) -> None:
 
 
 def test_launch_file() -> None:
-    """roslaunch runs with its nodes, and its nodes end with it."""
+    """A launch file runs with its nodes, and they end with it."""
     with NodeProcess.roslaunch("course_pkg", "geometry.launch", "client:=true") as process:
         process.wait_for_service("/getGeometry")
         deadline = time.monotonic() + 10
