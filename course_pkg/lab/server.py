@@ -38,7 +38,7 @@ HERE = Path(__file__).parent
 ASSETS = Path(sys.prefix) / "share" / "jupyter" / "lab"
 
 
-class CourseLab(LabServerApp):
+class CourseLab(LabServerApp):  # type: ignore[misc]  # of an untyped package
     """JupyterLab, as `course lab` serves it."""
 
     name = "lab"
