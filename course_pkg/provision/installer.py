@@ -45,7 +45,15 @@ def installed_uv(places: Places, journal: Journal) -> Path:
         folder = uv.parents[1]
         fresh = folder.with_name(f"{folder.name}.{os.getpid()}")
         options = ["--quiet", "--no-deps", "--no-compile", "--only-binary=:all:", "--require-hashes"]
-        command = [*pip_command(), "install", *options, "--target", fresh, "-r", lock_file("uv")]
+        command: list[str | Path] = [
+            *pip_command(),
+            "install",
+            *options,
+            "--target",
+            fresh,
+            "-r",
+            lock_file("uv"),
+        ]
         journal.run(command, env=_clean_environment())
         try:
             fresh.rename(folder)
@@ -61,7 +69,7 @@ def uv_environment() -> dict[str, str]:
 
 
 def in_words_of_uv(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return variables that give uv pip's `settings`, for it reads no pip.conf; what `environ` sets stands."""
+    """Return variables that give uv pip's `settings`: it reads no pip.conf. What `environ` sets stands."""
     words = dict(UV_SETTINGS)
     for option, variable in PIP_TO_UV.items():
         values = [value for value in settings.get(option, []) if _exists(value)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -78,7 +79,8 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        stamps.write(name, state)
+        with suppress(OSError):  # it spares the next start a question to dpkg, no more
+            stamps.write(name, state)
         return True
 
     def make(journal: Journal, progress: Progress) -> None:
