@@ -84,7 +84,18 @@ function copiedBySelection(text) {
   return done;
 }
 
+/** Send a message; false when there is nobody to send it to. @param {Model} model @param {object} content */
+export function send(model, content) {
+  try {
+    model.send(content);
+    return true;
+  } catch {
+    return false; // the kernel was shut down, and its connection with it
+  }
+}
+
 const PATIENCE = 1500; // ms; an idle kernel answers within 50
+const HEARTBEAT = 4000; // ms
 
 /**
  * The way to the kernel. A saved page has none, and nothing but silence tells: `changed(live)` hears false when a
@@ -94,20 +105,33 @@ const PATIENCE = 1500; // ms; an idle kernel answers within 50
 export function kernelLink(model, signal, changed) {
   const view = freshId("view");
   let timer = 0;
+  let heart = 0;
   let open = true;
+  // JupyterLab says nothing when a kernel is shut down, but from then on it cannot send. A busy kernel is no dead one:
+  // here only a message that cannot be sent counts.
+  const beat = () => {
+    if (!send(model, { kind: "here" })) lose();
+  };
+  const lose = () => {
+    clearInterval(heart);
+    changed(false);
+  };
   const greet = () => {
     clearTimeout(timer);
-    timer = setTimeout(() => changed(false), PATIENCE);
-    model.send({ kind: "hello", view });
+    if (send(model, { kind: "hello", view })) timer = setTimeout(lose, PATIENCE);
+    else lose();
   };
   const leave = () => {
     clearTimeout(timer);
-    if (open) model.send({ kind: "bye", view });
+    clearInterval(heart);
+    if (open) send(model, { kind: "bye", view });
     open = false;
   };
   model.on("msg:custom", (/** @type {{kind: string}} */ content) => {
     if (content.kind !== "hello") return;
     clearTimeout(timer);
+    clearInterval(heart);
+    heart = setInterval(beat, HEARTBEAT);
     changed(true);
   });
   model.on("comm_live_update", greet); // the kernel restarted or went away

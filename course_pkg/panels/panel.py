@@ -84,7 +84,7 @@ class Panel(anywidget.AnyWidget):
                 self._views.discard(content["view"])
                 if not self._views:
                     self.hidden()
-            else:
+            elif kind != "here":
                 self.received(kind, content)
         except Exception as error:  # noqa: BLE001 - an error in a click must show in the panel, not in some cell
             self.complain(error)

@@ -1,5 +1,5 @@
 /* The graph panel: the drawing, the details of what is clicked, and the same facts as a list. */
-import { freshId, h, kernelLink, say, setAttribute } from "../kit.js";
+import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 
 /** @typedef {{key: string, kind: string, name: string, lost: boolean, facts: [string, string][]}} Fact */
 
@@ -102,7 +102,7 @@ class GraphView {
   }
 
   #toggle() {
-    this.model.send({ kind: "choose", noise: this.noise.input.checked, show_own: this.own.input.checked });
+    send(this.model, { kind: "choose", noise: this.noise.input.checked, show_own: this.own.input.checked });
   }
 
   /** @param {EventTarget | null} target */

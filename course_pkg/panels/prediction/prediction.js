@@ -1,5 +1,5 @@
 /* Predictions: the question, the comparison, and the table of a chapter. */
-import { freshId, h, kernelLink, say, setAttribute } from "../kit.js";
+import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 
 /** @typedef {{question: string, predicted: string, actual: string, state: string, verdict: string}} Shown */
 
@@ -16,9 +16,9 @@ function render({ model, el }) {
 /** @param {import("../kit.js").Model} model @param {HTMLElement} el @param {AbortSignal} signal */
 function question(model, el, signal) {
   const choices = model.get("choices");
-  const send = (/** @type {string} */ answer) => model.send({ kind: "answer", answer });
+  const keep = (/** @type {string} */ answer) => send(model, { kind: "answer", answer });
   const status = h("p", { class: "ros-muted ros-kept", role: "status", "aria-live": "polite" });
-  const answer = choices.length ? radios(choices, send) : line(send);
+  const answer = choices.length ? radios(choices, keep) : line(keep);
   el.append(h("section", { class: "ros-panel ros-predict", "aria-label": "Prediction" },
     h("fieldset", {}, h("legend", {}, h("span", { class: "ros-tag", text: "Predict" }), " ", model.get("question")), answer.el), status));
   let live = true;
@@ -33,10 +33,10 @@ function question(model, el, signal) {
   kernelLink(model, signal, (now) => { live = now; draw(); });
 }
 
-/** @param {string[]} choices @param {(answer: string) => void} send */
-function radios(choices, send) {
+/** @param {string[]} choices @param {(answer: string) => void} keep */
+function radios(choices, keep) {
   const name = freshId("ros-predict");
-  const inputs = choices.map((choice) => /** @type {HTMLInputElement} */ (h("input", { type: "radio", name, value: choice, onchange: () => send(choice) })));
+  const inputs = choices.map((choice) => /** @type {HTMLInputElement} */ (h("input", { type: "radio", name, value: choice, onchange: () => keep(choice) })));
   const el = h("div", { class: "ros-choices" }, ...inputs.map((input) => h("label", {}, input, h("span", { text: input.value }))));
   const write = (/** @type {string} */ answer, /** @type {boolean} */ live) => inputs.forEach((input) => {
     input.checked = input.value === answer;
@@ -45,11 +45,11 @@ function radios(choices, send) {
   return { el, write };
 }
 
-/** @param {(answer: string) => void} send */
-function line(send) {
+/** @param {(answer: string) => void} keep */
+function line(keep) {
   const id = freshId("ros-predict");
   const input = /** @type {HTMLInputElement} */ (h("input", { id, type: "text", class: "ros-text", autocomplete: "off" }));
-  const el = h("form", { class: "ros-free", onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); send(input.value); } },
+  const el = h("form", { class: "ros-free", onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); keep(input.value); } },
     h("label", { for: id, text: "Your answer" }), input, h("button", { type: "submit", text: "Keep" }));
   const write = (/** @type {string} */ answer, /** @type {boolean} */ live) => {
     if (document.activeElement !== input || answer) input.value = answer;

@@ -1,5 +1,5 @@
 /* The service panel: pick, fill in, call, read. All that it shows comes from the model's traits. */
-import { copyButton, freshId, h, kernelLink, same, say, setAttribute } from "../kit.js";
+import { copyButton, freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
 import { RequestForm } from "./fields.js";
 import { recorded } from "./recording.js";
 
@@ -41,7 +41,7 @@ class ServiceView {
       class: "ros-text", autocomplete: "off", "aria-describedby": `${id}-limit`, oninput: () => this.#edited() }));
     this.limit = h("span", { id: `${id}-limit`, class: "ros-note" });
     this.callButton = h("button", { type: "submit", class: "ros-main", text: "Call" });
-    this.cancelButton = h("button", { type: "button", text: "Cancel", disabled: true, onclick: () => this.#cancel() });
+    this.cancelButton = h("button", { type: "button", text: "Cancel", onclick: () => this.#cancel() });
     this.status = h("p", { class: "ros-status", role: "status", "aria-live": "polite" });
     this.clock = h("span", { class: "ros-muted ros-clock", "aria-hidden": "true" });
     this.answer = h("div", { class: "ros-answer" });
@@ -64,9 +64,7 @@ class ServiceView {
       h("div", { class: "ros-heading" }, h("h3", { text: "The same call by hand" }), this.stale),
       command("Terminal", this.shell, "the command"), command("Python", this.python, "the Python lines"));
     this.empty = h("p", { class: "ros-empty", hidden: true });
-    this.el = h("section", { class: "ros-panel ros-service", "aria-label": "Service panel", onkeydown: (/** @type {KeyboardEvent} */ event) => {
-      if (event.key === "Escape") this.#cancel();
-    } }, this.banner, h("div", { class: "ros-head" }, h("label", { for: id, text: "Service" }), this.picker, this.about),
+    this.el = h("section", { class: "ros-panel ros-service", "aria-label": "Service panel", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#key(event) }, this.banner, h("div", { class: "ros-head" }, h("label", { for: id, text: "Service" }), this.picker, this.about),
     this.problem, this.empty, this.body, this.commands, this.history);
   }
 
@@ -105,7 +103,7 @@ class ServiceView {
       this.request.show(form.request.fields, form.request.constants, this.model.get("draft"));
       this.refused = this.model.get("check").refused ?? 0;
     }
-    this.about.replaceChildren(...(typed ? [h("code", { text: form.type }), form.node ? " served by " : "", h("code", { text: form.node }),
+    this.about.replaceChildren(...(typed ? [h("code", { text: form.type }), ...(form.node ? [" served by ", h("code", { text: form.node })] : []),
       h("span", { class: "ros-md5", text: ` MD5 ${form.md5.slice(0, 8)}…`, title: form.md5 })] : []));
     setAttribute(this.problem, "hidden", !form.problem);
     say(this.problem, form.problem ?? "");
@@ -179,8 +177,9 @@ class ServiceView {
   #drawButtons() {
     const running = this.model.get("outcome").phase === "running";
     const answers = this.live || this.model.get("recording").length > 0;
-    /** @type {HTMLButtonElement} */ (this.callButton).disabled = running || this.waiting || !answers;
-    /** @type {HTMLButtonElement} */ (this.cancelButton).disabled = !running || !this.live;
+    // Not the attribute `disabled`: a button that has the keyboard would lose it.
+    setAttribute(this.callButton, "aria-disabled", running || this.waiting || !answers ? "true" : null);
+    setAttribute(this.cancelButton, "aria-disabled", running && this.live ? null : "true");
     this.picker.disabled = !this.live;
   }
 
@@ -218,8 +217,17 @@ class ServiceView {
     this.#drawButtons();
   }
 
+  /** @param {KeyboardEvent} event */
+  #key(event) {
+    if (event.key === "Escape") this.#cancel();
+    // JupyterLab keeps the browser from submitting a form by Enter.
+    if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
+    event.preventDefault();
+    this.#call();
+  }
+
   #pick() {
-    this.model.send({ kind: "pick", service: this.picker.value });
+    send(this.model, { kind: "pick", service: this.picker.value });
   }
 
   #edited() {
@@ -235,13 +243,13 @@ class ServiceView {
   }
 
   #call() {
-    if (/** @type {HTMLButtonElement} */ (this.callButton).disabled) return;
-    clearTimeout(this.settling);
+    if (disabled(this.callButton)) return;
+    this.#save(); // the kernel takes messages in turn: first what was typed, then the call
     if (!this.live) return this.#replay();
     this.waiting = true;
     this.#drawButtons();
     this.slow = setTimeout(() => say(this.status, "Waiting for the kernel: it is busy with another cell."), SLOW);
-    this.model.send({ kind: "call", draft: this.request.draft, deadline: this.deadline.value });
+    send(this.model, { kind: "call", draft: this.request.draft, deadline: this.deadline.value });
   }
 
   #replay() {
@@ -258,7 +266,7 @@ class ServiceView {
   }
 
   #cancel() {
-    if (!(/** @type {HTMLButtonElement} */ (this.cancelButton).disabled)) this.model.send({ kind: "cancel" });
+    if (!disabled(this.cancelButton)) send(this.model, { kind: "cancel" });
   }
 
   /** The kernel has answered a click. */
@@ -275,6 +283,9 @@ class ServiceView {
     this.request.focus();
   }
 }
+
+/** @param {HTMLElement} button */
+const disabled = (button) => button.hasAttribute("aria-disabled");
 
 /** @param {string} label @param {HTMLElement} pre @param {string} what */
 function command(label, pre, what) {

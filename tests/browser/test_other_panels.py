@@ -1,0 +1,127 @@
+"""The graph panel, predictions, and all panels in the dark theme, in a real JupyterLab."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from browser.jupyter import Lab, end_kernels, open_notebook, panel, picture, run_all, running_lab, write_notebook
+
+GRAPH = """
+from course_pkg import GraphPanel, ServicePanel, join, predict, predictions
+from course_pkg.srv import geometry
+import rospy
+from std_msgs.msg import String
+
+node = join("graph_test")
+chatter = rospy.Publisher("/chatter", String, queue_size=1)
+heard = node.subscribe("/chatter", String)
+"""
+SERVE = 'served = node.serve("/getGeometry", geometry, lambda request: (request.length, 0))'
+PREDICT = """
+p = predict("05.reply_none", "What does the client see when the handler returns None?",
+            ["an empty reply", "an error", "it waits for ever"])
+p
+"""
+
+# Where the text and the ground of an element meet: WCAG's ratio, the ground taken from the nearest opaque ancestor.
+FAINT = """root => {
+  const parse = (color) => (color.match(/[\\d.]+/g) ?? []).map(Number);
+  const light = ([r, g, b]) => [r, g, b].map((c) => c / 255).map((c) => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+  const ground = (element) => { for (let each = element; each; each = each.parentElement) {
+    const color = parse(getComputedStyle(each).backgroundColor); if (color.length === 3 || color[3] === 1) return color; } return [255, 255, 255]; };
+  return [...root.querySelectorAll("*")].filter((each) => [...each.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim())
+      && each.checkVisibility() && !each.closest("svg, .ros-hidden, [aria-disabled]"))
+    .map((each) => { const [a, b] = [light(parse(getComputedStyle(each).color)), light(ground(each))].sort((x, y) => y - x);
+      return [(a + 0.05) / (b + 0.05), each.outerHTML.slice(0, 90)]; }).filter(([ratio]) => ratio < 4.5);
+}"""
+
+
+@pytest.fixture
+def clean(lab: Lab) -> Iterator[None]:
+    """Leave an empty graph for the next test."""
+    yield
+    end_kernels(lab)
+
+
+@pytest.mark.usefixtures("clean")
+def test_the_graph_panel_follows_the_graph(lab: Lab, page: Page) -> None:
+    """Nodes and topics are there at once, a service that starts later appears, and a click tells its type."""
+    write_notebook(lab, "graph.ipynb", GRAPH, "GraphPanel(node=node)", "import threading\nthreading.Timer(2, lambda: exec(%r, globals())).start()" % SERVE)
+    open_notebook(page, lab, "graph.ipynb")
+    run_all(page)
+    graph = panel(page, "Graph panel")
+    expect(graph.get_by_role("button", name="topic /chatter")).to_be_visible()
+    service = graph.get_by_role("button", name="service /getGeometry")
+    expect(service).to_be_visible(timeout=10_000)
+    service.focus()
+    page.keyboard.press("Enter")
+    expect(graph.locator(".ros-details")).to_contain_text("course_pkg/geometry")
+    picture(graph, "graph-panel")
+    graph.get_by_label("loggers and /rosout").check()
+    expect(graph.get_by_role("button", name="service /graph_test/get_loggers")).to_be_visible()
+    expect(graph.get_by_role("button", name="service /getGeometry")).to_have_attribute("aria-pressed", "true")
+    picture(graph, "graph-panel-with-loggers")
+
+
+@pytest.mark.usefixtures("clean")
+def test_a_prediction_is_kept_and_compared(lab: Lab, page: Page) -> None:
+    """What is chosen is there after a new run, and stands beside what really happened."""
+    write_notebook(lab, "predict.ipynb", GRAPH, PREDICT, 'p.compare("an error")', 'predictions("05")')
+    open_notebook(page, lab, "predict.ipynb")
+    run_all(page)
+    expect(panel(page, "Prediction compared")).to_contain_text("You had made no prediction.")
+    question = page.get_by_role("region", name="Prediction", exact=True)
+    question.get_by_label("an empty reply").check()
+    expect(question).to_contain_text("a change now is marked as made afterwards")
+    run_all(page)
+    expect(page.get_by_role("region", name="Prediction", exact=True).get_by_label("an empty reply")).to_be_checked()
+    expect(panel(page, "Prediction compared")).to_contain_text("came after the result")
+    expect(panel(page, "Predictions").get_by_role("row")).to_have_count(2)
+    picture(page, "predictions")
+
+
+def test_the_dark_theme_can_be_read(tmp_path: Path, page: Page) -> None:
+    """Every text of every panel has a contrast of at least 4.5 : 1 in JupyterLab's dark theme."""
+    with running_lab(tmp_path, theme="Dark") as lab:
+        write_notebook(lab, "dark.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', PREDICT)
+        open_notebook(page, lab, "dark.ipynb")
+        run_all(page)
+        form = panel(page)
+        form.get_by_label("length").fill("three")
+        form.get_by_role("button", name="Call").click()
+        expect(form.get_by_text("Not called")).to_be_visible()
+        expect(page.locator("body")).to_have_attribute("data-jp-theme-light", "false")
+        for label in ("Graph panel", "Service panel", "Prediction"):
+            assert page.get_by_role("region", name=label, exact=True).evaluate(FAINT) == []
+        picture(form, "service-panel-dark")
+        picture(panel(page, "Graph panel"), "graph-panel-dark")
+        end_kernels(lab)
+
+
+@pytest.mark.usefixtures("clean")
+def test_the_light_theme_can_be_read(lab: Lab, page: Page) -> None:
+    """The same in the light theme, with an error and its explanation in sight."""
+    write_notebook(lab, "light.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()")
+    open_notebook(page, lab, "light.ipynb")
+    run_all(page)
+    form = panel(page)
+    form.get_by_role("button", name="Call").click()
+    expect(form.get_by_label("The error as ROS words it")).to_contain_text("unavailable")
+    for label in ("Graph panel", "Service panel"):
+        assert page.get_by_role("region", name=label, exact=True).evaluate(FAINT) == []
+    picture(form, "service-panel-error")
+
+
+@pytest.mark.usefixtures("clean")
+def test_an_empty_graph_says_what_to_do(lab: Lab, page: Page) -> None:
+    """A panel without a service is no blank: it says where services come from."""
+    write_notebook(lab, "empty.ipynb", "from course_pkg import ServicePanel\nServicePanel()")
+    open_notebook(page, lab, "empty.ipynb")
+    run_all(page)
+    expect(panel(page).get_by_text("No node offers a service yet.")).to_be_visible()
+    picture(panel(page), "service-panel-empty")

@@ -1,0 +1,191 @@
+"""The service panel in a real JupyterLab, on a real graph, as a student meets it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from browser.jupyter import Lab, end_kernels, open_notebook, panel, picture, run_all, write_notebook
+
+SERVER = """
+import threading
+from course_pkg import ServicePanel, join
+from course_pkg.srv import geometry
+
+node = join("NODE")
+release = threading.Event()
+
+def measure(request):
+    if request.length < 0:
+        release.wait(30)
+    area = request.length * request.width
+    return round(area, 2), round(area * request.height, 2)
+
+served = node.serve("/getGeometry", geometry, measure)
+"""
+
+
+@pytest.fixture
+def form(lab: Lab, page: Page, request: pytest.FixtureRequest) -> Iterator[Locator]:
+    """Open a notebook that serves geometry and shows a panel for it, and run it."""
+    node = re.sub(r"[^a-z_0-9]", "_", request.node.name)
+    name = f"{node}.ipynb"
+    write_notebook(lab, name, SERVER.replace("NODE", node), 'form = ServicePanel("/getGeometry")\nform')
+    open_notebook(page, lab, name)
+    run_all(page)
+    yield panel(page)
+    end_kernels(lab)
+
+
+def fill(form: Locator, **values: str) -> None:
+    """Type into fields as a person does."""
+    for name, text in values.items():
+        field = form.get_by_label(name)
+        field.fill(text)
+
+
+def answer(form: Locator, name: str) -> Locator:
+    """Find the value of a field of the response."""
+    return form.get_by_role("row", name=name).get_by_role("cell").first
+
+
+def run_cell(page: Page, code: str) -> None:
+    """Write into a new last cell and run it."""
+    page.locator(".jp-Notebook-footer").click()
+    editor = page.locator(".jp-CodeCell .cm-content").last
+    editor.click()
+    page.keyboard.insert_text(code)
+    page.keyboard.press("Control+Enter")
+
+
+def test_fill_call_read(form: Locator) -> None:
+    """Length, width, height in; Call; area and volume out, with the command that does the same."""
+    fill(form, length="1.2", width="5.2", height="8.9")
+    expect(form.get_by_label("Command for a terminal")).to_have_text("rosservice call /getGeometry 1.2 5.2 8.9")
+    form.get_by_role("button", name="Call").click()
+    expect(answer(form, "area")).to_have_text("6.24")
+    expect(answer(form, "volume")).to_have_text("55.54")
+    expect(form.get_by_text("Answered in")).to_be_visible()
+    picture(form, "service-panel")
+
+
+def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
+    """The mark stands at the field, says what is allowed, and has the keyboard; it goes while one corrects it."""
+    fill(form, length="1.2", width="five")
+    form.get_by_role("button", name="Call").click()
+    width = form.get_by_label("width")
+    expect(width).to_have_attribute("aria-invalid", "true")
+    expect(width).to_be_focused()
+    expect(width).to_have_accessible_description("float32 'five' is not a number. Give a float32 from -3.4e38 to 3.4e38, such as 1.5.")
+    expect(form.get_by_text("Not called: one field needs a correction.")).to_be_visible()
+    picture(form, "service-panel-wrong-field")
+    width.press("Control+a")
+    width.press_sequentially("5.2")
+    expect(width).not_to_have_attribute("aria-invalid", "true")
+    expect(width).to_be_focused()
+    width.press("Enter")
+    expect(answer(form, "area")).to_have_text("6.24")
+
+
+def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
+    """While the server does not answer the kernel is free, and Escape ends the wait."""
+    fill(form, length="-1", width="1", height="1")
+    form.get_by_role("button", name="Call").click()
+    expect(form.get_by_text("Calling…")).to_be_visible()
+    expect(form.get_by_role("button", name="Call")).to_be_disabled()
+    picture(form, "service-panel-calling")
+    form.get_by_label("length").press("Escape")
+    expect(form.get_by_text("Cancelled after")).to_be_visible()
+    expect(form.get_by_text("The server does not hear of that")).to_be_visible()
+    expect(form.get_by_role("button", name="Call")).to_be_enabled()
+
+
+def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
+    """The wait is over when the seconds typed are over, in words and with what to do."""
+    fill(form, length="-1")
+    form.get_by_label("Wait at most").fill("0.3")
+    form.get_by_role("button", name="Call").click()
+    expect(form.get_by_label("The error as ROS words it")).to_contain_text("CallTimeout: service [/getGeometry]: no answer within 0.3 s")
+    expect(form.get_by_text("Look at what the handler waits for")).to_be_visible()
+    picture(form, "service-panel-timeout")
+
+
+def test_everything_by_keyboard(form: Locator, page: Page) -> None:
+    """Tab goes from the picker through the fields to Call; the history refills the form."""
+    form.get_by_label("Service", exact=True).focus()
+    for text in ("2", "3", "4"):
+        page.keyboard.press("Tab")
+        page.keyboard.press("Control+a")
+        page.keyboard.type(text)
+    page.keyboard.press("Tab")
+    expect(form.get_by_role("button", name="Call")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(answer(form, "volume")).to_have_text("24.0")
+    fill(form, length="9")
+    history = form.get_by_text("History (1)")
+    history.focus()
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    expect(form.get_by_label("length")).to_have_value("2")
+
+
+def test_the_picker_follows_the_graph(form: Locator, page: Page) -> None:
+    """A service that starts appears; one that ends is said to be gone, and what was typed stays."""
+    fill(form, length="7")
+    run_cell(page, 'from std_srvs.srv import Trigger\nother = node.serve("/hello", Trigger, lambda _: (True, "hi"))\nserved.stop()')
+    expect(form.get_by_text("No service of this name is on the graph now.")).to_be_visible(timeout=10_000)
+    expect(form.get_by_label("length")).to_have_value("7")
+    picture(form, "service-panel-gone")
+    form.get_by_label("Service", exact=True).select_option("/hello")
+    expect(form.get_by_text("This request has no fields: just call.")).to_be_visible()
+    form.get_by_role("button", name="Call").click()
+    expect(answer(form, "message")).to_have_text("hi")
+    picture(form, "service-panel-no-fields")
+
+
+def test_filling_from_python_shows_in_the_form(form: Locator, page: Page) -> None:
+    """A cell and the page share one form."""
+    run_cell(page, 'form.call(length=1.2, width=5.2, height=8.9).area')
+    expect(form.get_by_label("length")).to_have_value("1.2")
+    expect(answer(form, "area")).to_have_text("6.24")
+
+
+def test_a_copy_button_copies(form: Locator, page: Page) -> None:
+    """What is copied is the command that stands there."""
+    form.get_by_role("button", name="Copy the command").click()
+    expect(form.get_by_text("Copied")).to_be_visible()
+    assert page.evaluate("navigator.clipboard.readText()") == "rosservice call /getGeometry 0.0 0.0 0.0"
+
+
+def test_a_kernel_that_ends_is_said(form: Locator, page: Page) -> None:
+    """After a shutdown of the kernel the panel keeps its last state, says so, and does not pretend to call."""
+    form.get_by_role("button", name="Call").click()
+    expect(answer(form, "area")).to_have_text("0.0")
+    page.get_by_role("menuitem", name="Kernel", exact=True).click()
+    page.get_by_role("menuitem", name="Shut Down Kernel", exact=True).click()
+    expect(form.get_by_text("No kernel answers: this is a saved panel.")).to_be_visible(timeout=15_000)
+    expect(form.get_by_role("button", name="Call")).to_be_disabled()
+    expect(answer(form, "area")).to_have_text("0.0")
+    picture(form, "service-panel-no-kernel")
+
+
+@pytest.mark.parametrize("width", [1280, 560])
+def test_nothing_is_wider_than_the_page(form: Locator, page: Page, width: int) -> None:
+    """On a wide and on a narrow window no part sticks out, and a call moves nothing above it."""
+    page.set_viewport_size({"width": width, "height": 1000})
+    page.get_by_role("tab", name="File Browser").click()
+    fill(form, length="1.2", width="5.2", height="8.9")
+    before = form.get_by_role("button", name="Call").bounding_box()
+    form.get_by_role("button", name="Call").click()
+    expect(answer(form, "area")).to_have_text("6.24")
+    assert form.get_by_role("button", name="Call").bounding_box() == before
+    too_wide = form.evaluate(
+        "root => [...root.querySelectorAll('*')].filter((each) => each.getBoundingClientRect().right > "
+        "root.getBoundingClientRect().right + 1 && !each.closest('pre, .ros-answer, .ros-hidden')).map((each) => each.outerHTML.slice(0, 80))"
+    )
+    assert too_wide == []
+    picture(form, f"service-panel-{width}")
