@@ -74,6 +74,8 @@ class _Kernel:
         if self._node is None:
             self._node = Node()
             atexit.register(self._at_exit)
+            # The end of a forked child would withdraw from the master what is its parent's.
+            os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._hire(master)
         return self._node

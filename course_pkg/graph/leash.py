@@ -37,6 +37,7 @@ class Leash:
         remove: Path | None = None,
         forget: tuple[str, str, str] | None = None,
     ) -> None:
+        self._owner = os.getpid()
         reader, writer = os.pipe()
         try:
             self._process = subprocess.Popen(
@@ -73,7 +74,12 @@ class Leash:
         return True
 
     def end(self, grace: float = 2.0) -> None:
-        """End the command and all its descendants: asked first, and killed after `grace` s."""
+        """End the command and all its descendants: asked first, and killed after `grace` s.
+
+        In a forked child it does nothing: they are the parent's.
+        """
+        if os.getpid() != self._owner:
+            return
         if self.pid != self._process.pid:
             self.signal(signal.SIGCONT)
             self.signal(signal.SIGINT)

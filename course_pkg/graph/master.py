@@ -17,6 +17,7 @@ from course_pkg.graph.rpc import MasterClient
 
 READY = 15.0  # s; it takes 0.15 s, and many times that on a machine that is busy
 TRIES = 5
+ELSEWHERE = ("ROS_IP", "ROS_IPV6")  # variables that would have ROS bind to other addresses
 
 
 class PrivateMaster:
@@ -134,9 +135,9 @@ def find_or_start_master() -> PrivateMaster | MasterClient:
         client.pid()
         return client
     master = PrivateMaster().start()
-    os.environ.update(_local_environment())
-    os.environ.pop("ROS_IP", None)
-    os.environ["ROS_MASTER_URI"] = master.uri
+    for name in ELSEWHERE:
+        os.environ.pop(name, None)
+    os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
     return master
 
 
@@ -166,5 +167,5 @@ def _log_folder() -> tuple[Path, bool]:
 
 def _local_environment() -> dict[str, str]:
     """Return an environment in which all that is ROS binds to 127.0.0.1."""
-    kept = {name: value for name, value in os.environ.items() if name not in ("ROS_IP", "ROS_IPV6")}
+    kept = {name: value for name, value in os.environ.items() if name not in ELSEWHERE}
     return {**kept, "ROS_HOSTNAME": "localhost"}

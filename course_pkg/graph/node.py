@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -32,6 +33,7 @@ class Node:
         self._processes: dict[str, NodeProcess] = {}
         self._proxies: dict[tuple[str, Any], BoundedProxy] = {}
         self._uri = rospy.get_node_uri()
+        self._pid = os.getpid()
 
     @property
     def name(self) -> str:
@@ -148,6 +150,11 @@ class Node:
         return self._proxies[key]
 
     def _require(self) -> None:
+        if os.getpid() != self._pid:
+            raise NotJoined(
+                "This process was forked from the one that is the node, and has none of the threads that a "
+                "node needs. Use threads, or processes that are started afresh and join() by another name."
+            )
         if rospy.core.is_shutdown():
             raise NotJoined(
                 "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting "

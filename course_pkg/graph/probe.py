@@ -39,9 +39,10 @@ class Probe:
 def ask_all(probes: Sequence[Probe], timeout: float) -> None:
     """Fill in answer and reach of all probes; return when all are settled, or after `timeout` s."""
     deadline = time.monotonic() + timeout
+    resolved = {host: _resolved(host) for host in {probe.address[0] for probe in probes}}
     with selectors.DefaultSelector() as selector:
         for probe in probes:
-            _begin(probe, selector)
+            _begin(probe, resolved[probe.address[0]], selector)
         try:
             while selector.get_map() and (rest := deadline - time.monotonic()) > 0:
                 for key, _ in selector.select(rest):
@@ -88,15 +89,20 @@ def _address(uri: str) -> tuple[str, int]:
     return host, int(port) if port.isdigit() else 0
 
 
-def _begin(probe: Probe, selector: selectors.BaseSelector) -> None:
+def _resolved(host: str) -> str | None:
     try:
-        address = socket.getaddrinfo(*probe.address, socket.AF_INET, socket.SOCK_STREAM)[0][4]
-        sock = socket.socket()
+        return socket.gethostbyname(host)
     except OSError:
+        return None
+
+
+def _begin(probe: Probe, host: str | None, selector: selectors.BaseSelector) -> None:
+    if host is None:
         probe.reach = Reach.LOST
         return
+    sock = socket.socket()
     sock.setblocking(False)
-    sock.connect_ex(address)
+    sock.connect_ex((host, probe.address[1]))
     selector.register(sock, selectors.EVENT_WRITE, probe)
 
 

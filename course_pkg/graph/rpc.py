@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import time
 import weakref
@@ -19,7 +20,6 @@ from course_pkg.errors import GraphError, MalformedMasterUri, MasterSilent, Mast
 Addresses = dict[str, str]  # of nodes or services, by name
 Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> the nodes that have it
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)  # of a kept connection
-RESTART = "Run the set-up cell with join() again, or start a master with `roscore`."
 
 
 @dataclass(frozen=True)
@@ -134,12 +134,13 @@ class MasterClient:
         except TimeoutError as error:
             raise MasterSilent(
                 f"The program at {self.uri} takes connections and did not answer within {limit:g} s. If "
-                f"that is your master, it hangs or is stopped (SIGSTOP): end it and start another. {RESTART}"
+                "it is the master, it hangs or is stopped (SIGSTOP): let it go on, or end it and start another."
             ) from error
         except OSError as error:
             raise MasterUnreachable(
-                f"No ROS master at {self.uri} ({error.strerror or error}). {RESTART} If it should be "
-                "elsewhere, correct ROS_MASTER_URI."
+                f"No ROS master at {self.uri} ({error.strerror or error}). A notebook's own master comes "
+                "back when the set-up cell with join() is run again; a shared one has to be started again: "
+                f"`roscore -p {self._address[1]}`. If the master is elsewhere, correct ROS_MASTER_URI."
             ) from error
         except (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError) as error:
             raise NotAMaster(
@@ -151,6 +152,8 @@ class MasterClient:
         """Send a question over a kept connection, or a new one when there is none or it has gone stale."""
         while self._idle:
             connection = self._idle.pop()
+            if connection.pid != os.getpid():
+                continue  # inherited by a fork: the parent is using it
             try:
                 return self._over(connection, body, deadline)
             except STALE:
@@ -180,6 +183,7 @@ class _Connection(HTTPConnection):
 
     def __init__(self, address: tuple[str, int]) -> None:
         super().__init__(*address)
+        self.pid = os.getpid()
         self._deadline = 0.0
 
     def connect(self) -> None:

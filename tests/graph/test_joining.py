@@ -312,3 +312,27 @@ heard = node.subscribe("/numbers", UInt32)
     """)
     kernel.exit()
     assert MasterClient(master.uri).system_state().nodes == ()
+
+
+def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
+    """A forked child is told that it is not the node, and its end takes nothing from its parent."""
+    assert kernel.run(
+        JOIN
+        + """
+import os
+from course_pkg.errors import NotJoined
+from std_srvs.srv import Trigger
+node.serve("/served", Trigger, lambda request: (True, "here"))
+child = os.fork()
+if child == 0:
+    try:
+        node.call("/served", Trigger)
+    except NotJoined:
+        import atexit
+        atexit._run_exitfuncs()
+        os._exit(7)
+    os._exit(1)
+status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+result = status, node.call("/served", Trigger).message
+"""
+    ) == [7, "here"]
