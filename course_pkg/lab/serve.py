@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -31,13 +31,14 @@ def serve_lab(notebook: str | None, *, port: int | None, ip: str, browser: bool)
     """Serve JupyterLab until Ctrl-C or SIGTERM; return 0, or the server's status if it ends by itself."""
     places = Places.of()
     page = _page(places.checkout, notebook)
-    number = free_port(ip, [port] if port is not None else PORTS)
+    options = {"ServerApp.root_dir": places.checkout, **_listening(ip, port), **_course_options(places, page)}
     with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as scratch:
         ready, log = Path(scratch, "ready.json"), Path(scratch, "server.log")
+        options["CourseLab.ready_file"] = ready
         with (
             log.open("wb") as output,
             master_coming_up() as master_is_up,
-            _server(places, page, number, ip, ready, output) as server,
+            _server(places, options, output) as server,
         ):
             address = _await(server, ready, log)
             master_is_up()
@@ -73,30 +74,38 @@ def _stopping_on_signals() -> Iterator[None]:
 
 
 @contextmanager
-def _server(places: Places, page: str, port: int, ip: str, ready: Path, output: BinaryIO) -> Iterator[Leash]:
+def _server(places: Places, options: Mapping[str, object], output: BinaryIO) -> Iterator[Leash]:
     """Run the server, and end it with all its kernels and terminals, also when this process is killed."""
-    options = {
-        "ServerApp.root_dir": places.checkout,
-        "ServerApp.ip": ip,
-        "ServerApp.port": port,
-        "ServerApp.port_retries": 0,
-        "ServerApp.open_browser": False,
-        "ServerApp.allow_root": True,
-        "CourseLab.first_notebook": page,
-        "CourseLab.ready_file": ready,
-        "CourseLab.user_settings_dir": _user_settings(),
-        "CourseLab.workspaces_dir": places.cache / "jupyter" / "workspaces",
-    }
     arguments = [f"--{name}={value}" for name, value in options.items()]
     leash = Leash(
         [str(places.python), "-m", "course_pkg.lab.server", *arguments],
         output=output,
         env={**os.environ, **_jupyter_folders(places)},
+        remove=Path(output.name).parent,
     )
     try:
         yield leash
     finally:
         leash.end()
+
+
+def _listening(ip: str, port: int | None) -> dict[str, object]:
+    """Return where to listen; unless the user named the port, the server may go on to another one."""
+    return {
+        "ServerApp.ip": ip,
+        "ServerApp.port": free_port(ip, PORTS if port is None else [port]),
+        "ServerApp.port_retries": len(PORTS) if port is None else 0,
+    }
+
+
+def _course_options(places: Places, page: str) -> dict[str, object]:
+    return {
+        "ServerApp.open_browser": False,
+        "ServerApp.allow_root": True,
+        "CourseLab.first_notebook": page,
+        "CourseLab.user_settings_dir": _user_settings(),
+        "CourseLab.workspaces_dir": places.cache / "jupyter" / "workspaces",
+    }
 
 
 def _jupyter_folders(places: Places) -> dict[str, str]:
