@@ -72,14 +72,16 @@ class BoundedProxy(rospy.ServiceProxy):
                 raise
             raise call.verdict from error
         finally:
+            call.over = True
             self._under_way.discard(call)
-            for watch in call.watches:
-                self._watchdog.disarm(watch)
+            self._disarm(call)
 
     def cancel(self) -> None:
         """End the calls that are under way; each raises CallCancelled where it was made."""
         for call in list(self._under_way):
             call.watches.append(self._watchdog.arm(time.monotonic(), call.cancel))
+            if call.over:  # meanwhile, and its own disarming may have missed this watch
+                self._disarm(call)
 
     def close(self) -> None:
         """Cancel what is under way and close the connections."""
@@ -88,6 +90,10 @@ class BoundedProxy(rospy.ServiceProxy):
         if kept is not None:
             kept.close()
         self._master.close()
+
+    def _disarm(self, call: _Call) -> None:
+        for watch in list(call.watches):
+            self._watchdog.disarm(watch)
 
     def _once(self, call: _Call, request: Any) -> Any:  # noqa: ANN401
         transport = self._connected(call)
@@ -181,6 +187,7 @@ class _Call:
 
     def __init__(self, name: str, timeout: float) -> None:
         self.deadline = time.monotonic() + timeout
+        self.over = False
         self.watches: list[int] = []
         self.transport: TCPROSTransport | None = None
         self.verdict: GraphError | None = None
@@ -212,6 +219,8 @@ class _Call:
         return "its handler is still working, or waits for something itself"
 
     def _break_off(self, verdict: GraphError) -> None:
+        if self.over:
+            return
         self.verdict = self.verdict or verdict
         sock = self.transport.socket if self.transport else None
         if sock is not None:

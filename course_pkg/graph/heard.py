@@ -12,6 +12,8 @@ from typing import Any
 import rospy
 
 from course_pkg.errors import NothingHeard
+from course_pkg.graph.master import master_uri
+from course_pkg.graph.rpc import MasterClient
 
 REMEMBERED = 1000  # messages
 
@@ -26,9 +28,10 @@ class Heard:
         self._callback = callback
         self._arrived = threading.Condition()
         self._cls = cls
-        self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._hear)
-        self.name = str(self._subscriber.resolved_name)
+        self.name = str(rospy.resolve_name(topic))
         self.type = str(cls._type)
+        self._hearing = True
+        self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._hear)
 
     def wait(self, count: int = 1, timeout: float = 5.0) -> list[Any]:
         """Return the first `count` of `messages`, as soon as there are so many.
@@ -44,10 +47,15 @@ class Heard:
                 raise NothingHeard(self._too_few(count, timeout))
             return list(self.messages)[:count]
 
-    def stop(self) -> None:
-        """Unsubscribe; what was heard stays. A second stop changes nothing."""
+    def stop(self, *, withdraw: bool = True) -> None:
+        """Unsubscribe; what was heard stays. A second stop changes nothing.
+
+        Raises MasterUnreachable or MasterSilent where rospy would wait for ever, and hears nothing more.
+        """
+        self._hearing = False
         subscriber, self._subscriber = self._subscriber, None
-        if subscriber is not None:
+        if subscriber is not None and withdraw:
+            MasterClient(master_uri()).pid()
             subscriber.unregister()
 
     def renew(self) -> None:
@@ -67,6 +75,8 @@ class Heard:
         return f"<{self.name} of type {self.type}, {'heard' if self._subscriber else 'stopped'}>"
 
     def _hear(self, message: Any) -> None:  # noqa: ANN401
+        if not self._hearing:
+            return
         with self._arrived:
             self.messages.append(message)
             self.count += 1

@@ -8,11 +8,13 @@ import threading
 import time
 from contextlib import suppress
 from functools import cache
+from pkgutil import extend_path
 
 import rosgraph.names
 import rospy
 
-from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined
+import course_pkg
+from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined, SetupError
 from course_pkg.graph.calls import settle_keepalive
 from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.leash import Leash
@@ -62,6 +64,7 @@ class _Kernel:
         self._node: Node | None = None
         self._private: PrivateMaster | None = None
         self._undertaker: Leash | None = None
+        self._will: tuple[str, str, str] | None = None
 
     def join(self, name: str) -> Node:
         _require_main_thread()
@@ -81,14 +84,19 @@ class _Kernel:
         return self._node
 
     def leave(self, node: Node) -> None:
-        node.close_all()
+        master = MasterClient(master_uri())
+        try:
+            master.pid()
+        except GraphError:
+            node.close(with_master=False)
+        else:
+            node.close()
+            unregister_all(master)
         self._dismiss()
-        unregister_all(MasterClient(master_uri()))
 
     def _settle_rospy(self, full: str, master: MasterClient) -> None:
         """Have rospy running as this node, and the master knowing it."""
         if rospy.core.is_shutdown():
-            self._dismiss()
             begin_again()
         if not rospy.core.is_initialized():
             _make_room(full, master)
@@ -116,11 +124,13 @@ class _Kernel:
     def _hire(self, master: MasterClient) -> None:
         """On a master that outlives this kernel, have the node withdrawn should the kernel be killed."""
         ours = self._private is not None and self._private.uri == master.uri
-        if self._undertaker is None and not ours:
-            self._undertaker = Leash([], forget=(master.uri, rospy.get_name(), rospy.get_node_uri()))
+        will = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
+        if will != self._will:
+            self._dismiss()
+            self._undertaker, self._will = Leash([], forget=will) if will else None, will
 
     def _dismiss(self) -> None:
-        undertaker, self._undertaker = self._undertaker, None
+        undertaker, self._undertaker, self._will = self._undertaker, None, None
         if undertaker is not None:
             undertaker.end()
 
@@ -169,7 +179,12 @@ def _apply_environment() -> None:
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.provision import environment
 
-        environment.apply()
+        if not environment.apply():
+            raise SetupError(
+                "The course's workspace is not built on this machine. Run `./course doctor` in a terminal: "
+                "it says what is missing. Then run this cell again."
+            )
+        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)  # course_pkg.srv is there
     if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
         os.environ["ROS_HOSTNAME"] = "localhost"
 

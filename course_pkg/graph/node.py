@@ -112,18 +112,18 @@ class Node:
         for heard in self._heard.values():
             heard.renew()
 
-    def close_all(self) -> None:
-        """End all processes, subscriptions, services and calls that were begun here."""
+    def close(self, *, with_master: bool = True) -> None:
+        """End all that was begun here; without a master that answers, nothing is withdrawn from it."""
         for process in self._processes.values():
             process.interrupt()
         while self._processes:
-            self._processes.popitem()[1].stop()
+            self._processes.popitem()[1].stop(withdraw=with_master)
         while self._proxies:
             self._proxies.popitem()[1].close()
         while self._heard:
-            self._heard.popitem()[1].stop()
+            self._heard.popitem()[1].stop(withdraw=with_master)
         while self._served:
-            self._served.popitem()[1].stop()
+            self._served.popitem()[1].stop(withdraw=with_master)
         self._output.remove()
 
     def __repr__(self) -> str:

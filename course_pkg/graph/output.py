@@ -50,6 +50,24 @@ class RoutedStream(io.TextIOBase):
         """Flush what is behind."""
         self.through.flush()
 
+    def isatty(self) -> bool:
+        """Say what the stream behind says."""
+        return bool(self.through.isatty())
+
+    def fileno(self) -> int:
+        """Return the descriptor of the stream behind."""
+        return int(self.through.fileno())
+
+    @property
+    def encoding(self) -> Any:  # type: ignore[override]  # noqa: ANN401
+        """The encoding of the stream behind."""
+        return self.through.encoding
+
+    @property
+    def errors(self) -> Any:  # type: ignore[override]  # noqa: ANN401
+        """How the stream behind treats what it cannot encode."""
+        return self.through.errors
+
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 -- IPython's stream has methods of its own
         return getattr(self.through, name)
 

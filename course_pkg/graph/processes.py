@@ -93,13 +93,14 @@ class NodeProcess:
         self._leash.signal(signal.SIGCONT)
         self._leash.signal(signal.SIGINT)
 
-    def stop(self, grace: float = GRACE) -> None:
+    def stop(self, grace: float = GRACE, *, withdraw: bool = True) -> None:
         """End it, by force after `grace` s, and return when it and its registrations are gone."""
         if not self.running:
             return
-        nodes, services = self._registered()
+        nodes, services = self._registered() if withdraw else ({}, {})
         self._leash.end(grace)
-        self._withdraw(nodes, services)
+        if nodes or services:
+            self._withdraw(nodes, services)
 
     def kill(self) -> None:
         """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, stale."""

@@ -23,13 +23,15 @@ def node_known(master: MasterClient) -> bool:
 def register_all(master: MasterClient) -> None:
     """Register again all that rospy has on its books: a master that was restarted knows none of it."""
     node, uri = rospy.get_name(), rospy.get_node_uri()
+    if (manager := registration_manager()) is not None:
+        manager.master_uri = manager.handler.masterUri = master.uri  # it may be another than before
     for service, service_uri in get_service_manager().get_services():
         master.register_service(node, service, service_uri, uri)
     for topic, kind in get_topic_manager().get_publications():
         master.register_publisher(node, topic, kind, uri)
     for topic, kind in get_topic_manager().get_subscriptions():
         publishers = master.register_subscriber(node, topic, kind, uri)
-        if (manager := registration_manager()) is not None:
+        if manager is not None:
             manager.publisher_update(topic, publishers)
 
 

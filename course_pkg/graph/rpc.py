@@ -134,7 +134,7 @@ class MasterClient:
         except TimeoutError as error:
             raise MasterSilent(
                 f"The program at {self.uri} takes connections and did not answer within {limit:g} s. If "
-                "it is the master, it hangs or is stopped (SIGSTOP): let it go on, or end it and start another."
+                "it is the master, it hangs or is stopped (SIGSTOP): let it go on, or end it and start anew."
             ) from error
         except OSError as error:
             raise MasterUnreachable(

@@ -94,7 +94,7 @@ class Served:
         if before is not None:
             self._relieve(before)
 
-    def stop(self) -> None:
+    def stop(self, *, withdraw: bool = True) -> None:
         """End the service and withdraw it from the master; a second stop changes nothing."""
         self._wanted = False
         manager = get_service_manager()
@@ -102,7 +102,8 @@ class Served:
             if self.stopped:
                 return
             del manager.map[self.name]
-        MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self.uri)
+        if withdraw:
+            MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self.uri)
 
     def renew(self, master: MasterClient) -> None:
         """Serve again in a rospy that has begun anew, if nobody has stopped it."""

@@ -37,6 +37,19 @@ def test_private_master_where_none_is_named() -> None:
         assert kernel.run(names) == ["/student"]
 
 
+def test_workspace_is_found_where_nobody_sourced_it() -> None:
+    """In an environment without ROS, as an editor starts a kernel, the course's own types can be imported."""
+    bare = {
+        name: None for name in ("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME")
+    }
+    with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
+        kernel.run(JOIN)
+        assert (
+            kernel.run("from course_pkg.srv import geometry; result = geometry._type")
+            == "course_pkg/geometry"
+        )
+
+
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
     """A malformed ROS_MASTER_URI is named at once, with what is right; corrected, the kernel joins."""
@@ -189,6 +202,23 @@ def test_shared_master_restarted() -> None:
             assert kernel.run("result = node.call('/served', Trigger).message") == "here"
 
 
+def test_moving_to_another_master() -> None:
+    """When a shared master is gone for good, the set-up cell moves the node, and rospy, to a private one."""
+    with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
+        kernel.run(JOIN)
+        kernel.run(
+            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+        )
+        master.stop()
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']; join('student')")
+        assert kernel.run("result = node.master") != master.uri
+        kernel.run("import rospy; raw = rospy.Service('/raw', Trigger, lambda request: (True, 'raw'))")
+        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
+            "here",
+            "raw",
+        ]
+
+
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
     """While the master is stopped, what needs it fails within its deadline, and works afterwards."""
     kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
@@ -204,6 +234,14 @@ def test_exit_while_the_master_is_stopped(master: PrivateMaster) -> None:
     """A kernel ends in bounded time although its master does not answer."""
     kernel = Kernel()
     kernel.run(JOIN)
+    kernel.run("""
+        from std_msgs.msg import UInt32
+        from std_srvs.srv import Trigger
+        heard = node.subscribe("/numbers", UInt32)
+        served = [node.serve(f"/served_{number}", Trigger, print) for number in range(5)]
+        processes = [node.run("course_pkg", "pulse", name=f"pulse_{number}") for number in range(3)]
+        processes[-1].wait_for_service("/pulse_2/get_loggers")
+    """)
     with stopped(master.pid):
         kernel.exit(patience=12)
 
