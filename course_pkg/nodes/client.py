@@ -47,7 +47,7 @@ def ask(sides: tuple[float, float, float]) -> str:
     hasten_shutdown()
     rospy.wait_for_service("getGeometry", timeout=PATIENCE)
     response = BoundedProxy("getGeometry", geometry, timeout=PATIENCE)(*sides)
-    return f"area: {response.area:.6g}\nvolume: {response.volume:.6g}"
+    return f"area: {response.area:.2f}\nvolume: {response.volume:.2f}"
 
 
 def _complaint(words: str, status: int) -> int:

@@ -45,7 +45,7 @@ def test_rosservice_call(server: NodeProcess) -> None:
 def test_client_prints_area_and_volume(server: NodeProcess) -> None:
     """The client prints both, each on a line, and nothing else."""
     done = terminal("rosrun", "course_pkg", "client", "1.2", "5.2", "8.9")
-    assert (done.returncode, done.stdout, done.stderr) == (0, "area: 6.24\nvolume: 55.536\n", "")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "area: 6.24\nvolume: 55.54\n", "")
 
 
 def test_rossrv_show() -> None:
