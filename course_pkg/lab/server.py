@@ -91,16 +91,21 @@ class CourseLab(LabServerApp):  # type: ignore[misc]  # of an untyped package
         super().initialize_handlers()
 
     async def _start_jupyter_server_extension(self, serverapp: Any) -> None:  # noqa: ANN401 -- untyped package
-        """Say that the server answers, and start the first kernel so that the page finds it running."""
+        """Start the first kernel, so that the page finds it running; then say that the server answers.
+
+        In this order: while a kernel is being started, the server's list of kernels is an error 500.
+        """
+        if self.first_notebook:
+            await serverapp.session_manager.create_session(
+                path=self.first_notebook,
+                name=Path(self.first_notebook).name,
+                type="notebook",
+                kernel_name="python3",
+            )
         if self.ready_file:
             page = f"lab/tree/{quote(self.first_notebook)}" if self.first_notebook else "lab"
             address = f"{serverapp.connection_url}{page}?token={self._token()}"
             replace_text(Path(self.ready_file), json.dumps({"address": address}))
-        if self.first_notebook:
-            path = self.first_notebook
-            await serverapp.session_manager.create_session(
-                path=path, name=Path(path).name, type="notebook", kernel_name="python3"
-            )
 
     def _token(self) -> str:
         return str(self.serverapp.identity_provider.token)

@@ -17,6 +17,7 @@ from urllib.request import Request, urlopen
 import pytest
 
 from course_pkg.graph.ports import listening_ports
+from course_pkg.lab.ports import free_port
 from tests.lab.commands import ROOT, all_gone, below, lab, running
 from tests.support import eventually
 
@@ -123,8 +124,9 @@ def test_a_signal_ends_everything(number: signal.Signals, notebook: str) -> None
 
 def test_nothing_outlives_a_killed_lab(notebook: str) -> None:
     """After SIGKILL of `course lab` no process and no port is left, and the next start is clean."""
+    port = str(free_port())
     for _ in range(2):
-        with lab(notebook) as (process, address):
+        with lab(notebook, "--port", port) as (process, address):
             served = Served(process, address)
             eventually(served.kernels)
             family = below(process)
