@@ -1,7 +1,8 @@
 """The files of a front end, joined into the one module and the one sheet that a widget carries.
 
-A widget's code travels as a single string, so an ES module cannot import its neighbours at run time. The sources
-stay ordinary modules that editors and Node understand; joining them is a matter of leaving out the imports.
+A widget's code travels as a single string, so an ES module cannot import its neighbours at run
+time. The sources stay ordinary modules that editors and Node understand; joining them is a matter of
+leaving out the imports.
 """
 
 from __future__ import annotations
@@ -16,13 +17,13 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 
 @cache
 def module(path: Path) -> str:
-    """The ES module at `path` with the relative modules it imports written into it, each once."""
+    """Return the ES module at `path` with the relative modules it imports written into it, each once."""
     return _inlined(path.resolve(), set())
 
 
 @cache
 def sheet(*paths: Path) -> str:
-    """The style sheets at `paths`, one after the other."""
+    """Return the style sheets at `paths`, one after the other."""
     return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
 

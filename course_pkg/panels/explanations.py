@@ -40,13 +40,13 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r"error processing request: field .+ (?:is not|must be)|error processing request: .*argument",
-        "The handler ran, and a value in its response has the wrong type for its field, or it takes the wrong arguments.",
+        "The handler takes the wrong arguments, or a value in its response has the wrong type for its field.",
         "A handler takes one argument, the request; convert each value it returns to the type of its field.",
     ),
     (
         r"error processing request",
-        "The handler raised an exception. Its message stands above; the traceback is in the server's own output.",
-        "Read the server's output, find the line in the handler, and mend it or refuse the request on purpose.",
+        "The handler raised an exception. Its message stands above, the traceback in the server's output.",
+        "Read the server's output and mend the handler, or have it refuse the request on purpose.",
     ),
     (
         r"service cannot process request",
@@ -66,7 +66,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"md5sums do not match",
         "Client and server were built from different definitions of the service.",
-        "Use one definition on both sides: rebuild the workspace and restart both. Compare with `rossrv md5`.",
+        "Use one definition on both sides: rebuild, restart both, and compare with `rossrv md5`.",
     ),
     (
         r"Connection refused",
@@ -90,7 +90,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r"CallTimeout",
-        "The server took the call and did not answer in time: its handler is slow, waits for something, or never returns.",
+        "The server did not answer in time: its handler is slow, waits for something, or never returns.",
         "Look at what the handler waits for. Allow more seconds only if the work is known to be slow.",
     ),
     (
@@ -107,7 +107,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
 
 
 def explain(words: str) -> Explanation | None:
-    """The explanation of an error given as `TypeName: message`, or None for one that is not in the table."""
+    """Return the explanation of an error given as `TypeName: message`, None for one not in the table."""
     for pattern, cause, remedy in _TABLE:
         if re.search(pattern, words, re.DOTALL):
             return Explanation(cause, remedy)

@@ -12,7 +12,8 @@ Sight = TypeVar("Sight")
 class Follower(Generic[Sight]):
     """Calls `look` every `every` s on a thread of its own, from start() to stop().
 
-    `seen` gets a sight that differs from the one before, `failed` an error whose text differs. Both run on the thread.
+    `seen` gets a sight that differs from the one before, `failed` an error whose text differs.
+    Both run on the thread.
     """
 
     def __init__(
@@ -39,7 +40,7 @@ class Follower(Generic[Sight]):
             thread.start()
 
     def stop(self) -> None:
-        """End the thread within one look, without waiting for it: the caller may hold what the thread waits for."""
+        """End the thread within one look, without waiting: the caller may hold what the thread waits for."""
         if self._stop is not None:
             self._stop.set()
             self._stop = None

@@ -17,8 +17,8 @@ HERE = Path(__file__).parent
 class Panel(anywidget.AnyWidget):
     """A widget that may be told things from any thread, and knows whether a page shows it.
 
-    A subclass names its ES module in `front_end` and its sheet in `style_sheet`, answers the page's messages in
-    `received`, and starts and ends what it needs while it is on a page in `shown` and `hidden`.
+    A subclass names its ES module in `front_end` and its sheet in `style_sheet`, answers the page's
+    messages in `received`, and begins and ends in `shown` and `hidden` what it does only on a page.
     """
 
     front_end: ClassVar[Path]

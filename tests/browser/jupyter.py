@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import socket
 import sys
 import urllib.request
@@ -15,15 +16,15 @@ from urllib.error import URLError
 
 import nbformat
 from playwright.sync_api import Locator, Page, expect
+from support import eventually
 
 from course_pkg.graph import PrivateMaster
 from course_pkg.graph.leash import Leash
-from support import eventually
 
 READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
 SETTINGS = {
-    "@jupyterlab/apputils-extension/notification.jupyterlab-settings": '{"fetchNews": "false", "checkForUpdates": false}',
-    "@jupyterlab/apputils-extension/themes.jupyterlab-settings": '{"theme": "JupyterLab %s"}',
+    "notification": {"fetchNews": "false", "checkForUpdates": False},
+    "themes": {"theme": "JupyterLab {}"},
 }
 
 
@@ -76,15 +77,17 @@ def end_kernels(lab: Lab) -> None:
 
 def run_all(page: Page) -> None:
     """Run every cell and wait for the last to end."""
+    last = page.locator(".jp-CodeCell .jp-InputPrompt").last
+    before = last.inner_text()
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    last = page.locator(".jp-CodeCell .jp-InputPrompt").last
-    expect(last).to_have_text("[{}]:".format(page.locator(".jp-CodeCell").count()), timeout=READY)
+    expect(last).not_to_have_text(before, timeout=READY)
+    expect(last).to_have_text(re.compile(r"\[\d+\]:"), timeout=READY)
 
 
 def panel(page: Page, label: str = "Service panel") -> Locator:
     """Find a panel by its name."""
-    found = page.get_by_role("region", name=label)
+    found = page.get_by_role("region", name=label, exact=True)
     expect(found).to_be_visible(timeout=READY)
     return found
 
@@ -113,10 +116,11 @@ def _command(port: int, root: Path) -> list[str]:
 
 def _environment(folder: Path, master: str, theme: str) -> Mapping[str, str]:
     """Give the server settings, state and kernels' files of its own, so that runs in parallel do not meet."""
-    for name, text in SETTINGS.items():
-        path = folder / "settings" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text % theme if "%s" in text else text)
+    settings = folder / "settings" / "@jupyterlab" / "apputils-extension"
+    settings.mkdir(parents=True)
+    for name, values in SETTINGS.items():
+        text = json.dumps(values).replace("{}", theme)
+        (settings / f"{name}.jupyterlab-settings").write_text(text)
     places = {
         "JUPYTERLAB_SETTINGS_DIR": folder / "settings",
         "JUPYTERLAB_WORKSPACES_DIR": folder / "workspaces",

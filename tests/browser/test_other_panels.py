@@ -6,9 +6,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from browser.jupyter import (
+    Lab,
+    end_kernels,
+    open_notebook,
+    panel,
+    picture,
+    run_all,
+    running_lab,
+    write_notebook,
+)
 from playwright.sync_api import Page, expect
-
-from browser.jupyter import Lab, end_kernels, open_notebook, panel, picture, run_all, running_lab, write_notebook
 
 GRAPH = """
 from course_pkg import GraphPanel, ServicePanel, join, predict, predictions
@@ -27,18 +35,8 @@ p = predict("05.reply_none", "What does the client see when the handler returns 
 p
 """
 
-# Where the text and the ground of an element meet: WCAG's ratio, the ground taken from the nearest opaque ancestor.
-FAINT = """root => {
-  const parse = (color) => (color.match(/[\\d.]+/g) ?? []).map(Number);
-  const light = ([r, g, b]) => [r, g, b].map((c) => c / 255).map((c) => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
-    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-  const ground = (element) => { for (let each = element; each; each = each.parentElement) {
-    const color = parse(getComputedStyle(each).backgroundColor); if (color.length === 3 || color[3] === 1) return color; } return [255, 255, 255]; };
-  return [...root.querySelectorAll("*")].filter((each) => [...each.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim())
-      && each.checkVisibility() && !each.closest("svg, .ros-hidden, [aria-disabled]"))
-    .map((each) => { const [a, b] = [light(parse(getComputedStyle(each).color)), light(ground(each))].sort((x, y) => y - x);
-      return [(a + 0.05) / (b + 0.05), each.outerHTML.slice(0, 90)]; }).filter(([ratio]) => ratio < 4.5);
-}"""
+# A function of the page: what in an element has too little contrast.
+FAINT = Path(__file__).with_name("contrast.js").read_text()
 
 
 @pytest.fixture
@@ -51,7 +49,8 @@ def clean(lab: Lab) -> Iterator[None]:
 @pytest.mark.usefixtures("clean")
 def test_the_graph_panel_follows_the_graph(lab: Lab, page: Page) -> None:
     """Nodes and topics are there at once, a service that starts later appears, and a click tells its type."""
-    write_notebook(lab, "graph.ipynb", GRAPH, "GraphPanel(node=node)", "import threading\nthreading.Timer(2, lambda: exec(%r, globals())).start()" % SERVE)
+    later = f"import threading\nthreading.Timer(2, lambda: exec({SERVE!r}, globals())).start()"
+    write_notebook(lab, "graph.ipynb", GRAPH, "GraphPanel(node=node)", later)
     open_notebook(page, lab, "graph.ipynb")
     run_all(page)
     graph = panel(page, "Graph panel")
@@ -79,7 +78,9 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, page: Page) -> None:
     question.get_by_label("an empty reply").check()
     expect(question).to_contain_text("a change now is marked as made afterwards")
     run_all(page)
-    expect(page.get_by_role("region", name="Prediction", exact=True).get_by_label("an empty reply")).to_be_checked()
+    expect(
+        page.get_by_role("region", name="Prediction", exact=True).get_by_label("an empty reply")
+    ).to_be_checked()
     expect(panel(page, "Prediction compared")).to_contain_text("came after the result")
     expect(panel(page, "Predictions").get_by_role("row")).to_have_count(2)
     picture(page, "predictions")
@@ -88,7 +89,9 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, page: Page) -> None:
 def test_the_dark_theme_can_be_read(tmp_path: Path, page: Page) -> None:
     """Every text of every panel has a contrast of at least 4.5 : 1 in JupyterLab's dark theme."""
     with running_lab(tmp_path, theme="Dark") as lab:
-        write_notebook(lab, "dark.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', PREDICT)
+        write_notebook(
+            lab, "dark.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', PREDICT
+        )
         open_notebook(page, lab, "dark.ipynb")
         run_all(page)
         form = panel(page)
@@ -106,7 +109,9 @@ def test_the_dark_theme_can_be_read(tmp_path: Path, page: Page) -> None:
 @pytest.mark.usefixtures("clean")
 def test_the_light_theme_can_be_read(lab: Lab, page: Page) -> None:
     """The same in the light theme, with an error and its explanation in sight."""
-    write_notebook(lab, "light.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()")
+    write_notebook(
+        lab, "light.ipynb", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()"
+    )
     open_notebook(page, lab, "light.ipynb")
     run_all(page)
     form = panel(page)

@@ -20,7 +20,9 @@ def test_imports_are_written_in_once(tmp_path: Path) -> None:
         'import { one } from "./kit.js";\nexport function two() { return one + one; }\n'
     )
     (tmp_path / "b.js").write_text(
-        'import { one } from "./kit.js";\nimport { two } from "./a.js";\nexport default { three: one + two() };\n'
+        'import { one } from "./kit.js";\n'
+        'import { two } from "./a.js";\n'
+        "export default { three: one + two() };\n"
     )
     joined = module(tmp_path / "b.js")
     assert joined.count("const one = 1;") == 1

@@ -7,34 +7,29 @@ import pytest
 from course_pkg.panels.explanations import explain
 
 # The words as rospy 1.15 says them on a real graph, with a stretch of the explanation that fits.
+SAID = "ServiceException: service [/x] responded with an error: "
+REFUSED = f"{SAID}b'service cannot process request: "
+FAILED = f"{SAID}b'error processing request: "
+CONNECT = "ServiceException: unable to connect to service: "
 WORDS = {
-    "ServiceException: service [/x] responded with an error: b'service cannot process request: service handler "
-    "returned None'": "reached its end without a return",
-    "ServiceException: service [/x] responded with an error: b'error processing request: boom'": "raised an exception",
-    "ServiceException: service [/x] responded with an error: b'service cannot process request: no fuel'": "on purpose",
-    "ServiceException: service [/x] responded with an error: b'service cannot process request: handler returned "
-    "invalid value: Invalid number of arguments'": "cannot be made into a response",
-    "ServiceException: service [/x] responded with an error: b'service cannot process request: handler returned "
-    "wrong number of values'": "length is not the number of fields",
-    "ServiceException: service [/x] responded with an error: b'service cannot process request: sucess is not an "
-    "attribute of TriggerResponse'": "typing slip",
-    "ServiceException: service [/x] responded with an error: b'error processing request: field success is not a bool'": (
-        "wrong type for its field"
-    ),
-    "ServiceException: service [/x] responded with an error: b'error processing request: <lambda>() takes 0 "
-    "positional arguments but 1 was given'": "wrong arguments",
-    "ServiceException: service [/x] responded with an error: b''": "gave no reason",
+    f"{REFUSED}service handler returned None'": "reached its end without a return",
+    f"{REFUSED}no fuel'": "on purpose",
+    f"{REFUSED}handler returned invalid value: Invalid number of arguments'": "cannot be made into a response",
+    f"{REFUSED}handler returned wrong number of values'": "length is not the number of fields",
+    f"{REFUSED}sucess is not an attribute of TriggerResponse'": "typing slip",
+    f"{FAILED}boom'": "raised an exception",
+    f"{FAILED}field success is not a bool'": "wrong type for its field",
+    f"{FAILED}<lambda>() takes 0 positional arguments but 1 was given'": "wrong arguments",
+    f"{SAID}b''": "gave no reason",
+    f"{CONNECT}remote error reported: request from [/c]: md5sums do not match: [a] vs. [b]": "different definitions",
+    f"{CONNECT}[Errno 111] Connection refused": "no longer there",
+    f"{CONNECT}[Errno -2] Name or service not known": "host name",
     "ServiceException: service [/nope] unavailable": "knows no provider",
-    "ServiceException: unable to connect to service: remote error reported: request from [/cli]: md5sums do not match: "
-    "[a] vs. [b]": "different definitions",
-    "ServiceException: unable to connect to service: [Errno 111] Connection refused": "no longer there",
-    "ServiceException: transport error completing service call: unable to receive data from sender, check sender's "
-    "logs for details": "went away while",
-    "ServiceException: unable to connect to service: [Errno -2] Name or service not known": "host name",
+    "ServiceException: transport error completing service call: unable to receive data from sender": "went away while",
     "ServiceException: unable to contact master": "No master answers",
     "SerializationError: field a must be an integer type": "wrong type for its field",
-    "CallTimeout: /x did not answer within 5 s": "did not answer in time",
-    "CallCancelled: /x was cancelled": "You ended the wait",
+    "CallTimeout: service [/x]: no answer within 5 s; its handler is still working": "did not answer in time",
+    "CallCancelled: service [/x]: the call was cancelled": "You ended the wait",
 }
 
 

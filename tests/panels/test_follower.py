@@ -61,7 +61,7 @@ def test_a_sight_is_told_once(scene: Scene) -> None:
 
 
 def test_an_error_is_told_once_and_recovery_is_told(scene: Scene) -> None:
-    """The same error again tells nothing; the sight that returns after it is told, also when it is the old one."""
+    """The same error again tells nothing; a sight that returns after it is told, even an old one."""
     scene.now = OSError("gone")
     scene.follower.start()
     eventually(lambda: scene.failed)

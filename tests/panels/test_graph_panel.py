@@ -14,24 +14,30 @@ from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, TopicSeen
 from course_pkg.panels.graph.drawing import svg
 from course_pkg.panels.graph.layout import LONGEST, Layout, laid_out
 from course_pkg.panels.graph.model import GraphModel
-from course_pkg.panels.graph.picture import Kind, Line, picture
-from course_pkg.panels.graph.picture import graph_text
+from course_pkg.panels.graph.picture import Kind, Line, graph_text, picture
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def snapshot(*, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = "") -> Snapshot:
+def snapshot(
+    *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
+) -> Snapshot:
     """Make a snapshot of the nodes that the topics and services name."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
-    nodes = tuple(NodeSeen(name, f"http://localhost:1{name}", "refused" if name == dead else "answered") for name in sorted(names))
+    nodes = tuple(
+        NodeSeen(name, f"http://localhost:1{name}", "refused" if name == dead else "answered")
+        for name in sorted(names)
+    )
     return Snapshot("http://localhost:11311", nodes, topics, services)
 
 
 CHATTER = TopicSeen("/chatter", "std_msgs/String", ("/talker",), ("/listener",))
 ROSOUT = TopicSeen("/rosout", "rosgraph_msgs/Log", ("/listener", "/talker"), ("/rosout",))
 GEOMETRY = ServiceSeen("/getGeometry", "course_pkg/geometry", "/server", "rosrpc://localhost:1", "answered")
-LOGGERS = ServiceSeen("/server/get_loggers", "roscpp/GetLoggers", "/server", "rosrpc://localhost:1", "answered")
+LOGGERS = ServiceSeen(
+    "/server/get_loggers", "roscpp/GetLoggers", "/server", "rosrpc://localhost:1", "answered"
+)
 WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/listener")
 
 
@@ -46,7 +52,13 @@ def test_lines_run_the_way_that_data_goes() -> None:
 
 def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
     """/rosout and the logger services are noise to a beginner."""
-    assert {shape.name for shape in picture(WHOLE).shapes} == {"/talker", "/listener", "/server", "/chatter", "/getGeometry"}
+    assert {shape.name for shape in picture(WHOLE).shapes} == {
+        "/talker",
+        "/listener",
+        "/server",
+        "/chatter",
+        "/getGeometry",
+    }
     assert {"/rosout", "/server/get_loggers"} <= {shape.name for shape in picture(WHOLE, noise=True).shapes}
 
 
@@ -102,7 +114,7 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
 
 def test_the_drawing_says_in_words_what_it_shows() -> None:
     """Each shape is a button with a name; a node that does not answer says so."""
-    root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))
+    root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
         "node /listener, does not answer",
@@ -112,7 +124,9 @@ def test_the_drawing_says_in_words_what_it_shows() -> None:
         "topic /chatter",
     }
     assert root.findtext(f"{SVG}desc") == "five shapes"
-    assert len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1  # an arrow each, two for the service, and its shape
+    assert (
+        len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
+    )  # an arrow each, two for the service, and its shape
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
@@ -120,7 +134,7 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
     evil = '/<script>alert("x")</script>'
     drawn = svg(laid_out(picture(snapshot(topics=(TopicSeen(evil, "a/B", ("/n",), ()),)))))
     assert "<script" not in drawn
-    assert ElementTree.fromstring(drawn) is not None
+    assert ElementTree.fromstring(drawn) is not None  # noqa: S314 - it is our own
 
 
 class Wall:
@@ -156,13 +170,20 @@ def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_
     wall.model.see(WHOLE)
     assert wall.said[-1]["drawing"] == ""
     assert "apt install graphviz" in wall.said[-1]["trouble"]
-    assert {"key": "topic /chatter", "kind": "topic", "name": "/chatter", "lost": False} == {
-        key: value for key, value in wall.said[-1]["facts"][-1].items() if key != "facts"
+    assert {key: value for key, value in wall.said[-1]["facts"][-1].items() if key != "facts"} == {
+        "key": "topic /chatter",
+        "kind": "topic",
+        "name": "/chatter",
+        "lost": False,
     }
 
 
-@pytest.mark.parametrize(("script", "stretch"), [("exec sleep 60", "took over"), ("echo bad >&2; exit 3", "failed")])
-def test_graphviz_has_a_deadline(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str) -> None:
+@pytest.mark.parametrize(
+    ("script", "stretch"), [("exec sleep 60", "took over"), ("echo bad >&2; exit 3", "failed")]
+)
+def test_graphviz_has_a_deadline(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str
+) -> None:
     """A graphviz that hangs or fails is one sentence, not a hang."""
     dot = tmp_path / "dot"
     dot.write_text(f"#!/bin/sh\n{script}\n")

@@ -13,7 +13,8 @@ MODELS = ["service.model", "graph.model", "graph.drawing", "prediction.model", "
 @pytest.mark.parametrize("model", MODELS)
 def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
     """A panel's model imports neither rospy nor IPython nor the widgets."""
-    code = f"import sys, course_pkg.panels.{model}; print(sorted({{'rospy', 'IPython', 'ipywidgets'}} & set(sys.modules)))"
+    names = "{'rospy', 'IPython', 'ipywidgets'} & set(sys.modules)"
+    code = f"import sys, course_pkg.panels.{model}; print(sorted({names}))"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True
     )

@@ -108,7 +108,9 @@ def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
     assert [path.name for path in store.path.parent.iterdir()] == ["predictions.json"]
 
 
-def test_predictions_lie_with_the_state_of_the_course(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_predictions_lie_with_the_state_of_the_course(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     """Nobody has to say where: the course keeps its state in one folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     assert PredictionStore().path == tmp_path / "predictions.json"

@@ -6,11 +6,11 @@ import threading
 from typing import Any
 
 import pytest
+from support import eventually
 
 from course_pkg.errors import CallCancelled, CallUnderWay, FieldError, NothingPicked, UnknownType
 from course_pkg.interfaces import ServiceType, compile_service
 from course_pkg.panels.service.model import HISTORY, Offer, ServiceModel
-from support import eventually
 
 GEOMETRY = "float32 length\nfloat32 width\nfloat32 height\n---\nfloat32 area\nfloat32 volume\n"
 EMPTY = "---\n"
@@ -50,7 +50,10 @@ class Caller:
         self.closed = True
 
 
-TYPES = {name: compile_service(name, text) for name, text in {"course_pkg/geometry": GEOMETRY, "a/Empty": EMPTY}.items()}
+TYPES = {
+    name: compile_service(name, text)
+    for name, text in {"course_pkg/geometry": GEOMETRY, "a/Empty": EMPTY}.items()
+}
 
 
 def find_type(name: str) -> ServiceType:
@@ -66,7 +69,9 @@ class Desk:
     def __init__(self) -> None:
         self.caller = Caller()
         self.messages: list[dict[str, Any]] = []
-        self.model = ServiceModel(lambda *_: self.caller, lambda **parts: self.messages.append(parts), find_type=find_type)
+        self.model = ServiceModel(
+            lambda *_: self.caller, lambda **parts: self.messages.append(parts), find_type=find_type
+        )
 
     @property
     def state(self) -> dict[str, Any]:
@@ -75,7 +80,11 @@ class Desk:
 
     def ended(self) -> dict[str, Any]:
         """Wait for the call to end and give its outcome."""
-        return eventually(lambda: self.state["outcome"] if self.state["outcome"]["phase"] not in ("running", "idle") else None)
+        return eventually(
+            lambda: (
+                self.state["outcome"] if self.state["outcome"]["phase"] not in ("running", "idle") else None
+            )
+        )
 
 
 GEOMETRY_OFFER = Offer("/getGeometry", "course_pkg/geometry", "/SERVER_NODE")
@@ -238,7 +247,10 @@ def test_logger_services_come_last() -> None:
     """The services of the student's own come before those of every node."""
     desk = Desk()
     desk.model.offer([Offer("/a/get_loggers", "roscpp/GetLoggers", "/a"), Offer("/z", "a/Empty", "/a")])
-    assert [(each["name"], each["tool"]) for each in desk.state["services"]] == [("/z", False), ("/a/get_loggers", True)]
+    assert [(each["name"], each["tool"]) for each in desk.state["services"]] == [
+        ("/z", False),
+        ("/a/get_loggers", True),
+    ]
 
 
 def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(desk: Desk) -> None:

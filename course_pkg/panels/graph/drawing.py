@@ -15,7 +15,7 @@ CORNER = 12.0  # px, by which a service's ends are pointed
 
 
 def svg(layout: Layout, *, title: str = "The ROS graph", description: str = "") -> str:
-    """The drawing. Each shape is a button for the keyboard and says in words what it is; `data-key` names it."""
+    """Return the drawing. Each shape is a button and says in words what it is; `data-key` names it."""
     width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN
     root = Element(
         "svg",
@@ -80,7 +80,7 @@ def _hexagon(x: float, y: float, wide: float, high: float) -> str:
 
 
 def _arrow(before: Point, tip: Point) -> str:
-    """The corners of an arrowhead that comes from `before` and ends at `tip`."""
+    """Return the corners of an arrowhead that comes from `before` and ends at `tip`."""
     angle = math.atan2(tip[1] - before[1], tip[0] - before[0])
     sides = [angle + math.pi - 0.42, angle + math.pi + 0.42]
     corners: Sequence[Point] = [

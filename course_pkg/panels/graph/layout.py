@@ -74,7 +74,7 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
 
 
 def parsed(plain: str, picture: Picture) -> Layout:
-    """The layout from graphviz' `plain` format, which gives inches with the origin at the bottom left."""
+    """Return the layout from graphviz' `plain` format: inches from the bottom left."""
     shapes: list[Placed] = []
     lines: list[Routed] = []
     width = height = 0.0
@@ -104,14 +104,13 @@ def _script(picture: Picture) -> str:
     for shape in picture.shapes:
         kind = "ellipse" if shape.kind is Kind.NODE else "box"
         width = len(_label(shape.name)) * CHARACTER + ELBOW[shape.kind]
-        rows.append(
-            f"{numbers[shape.key]} [shape={kind}, width={width / PER_INCH:.3f}, height={HEIGHT / PER_INCH:.3f}]"
-        )
+        size = f"width={width / PER_INCH:.3f}, height={HEIGHT / PER_INCH:.3f}"
+        rows.append(f"{numbers[shape.key]} [shape={kind}, {size}]")
     rows += [f"{numbers[line.tail]} -> {numbers[line.head]}" for line in picture.lines]
     return "\n".join([*rows, "}"])
 
 
 def _label(name: str) -> str:
-    """The name, or its two ends where it is too long for a shape."""
+    """Return the name, or its two ends where it is too long for a shape."""
     half = LONGEST // 2
     return name if len(name) <= LONGEST else f"{name[: half - 1]}…{name[-half:]}"

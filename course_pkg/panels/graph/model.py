@@ -20,8 +20,9 @@ State = dict[str, Any]
 class GraphModel:
     """Turns snapshots into a drawing, anew only when what is shown differs.
 
-    `changed` hears by keyword of `drawing` (SVG, "" when graphviz cannot draw), `facts` (one entry for each shape)
-    and `trouble` (a sentence, "" when all is well). `own` is the node of the kernel, which can be hidden.
+    `changed` hears by keyword of `drawing` (SVG, "" when graphviz cannot draw), `facts` (one entry for
+    each shape) and `trouble` (a sentence, "" when all is well). `own` is the kernel's node, which can be
+    hidden.
     """
 
     def __init__(
@@ -48,7 +49,7 @@ class GraphModel:
         self._draw()
 
     def lose(self, reason: str) -> None:
-        """The graph cannot be seen: keep the last picture and say why it is old."""
+        """Keep the last picture, and say why it is old: the graph cannot be seen."""
         self._shown = None
         with self._turn:
             self._changed(trouble=reason)

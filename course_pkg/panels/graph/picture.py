@@ -57,10 +57,10 @@ class Picture:
 
 
 def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()) -> Picture:
-    """The shapes and lines of a snapshot.
+    """Return the shapes and lines of a snapshot.
 
-    Without `noise`, /rosout and the logger services that every node brings are left out. `hide` names nodes to leave
-    out together with their services and the topics that only they use.
+    Without `noise`, /rosout and the logger services that every node brings are left out. `hide` names
+    nodes to leave out, together with their services and the topics that only they use.
     """
     hidden = frozenset(hide) | (frozenset() if noise else NOISE_NODES)
     shapes = [
@@ -100,7 +100,7 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
 
 
 def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
-    """The graph in words: each node with what it publishes, subscribes and serves; the same text for the same graph."""
+    """Return the graph in words, the same for the same graph: who publishes, subscribes, serves what."""
     shown = picture(snapshot, noise=noise)
     types = {shape.key: dict(shape.facts).get("type", "") for shape in shown.shapes}
     paragraphs = []

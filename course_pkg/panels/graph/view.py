@@ -18,15 +18,16 @@ HERE = Path(__file__).parent
 class GraphPanel(Panel):
     """A picture of the graph: nodes, the topics between them, and the services they serve.
 
-    It follows the graph while a page shows it, or stays as it is now with `live=False`. `noise` shows what every
-    graph has, too: /rosout and the logger services. With the kernel's own `node`, that one can be hidden.
+    It follows the graph while a page shows it, or stays as it is now with `live=False`. `noise` shows what
+    every graph has, too: /rosout and the logger services. With the kernel's own `node`, that one can be
+    hidden.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
     style_sheet: ClassVar[Path] = HERE / "graph.css"
 
     drawing = Unicode(help="the picture as SVG").tag(sync=True)
-    facts = List(help="each shape in words").tag(sync=True)
+    facts: List[Any] = List(help="each shape in words").tag(sync=True)
     trouble = Unicode(help="why there is no picture, or why it is old").tag(sync=True)
     live = Bool(help="whether the picture follows the graph").tag(sync=True)
     noise = Bool(help="whether /rosout and the logger services are shown").tag(sync=True)

@@ -31,7 +31,7 @@ class PredictionModel:
         )
 
     def compare(self, actual: object) -> Record:
-        """Keep what really happened. The answer that stands now is the prediction for good, unless there is none."""
+        """Keep what really happened; the answer that stands now is the prediction for good."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record
@@ -54,7 +54,7 @@ def right(record: Record) -> bool:
 
 
 def verdict(record: Record) -> str:
-    """The comparison in one sentence."""
+    """Return the comparison in one sentence."""
     if not record.compared:
         return "Not compared yet." if record.answer else "No prediction yet."
     if not record.first:
@@ -66,7 +66,7 @@ def verdict(record: Record) -> str:
 
 
 def summary(records: Iterable[Record], chapter: str) -> list[Record]:
-    """The records of a chapter (`05` has `05.reply_none`), or all when it is empty, in the order of their keys."""
+    """Return the records of a chapter (`05` has `05.reply_none`), or all for "", by their keys."""
     chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
     return sorted(chosen, key=lambda each: each.key)
 

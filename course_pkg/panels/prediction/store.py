@@ -14,8 +14,8 @@ from course_pkg.state import state_folder, write_json
 class Record:
     """One question with what was predicted and, once it has been compared, what really happened.
 
-    Times are ISO 8601 in UTC, "" for not yet. `answer` is the latest, `first` the one that stood when the two were
-    compared, so that a change of mind afterwards can be told.
+    Times are ISO 8601 in UTC, "" for not yet. `answer` is the latest, `first` the one that stood when the
+    two were compared, so that a change of mind afterwards can be told.
     """
 
     key: str
@@ -47,7 +47,8 @@ class PredictionStore:
             return {}
         except (OSError, ValueError, TypeError, AttributeError) as error:
             raise PredictionsBroken(
-                f"{self.path} does not hold predictions as the course writes them ({error}). Move the file away to start afresh."
+                f"{self.path} does not hold predictions as the course writes them ({error}). "
+                "Move the file away to start afresh."
             ) from error
 
     def write(self, record: Record) -> None:

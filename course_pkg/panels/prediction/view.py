@@ -1,7 +1,7 @@
 """Predictions as widgets.
 
-What they say in text/plain is the same for every student, so that notebooks can be compared; the personal part is in
-the widget alone.
+What they say in text/plain is the same for every student, so that notebooks can be compared; the
+personal part is in the widget alone.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Predictions(_Predict):
     """The predictions of a chapter in a table."""
 
     chapter = Unicode().tag(sync=True)
-    records = List().tag(sync=True)
+    records: List[Any] = List().tag(sync=True)
 
     def __init__(self, chapter: str = "", *, store: PredictionStore | None = None) -> None:
         super().__init__()
@@ -94,12 +94,12 @@ class Predictions(_Predict):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Prediction:
-    """Ask for an answer before the run; `key` is `chapter.name`. Without choices the answer is free text or a number."""
+    """Ask for an answer before the run; `key` is `chapter.name`. Without choices it is free text."""
     return Prediction(key, question, choices)
 
 
 def predictions(chapter: str = "") -> Predictions:
-    """The table of what was predicted and what happened, for one chapter or for all."""
+    """Return the table of what was predicted and what happened, for one chapter or for all."""
     return Predictions(chapter)
 
 

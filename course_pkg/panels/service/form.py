@@ -1,4 +1,4 @@
-"""The request as one types it: a tree of texts for a service type, what is wrong with it, what it amounts to."""
+"""The request as one types it: a tree of texts, what is wrong with it, what it amounts to."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class RequestForm:
         self.blank: Texts = self._texts(kind.request.default())
 
     def described(self) -> State:
-        """The form for the page: the fields of the request with their ranges and comments."""
+        """Return the form for the page: the fields of the request with their ranges and comments."""
         return {"type": self.type.name, "md5": self.type.md5, "request": schema(self.type.request)}
 
     def errors(self, draft: Texts) -> dict[str, str]:
-        """What is allowed instead, by the path of each field that is not right; one for each top-level field."""
+        """Return what is allowed instead by the path of what is wrong; one for each top-level field."""
         wrong: dict[str, str] = {}
         for name in self.blank:
             try:
@@ -38,7 +38,7 @@ class RequestForm:
         return wrong
 
     def checked(self, draft: Texts) -> State:
-        """The errors, or the two commands that do the same as the form."""
+        """Return the errors, or the two commands that do the same as the form."""
         try:
             values = self.values(draft)
         except FieldError:
@@ -50,12 +50,12 @@ class RequestForm:
         }
 
     def values(self, draft: Texts) -> dict[str, Any]:
-        """The plain values of the request; raises FieldError."""
+        """Return the plain values of the request. Raises FieldError."""
         values: dict[str, Any] = self.type.request.parse({**self.blank, **draft})
         return values
 
     def filled(self, draft: Texts, values: Mapping[str, Any]) -> Texts:
-        """The draft with plain values written into it; raises FieldError for a value that does not fit."""
+        """Return the draft with plain values written into it. Raises FieldError where one does not fit."""
         whole = self.type.request.check({**self.type.request.default(), **values})
         texts = self._texts(whole)
         return {**draft, **{name: texts[name] for name in values}}
@@ -65,13 +65,13 @@ class RequestForm:
 
 
 def correction(error: FieldError) -> str:
-    """What is wrong with a field and what would be right, for a place where the field's name stands already."""
+    """Return what is wrong with a field and what would be right; the field's name stands beside it."""
     hint = f"; {error.hint}" if error.hint else ""
     return f"{error.problem[:1].upper()}{error.problem[1:]}. Give {error.allowed}{hint}."
 
 
 def seconds(text: str) -> float:
-    """A deadline as typed, in s; raises FieldError."""
+    """Return a deadline as typed, in s. Raises FieldError."""
     try:
         value = float(text)
     except ValueError:

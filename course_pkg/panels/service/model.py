@@ -1,4 +1,4 @@
-"""What a service panel knows, with no page, no kernel and no ROS: services come in, and calls go out, by injection."""
+"""What a service panel knows, with no page, no kernel and no ROS: who offers and who calls is injected."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Caller(Protocol):
 
 @dataclass(frozen=True)
 class Offer:
-    """A service on the graph: its name, its type by name ("" when nobody could say) and the node that serves it."""
+    """A service on the graph: its name, its type by name ("" if nobody could say), who serves it."""
 
     name: str
     type: str
@@ -50,8 +50,8 @@ class Offer:
 class ServiceModel:
     """Picks a service, checks what is typed, calls, remembers.
 
-    `changed` hears of every change, once for each phase, by keyword: `services`, `form`, `draft`, `check`, `outcome`,
-    `history`. `turn` is held while the state changes, never while a call is under way.
+    `changed` hears of every change, once for each phase, by keyword: `services`, `form`, `draft`, `check`,
+    `outcome`, `history`. `turn` is held while the state changes, never while a call is under way.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class ServiceModel:
         self._problem = ""
 
     def offer(self, offers: Iterable[Offer]) -> None:
-        """Take in the services that are on the graph now; what is picked stays picked, also when it has gone."""
+        """Take in the services that are on the graph now; what is picked stays picked when it has gone."""
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
             parts: State = {"services": [{**asdict(each), "tool": each.tool} for each in self.offers]}
@@ -114,7 +114,7 @@ class ServiceModel:
             self._changed(draft=self.draft, check=form.checked(self.draft))
 
     def start(self, draft: Texts, deadline: str) -> None:
-        """Call on a thread of its own; refused while a call is under way and while the form is not right."""
+        """Call on a thread of its own, unless a call is under way or the form is not right."""
         with self._turn:
             if self._under_way or not self.form:
                 return
@@ -127,7 +127,7 @@ class ServiceModel:
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
     def call(self, deadline: str) -> State:
-        """Call on this thread with what stands in the form and return the outcome; raises what the call raises."""
+        """Call on this thread with what stands in the form. Raises what the call raises."""
         with self._turn:
             form = self._need_form()
             if self._under_way:
@@ -141,7 +141,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Mapping[str, Any]], deadline: str) -> list[State]:
-        """Call once for each of the inputs and keep what came back, for a page with no kernel; errors are kept too."""
+        """Call once for each of the inputs and return what came back, for a page with no kernel."""
         kept: list[State] = []
         for values in inputs:
             with self._turn:
@@ -167,7 +167,7 @@ class ServiceModel:
         return next((each for each in self.offers if each.name == self.service), None)
 
     def _followed(self) -> State:
-        """The form after a look at the graph: a new one only when the type is another."""
+        """Return the form after a look at the graph: a new one only when the type is another."""
         found = self._found()
         if found and found.type and (self.form is None or self.form.type.name != found.type):
             return self._fresh()
@@ -183,7 +183,9 @@ class ServiceModel:
             try:
                 self.form = RequestForm(self.service, self._find_type(found.type))
                 if before and before != found.type:
-                    self._problem = f"Its type was {before} and is now {found.type}, so the form is a new one."
+                    self._problem = (
+                        f"Its type was {before} and is now {found.type}, so the form is a new one."
+                    )
             except CourseError as error:
                 self._problem = str(error)
         self.draft = self.form.blank if self.form else {}
@@ -194,7 +196,9 @@ class ServiceModel:
         found = self._found()
         problem = self._problem
         if not found:
-            problem = "No service of this name is on the graph now. The panel follows the graph: start its server."
+            problem = (
+                "No service of this name is on the graph now. The panel follows the graph: start its server."
+            )
         elif not found.type:
             problem = "Its node does not answer, so nobody can say of which type it is."
         state = {"service": self.service, "node": found.node if found else "", "problem": problem}
@@ -203,7 +207,7 @@ class ServiceModel:
     def _need_form(self) -> RequestForm:
         if not self.service:
             raise NothingPicked(
-                "No service is picked. Pick one in the panel, or name it: ServicePanel('/getGeometry')."
+                "No service is picked. Pick one in the panel or name it: ServicePanel('/getGeometry')."
             )
         if not self.form:
             raise NothingPicked(
@@ -236,7 +240,7 @@ class ServiceModel:
                     call.form.type.request.to_message(call.values), timeout=call.limit
                 )
             outcome = call.answered(1000 * (time.perf_counter() - began))
-        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - whatever a call raises is what the panel shows
+        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - it is what the panel shows
             outcome = call.failed(error, 1000 * (time.perf_counter() - began))
         with self._turn:
             if self._under_way is call:
@@ -266,13 +270,13 @@ class _Call:
     error: BaseException | None = None
 
     def answered(self, milliseconds: float) -> State:
-        """The outcome for the page, with the response as lines of text."""
+        """Return the outcome for the page, with the response as lines of text."""
         answer = self.form.type.response
         lines = rows(answer.fields, compact(answer.fields, answer.format(answer.to_values(self.response))))
         return self._outcome("done", milliseconds) | {"rows": lines}
 
     def failed(self, error: BaseException, milliseconds: float) -> State:
-        """The outcome for the page, with the error as it was worded and, where the table has it, what it means."""
+        """Return the outcome for the page: the error as it was worded, and what it means."""
         self.error = error
         name, words = type(error).__name__, str(error)
         explanation = explain(f"{name}: {words}")
@@ -286,7 +290,7 @@ class _Call:
         return {"phase": phase, "number": self.number, "at": at, "ms": round(milliseconds, digits)}
 
     def entry(self, outcome: State) -> State:
-        """The call as a line of the history: what was asked and what was said, each short enough for one line."""
+        """Return the call as a line of the history: what was asked and what was said."""
         answer = (
             summary(outcome["rows"]) or "an empty response"
             if self.error is None

@@ -13,7 +13,7 @@ ELEMENTS = 32
 
 
 class Row(TypedDict):
-    """One line: `text` is empty where the value stands in the lines below, which are one `depth` further in."""
+    """One line; `text` is empty where the value stands in the lines below, one `depth` further in."""
 
     depth: int
     name: str
@@ -22,7 +22,7 @@ class Row(TypedDict):
 
 
 def rows(fields: Sequence[Field], texts: Mapping[str, Any], limit: int = LIMIT) -> list[Row]:
-    """The lines for fields given as their tree of texts; at most `limit`, the last of which then says what is missing."""
+    """Return the lines for fields given as their tree of texts, at most `limit` of them."""
     lines = list(islice(_fields(fields, texts, 0), limit + 1))
     if len(lines) > limit:
         lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more than is shown here")]
@@ -30,7 +30,7 @@ def rows(fields: Sequence[Field], texts: Mapping[str, Any], limit: int = LIMIT) 
 
 
 def summary(lines: Sequence[Row], width: int = 72) -> str:
-    """The values of a table in one line of at most `width` characters."""
+    """Return the values of a table in one line of at most `width` characters."""
     line = ", ".join(f"{row['name']} {row['text']}" for row in lines if row["text"])
     return line if len(line) <= width else line[: width - 1] + "…"
 

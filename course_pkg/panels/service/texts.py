@@ -14,7 +14,7 @@ _NANO = 10**9
 
 
 def compact(fields: Sequence[Field], texts: Texts) -> Texts:
-    """The tree of texts with each time in seconds, and each long array of plain values as one line."""
+    """Return the tree of texts with each time in seconds, and each long array of plain values as one line."""
     return {field.name: _compact(field, texts[field.name]) for field in fields}
 
 

@@ -20,22 +20,22 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. The panel follows the
-    graph while a page shows it. Nothing that goes wrong in a call from the page reaches the kernel: the panel shows it.
+    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. The panel
+    follows the graph while a page shows it. What goes wrong in a call from the page, the panel shows.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
     style_sheet: ClassVar[Path] = HERE / "service.css"
 
-    services = List(help="what is on the graph").tag(sync=True)
+    services: List[Any] = List(help="what is on the graph").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
     form = Dict(help="the picked service and the fields of its type").tag(sync=True)
     draft = Dict(help="the request as typed: a tree of texts").tag(sync=True, echo_update=False)
     check = Dict(help="what is wrong with the draft, or the commands that equal it").tag(sync=True)
     deadline = Unicode(help="seconds, as typed").tag(sync=True, echo_update=False)
     outcome = Dict(help="the phase of the latest call and what came of it").tag(sync=True)
-    history = List(help="earlier calls, the latest first").tag(sync=True)
-    recording = List(help="requests with their outcomes, for a page with no kernel").tag(sync=True)
+    history: List[Any] = List(help="earlier calls, the latest first").tag(sync=True)
+    recording: List[Any] = List(help="requests with their outcomes, for a page with no kernel").tag(sync=True)
 
     def __init__(self, service: str | None = None, *, deadline: float = 5.0) -> None:
         super().__init__()
@@ -55,7 +55,7 @@ class ServicePanel(Panel):
         return self._model.response
 
     def fill(self, **values: object) -> None:
-        """Write plain values into the form, by field; raises FieldError and leaves the form when one does not fit."""
+        """Write plain values into the form, by field. Raises FieldError when one does not fit."""
         self._model.fill(values)
 
     def call(self, **values: object) -> Any:  # noqa: ANN401 - a generated message class
@@ -65,7 +65,7 @@ class ServicePanel(Panel):
         return self.response
 
     def record(self, inputs: Iterable[Mapping[str, Any]]) -> None:
-        """Call once for each of the inputs and keep the outcomes, so that a page with no kernel can answer them."""
+        """Call once for each of the inputs and keep the outcomes for a page with no kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:

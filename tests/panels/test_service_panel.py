@@ -1,0 +1,132 @@
+"""The service panel's widget on a real master, with no page."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from support import eventually
+
+from course_pkg.graph import NodeProcess, PrivateMaster
+from course_pkg.panels import GraphPanel, ServicePanel
+
+
+@pytest.fixture(scope="module")
+def master() -> Iterator[PrivateMaster]:
+    """Start a master with the course's geometry server on it."""
+    with PrivateMaster() as master, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_MASTER_URI", master.uri)
+        server = NodeProcess.rosrun("course_pkg", "server")
+        server.wait_for_service("/getGeometry", timeout=20)
+        yield master
+        server.stop()
+
+
+@pytest.fixture
+def panel(master: PrivateMaster) -> Iterator[ServicePanel]:
+    """Open a panel and close it."""
+    assert master.uri
+    panel = ServicePanel("/getGeometry")
+    yield panel
+    panel.close()
+
+
+def threads() -> list[str]:
+    """Name the threads that panels start."""
+    return sorted(thread.name for thread in threading.enumerate() if thread.name.startswith("panel-"))
+
+
+def ended(panel: ServicePanel) -> dict[str, Any]:
+    """Wait for the call to end."""
+    return eventually(lambda: panel.outcome if panel.outcome["phase"] not in ("idle", "running") else None)
+
+
+def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
+    """The page's message leads to a real call, and the answer is in the traits."""
+    panel.received("call", {"draft": {"length": "1.2", "width": "5.2", "height": "8.9"}, "deadline": "5"})
+    outcome = ended(panel)
+    assert outcome["phase"] == "done"
+    assert [(row["name"], float(row["text"])) for row in outcome["rows"]] == [
+        ("area", pytest.approx(6.24, rel=1e-5)),
+        ("volume", pytest.approx(55.54, rel=1e-3)),
+    ]
+    assert (
+        panel.check["shell"] == "rosservice call /getGeometry 0.0 0.0 0.0"
+    )  # the page sends the draft first
+
+
+def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
+    """call() returns the response message, and the form shows what was sent."""
+    response = panel.call(length=2.0, width=3.0, height=4.0)
+    assert (response.area, response.volume) == (6.0, 24.0)
+    assert panel.response is response
+    assert panel.draft == {"length": "2.0", "width": "3.0", "height": "4.0"}
+    assert panel.check["shell"] == "rosservice call /getGeometry 2.0 3.0 4.0"
+
+
+def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
+    """Its repr and text/plain are the same before and after a call, so that notebooks can be compared."""
+    before = repr(panel)
+    panel.call()
+    assert repr(panel) == before == "ServicePanel('/getGeometry')"
+    assert panel._repr_mimebundle_()[0]["text/plain"] == before
+    assert repr(ServicePanel("getGeometry")) == before
+    assert repr(ServicePanel()) == "ServicePanel()"
+    assert repr(GraphPanel()) == "GraphPanel()"
+
+
+def test_the_service_is_described(panel: ServicePanel) -> None:
+    """Type, node and fields come from the graph and the type's definition."""
+    assert (panel.form["type"], panel.form["node"]) == ("course_pkg/geometry", "/SERVER_NODE")
+    assert [field["name"] for field in panel.form["request"]["fields"]] == ["length", "width", "height"]
+    assert {each["name"]: each["tool"] for each in panel.services}["/SERVER_NODE/get_loggers"] is True
+
+
+def test_no_thread_without_a_page(panel: ServicePanel) -> None:
+    """The graph is followed while a view is on a page, and no longer; closing ends what is left."""
+    assert threads() == []
+    panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
+    panel._dispatch(panel, {"kind": "hello", "view": "b"}, [])
+    assert threads() == ["panel-follower"]
+    panel._dispatch(panel, {"kind": "bye", "view": "a"}, [])
+    assert threads() == ["panel-follower"]
+    panel._dispatch(panel, {"kind": "bye", "view": "b"}, [])
+    eventually(lambda: not threads())
+    panel._dispatch(panel, {"kind": "hello", "view": "c"}, [])
+    panel.close()
+    eventually(lambda: not threads())
+
+
+def test_an_error_in_a_click_is_shown_in_the_panel(panel: ServicePanel) -> None:
+    """A message that makes no sense does not reach the kernel's cells."""
+    panel._dispatch(panel, {"kind": "call"}, [])
+    assert panel.notice == "KeyError: 'draft'"
+
+
+def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
+    """What a page without a kernel answers from was really called."""
+    panel.record([{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": -1.0}])
+    assert [each["draft"]["length"] for each in panel.recording] == ["1.0", "-1.0"]
+    assert panel.recording[0]["outcome"]["rows"][0]["text"] == "2.0"
+
+
+@pytest.mark.parametrize("panel_class", [ServicePanel, GraphPanel])
+def test_no_master_is_a_sentence(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
+    """Without a master a panel opens all the same, and says why it is empty."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
+    panel = panel_class()
+    assert "localhost:9" in panel.trouble
+    panel.close()
+
+
+def test_a_graph_panel_draws_the_real_graph(master: PrivateMaster) -> None:
+    """The server and its service are in the drawing and in the list."""
+    assert master.uri
+    panel = GraphPanel(live=False)
+    assert 'data-key="service /getGeometry"' in panel.drawing
+    assert [fact["name"] for fact in panel.facts] == ["/SERVER_NODE", "/getGeometry"]
+    panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
+    assert threads() == []
+    panel.close()
