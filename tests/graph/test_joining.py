@@ -39,9 +39,7 @@ def test_private_master_where_none_is_named() -> None:
 
 def test_workspace_is_found_where_nobody_sourced_it() -> None:
     """In an environment without ROS, as an editor starts a kernel, the course's own types can be imported."""
-    bare = {
-        name: None for name in ("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME")
-    }
+    bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
     with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
         kernel.run(JOIN)
         assert (

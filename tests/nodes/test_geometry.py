@@ -109,7 +109,7 @@ def test_remapping(master: PrivateMaster) -> None:
         done = terminal(
             "rosrun", "course_pkg", "client", "1", "2", "3", "getGeometry:=/measure", "__name:=me"
         )
-        assert done.stdout == "area: 2\nvolume: 6\n"
+        assert done.stdout == "area: 2.00\nvolume: 6.00\n"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -139,7 +139,7 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
         done = terminal("rosrun", "course_pkg", "client", "1", "2", "3")
-    assert done.stdout == "area: 2\nvolume: 6\n"
+    assert done.stdout == "area: 2.00\nvolume: 6.00\n"
 
 
 @pytest.mark.parametrize(
