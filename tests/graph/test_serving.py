@@ -92,9 +92,9 @@ def test_calls_are_remembered(joined: Kernel) -> None:
         ("lambda request: 1 / 0", "error processing request: division by zero"),
         ("lambda request: 42", "service cannot process request: handler returned invalid value"),
         (
-            "lambda request: {'sucess': True}",
-            "sucess is not an attribute of TriggerResponse",
-        ),  # codespell:ignore sucess
+            "lambda request: {'ok': True}",
+            "ok is not an attribute of TriggerResponse",
+        ),
         (
             "lambda request: TriggerResponse('yes', '')",
             "error processing request: field success is not a bool",
