@@ -11,8 +11,10 @@ import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import replace
+from pathlib import Path
 from typing import IO, Any
 
+import course_pkg
 from course_pkg.errors import ExamError, LinkClosed, LinkError
 from course_pkg.examiner.hands import Hands, Printed
 from course_pkg.examiner.link import PROTOCOL, Link, connect
@@ -87,11 +89,12 @@ def _started_judge() -> Iterator[Link]:
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
     """Start the judge in a session of its own, so that an interrupt of the kernel is not one of the judge.
 
-    It finds the course and the workspace where this process found them, but nothing in the notebook's
-    folder: a student's rospy.py there is not the judge's.
+    It finds the course and the workspace where this process found them, and looks into the notebook's folder
+    after everything else if at all: a student's rospy.py there is not the judge's.
     """
     here = os.getcwd()
-    path = [entry for entry in sys.path if entry and os.path.abspath(entry) != here]
+    course = str(Path(course_pkg.__file__).resolve().parent.parent)
+    path = [entry for entry in sys.path if entry and os.path.abspath(entry) != here] + [course]
     return subprocess.Popen(
         [sys.executable, "-c", JUDGE, str(theirs.fileno())],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(path)},

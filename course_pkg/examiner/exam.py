@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import signal
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
 from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
 from course_pkg.examiner.link import Link
-from course_pkg.examiner.node import Node
+from course_pkg.examiner.node import Node, held_back
 from course_pkg.examiner.outcome import Finished, Outcome
 from course_pkg.examiner.plain import Plain, ServiceClass, Value, plain
 from course_pkg.examiner.publishing import Publishing
@@ -197,7 +198,8 @@ class Exam:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._open.close()
+        with held_back(signal.SIGTERM):
+            self._open.close()
         if isinstance(error, Exception) and not isinstance(error, (RuleBroken, ExamError)):
             words = f"{type(error).__name__}: {error}"
             raise ExamError(f"This check itself is broken ({words}); it is not your doing.") from error

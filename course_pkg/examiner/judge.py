@@ -76,7 +76,7 @@ def _examined(part: Part, link: Link, seed: int) -> Report:
 
 def _verdict(part: Part, exam: Exam) -> Report:
     try:
-        with _deadline(part.deadline), exam:
+        with exam, _deadline(part.deadline):
             part(exam)
     except RuleBroken:
         return _report(part, Verdict.FAILED, exam.rules)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -63,13 +64,28 @@ def on_the_graph(check: str) -> Iterator[Node]:
     master.pid()  # init_node would wait for ever for a master that is not there
     # A log file for each check would fill the student's log folder, and nobody would read it.
     rospy.core.configure_logging = lambda *_: None
-    rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
+    with held_back(signal.SIGTERM) as came:
+        rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
     node = Node(rospy.get_name(), rospy.get_node_uri(), master)
     try:
+        if came:
+            signal.raise_signal(signal.SIGTERM)
         yield node
     finally:
-        with suppress(GraphError):  # a master that is gone has nothing to take back
+        # A master that is gone has nothing to take back; and an end that comes now waits until it is done.
+        with suppress(GraphError), held_back(signal.SIGTERM):
             _leave(node)
+
+
+@contextmanager
+def held_back(number: int) -> Iterator[list[int]]:
+    """Hold a signal back in this block, and note that it came: half a start or half an end helps nobody."""
+    came: list[int] = []
+    before = signal.signal(number, lambda *_: came.append(number))
+    try:
+        yield came
+    finally:
+        signal.signal(number, before)
 
 
 def _leave(node: Node) -> None:
