@@ -44,7 +44,8 @@ class Shelf:
     def orphans(self) -> list[Path]:
         """Return the notebooks whose solution is gone."""
         names = {path.name for path in self.solutions()}
-        return [path for path in sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb")) if path.name not in names]
+        derived = sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+        return [path for path in derived if path.name not in names]
 
     def problems(self) -> list[str]:
         """Return what is wrong with the solutions themselves."""

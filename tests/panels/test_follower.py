@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from support import eventually
+from tests.support import eventually
 
 from course_pkg.panels.follower import Follower
 

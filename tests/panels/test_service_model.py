@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 import pytest
-from support import eventually
+from tests.support import eventually
 
 from course_pkg.errors import CallCancelled, CallUnderWay, FieldError, NothingPicked, UnknownType
 from course_pkg.interfaces import ServiceType, compile_service

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from support import eventually
+from tests.support import eventually
 
 from course_pkg.graph import NodeProcess, PrivateMaster
 from course_pkg.panels import GraphPanel, ServicePanel
