@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ast
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -25,6 +27,7 @@ PIP_TO_UV = {
     "cert": "SSL_CERT_FILE",
     "proxy": "ALL_PROXY",
 }
+PIP_OPTIONS = ("--quiet", "--no-deps", "--no-compile", "--only-binary=:all:", "--require-hashes")
 UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
@@ -43,23 +46,12 @@ def installed_uv(places: Places, journal: Journal) -> Path:
     uv = uv_program(places)
     if not uv.exists():
         folder = uv.parents[1]
-        fresh = folder.with_name(f"{folder.name}.{os.getpid()}")
-        options = ["--quiet", "--no-deps", "--no-compile", "--only-binary=:all:", "--require-hashes"]
-        command: list[str | Path] = [
-            *pip_command(),
-            "install",
-            *options,
-            "--target",
-            fresh,
-            "-r",
-            lock_file("uv"),
-        ]
+        fresh = folder.with_name(f"{folder.name}-{places.cache.name}")
+        shutil.rmtree(fresh, ignore_errors=True)
+        command = [*pip_command(), "install", "--target", fresh, *PIP_OPTIONS, "-r", lock_file("uv")]
         journal.run(command, env=_clean_environment())
-        try:
+        with suppress(OSError):  # the set-up of another checkout may have been first
             fresh.rename(folder)
-        except OSError:
-            if not uv.exists():  # the set-up of another checkout may have been first
-                raise
     return uv
 
 

@@ -22,7 +22,8 @@ class Places(NamedTuple):
         """Return the places of `checkout`, by default the one that this module is in."""
         checkout = (checkout or Path(__file__).parents[2]).resolve()
         key = hashlib.sha256(os.fsencode(checkout)).hexdigest()[:8]
-        return cls(checkout, cache_root() / f"{checkout.name}-{key}".replace(" ", "_"))
+        name = "".join(letter if letter.isalnum() else "-" for letter in checkout.name)
+        return cls(checkout, cache_root() / f"{name}-{key}")
 
     @property
     def conda(self) -> Path | None:
@@ -69,6 +70,11 @@ class Places(NamedTuple):
 
     def make_cache(self) -> None:
         """Create the cache folder, or say what to do about it."""
+        if any(letter.isspace() for letter in str(self.cache)):
+            raise SetupError(
+                f"catkin cannot build in {self.cache}, for there is a blank in the name. "
+                "Set XDG_CACHE_HOME to a folder without one, and start again."
+            )
         try:
             self.logs.mkdir(parents=True, exist_ok=True)
         except OSError as error:

@@ -41,6 +41,9 @@ def ensure(places: Places, *, test: bool = False) -> None:
                 _run_stage([step for step in stage if not step.is_done()], journal, progress)
     except OSError as error:
         raise _explained(error, places) from error
+    except KeyboardInterrupt:
+        progress.note("Interrupted. The next start goes on with what is not done yet.")
+        raise
 
 
 def steps_of(places: Places, *, test: bool = False) -> list[list[Step]]:

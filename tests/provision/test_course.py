@@ -50,6 +50,13 @@ def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str
     assert "Set XDG_CACHE_HOME to a folder that you can write to" in answer.stderr
 
 
+def test_a_blank_in_the_name_of_the_cache_is_one_clear_message(tmp_path: Path) -> None:
+    """Catkin cannot build in such a folder; the message says so before anything is downloaded."""
+    answer = course("run", "true", XDG_CACHE_HOME=str(tmp_path / "a b"))
+    assert (answer.returncode, answer.stderr.count("\n")) == (1, 1)
+    assert "catkin cannot build in" in answer.stderr
+
+
 def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
     """With a broken python3, PYTHONPATH and PYTHONHOME of the user's, python is the course's own."""
     for name in ("python3", "python", "rosservice"):
