@@ -48,7 +48,15 @@ def installed_uv(places: Places, journal: Journal) -> Path:
         folder = uv.parents[1]
         fresh = folder.with_name(f"{folder.name}-{places.cache.name}")
         shutil.rmtree(fresh, ignore_errors=True)
-        command = [*pip_command(), "install", "--target", fresh, *PIP_OPTIONS, "-r", lock_file("uv")]
+        command: list[str | Path] = [
+            *pip_command(),
+            "install",
+            "--target",
+            fresh,
+            *PIP_OPTIONS,
+            "-r",
+            lock_file("uv"),
+        ]
         journal.run(command, env=_clean_environment())
         with suppress(OSError):  # the set-up of another checkout may have been first
             fresh.rename(folder)

@@ -33,7 +33,8 @@ button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
 ipywidgets.VBox([button, label])
 """
 CLICK = """async () => {
-    const label = document.querySelector(".widget-label"), button = document.querySelector(".jupyter-button")
+    const label = document.querySelector(".widget-label")
+    const button = document.querySelector(".jupyter-button")
     const changed = new Promise(done => new MutationObserver((_, it) => { it.disconnect(); done() })
         .observe(label, {childList: true, characterData: true, subtree: true}))
     const start = performance.now()
