@@ -74,7 +74,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
         "Start the server again, or remove the stale entry with `rosnode cleanup`.",
     ),
     (
-        r"unable to receive data from sender|transport error completing service call|Connection reset",
+        r"unable to receive data|transport error completing service call|Connection reset",
         "The server went away while the call was under way.",
         "Start the server again and repeat the call, if it is safe to do the same work twice.",
     ),

@@ -43,6 +43,11 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Text in which `words` between backticks are code. @param {string} text @returns {(Node | string)[]} */
+export function prose(text) {
+  return text.split("`").map((part, index) => (index % 2 ? h("code", { text: part }) : part));
+}
+
 /** @param {any} one @param {any} other @returns {boolean} */
 export function same(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);

@@ -6,8 +6,9 @@ import shutil
 from collections.abc import Iterator
 
 import pytest
-from browser.jupyter import Lab, running_lab
 from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.browser.jupyter import Lab, new_page, running_lab
 
 FLAGS = [
     "--no-sandbox",
@@ -34,16 +35,9 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
-    """Open a page that may use the clipboard; an error of a script on it fails the test."""
-    context = browser.new_context(
-        viewport={"width": 1280, "height": 1000}, permissions=["clipboard-read", "clipboard-write"]
-    )
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    yield page
-    context.close()
-    assert errors == []
+    """Open a page of its own for a test."""
+    with new_page(browser) as page:
+        yield page
 
 
 @pytest.fixture(scope="session")

@@ -15,11 +15,11 @@ from pathlib import Path
 from urllib.error import URLError
 
 import nbformat
-from playwright.sync_api import Locator, Page, expect
-from support import eventually
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from course_pkg.graph import PrivateMaster
 from course_pkg.graph.leash import Leash
+from tests.support import eventually
 
 READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
 SETTINGS = {
@@ -52,27 +52,33 @@ def running_lab(folder: Path, theme: str = "Light") -> Iterator[Lab]:
             server.end()
 
 
-def write_notebook(lab: Lab, name: str, *cells: str) -> None:
-    """Put a notebook with these code cells where the server finds it."""
+@contextmanager
+def new_page(browser: Browser) -> Iterator[Page]:
+    """Open a page that may use the clipboard; an error of a script on it fails the test."""
+    permissions = ["clipboard-read", "clipboard-write"]
+    context = browser.new_context(viewport={"width": 1280, "height": 1000}, permissions=permissions)
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
+    context.close()
+    assert errors == []
+
+
+@contextmanager
+def running_notebook(page: Page, lab: Lab, name: str, *cells: str) -> Iterator[None]:
+    """Open a notebook with these code cells and run them; its kernel and node end with the block."""
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    nbformat.write(notebook, lab.folder / name)
-
-
-def open_notebook(page: Page, lab: Lab, name: str) -> None:
-    """Open a notebook in a workspace of its own and wait until its kernel is idle."""
-    page.goto(f"{lab.url}/lab/workspaces/{name.partition('.')[0]}/tree/{name}?reset")
-    # Run All before that opens a dialog that asks for a kernel.
-    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
-
-
-def end_kernels(lab: Lab) -> None:
-    """End all kernels and their nodes with them, so that the next test finds an empty graph."""
-    with urllib.request.urlopen(f"{lab.url}/api/sessions", timeout=10) as answer:  # noqa: S310 - our own server
-        sessions = json.load(answer)
-    for session in sessions:
-        request = urllib.request.Request(f"{lab.url}/api/sessions/{session['id']}", method="DELETE")  # noqa: S310
-        urllib.request.urlopen(request, timeout=30).close()  # noqa: S310
+    nbformat.write(notebook, lab.folder / f"{name}.ipynb")
+    page.goto(f"{lab.url}/lab/workspaces/{name}/tree/{name}.ipynb?reset")
+    try:
+        # Run All before that opens a dialog that asks for a kernel.
+        expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
+        run_all(page)
+        yield
+    finally:
+        _end_kernel(lab, f"{name}.ipynb")
 
 
 def run_all(page: Page) -> None:
@@ -97,6 +103,14 @@ def picture(target: Page | Locator, name: str) -> None:
     folder = Path(os.environ.get("COURSE_ARTIFACTS") or Path(__file__).parents[1] / "artifacts")
     folder.mkdir(parents=True, exist_ok=True)
     target.screenshot(path=folder / f"{name}.png")
+
+
+def _end_kernel(lab: Lab, path: str) -> None:
+    with urllib.request.urlopen(f"{lab.url}/api/sessions", timeout=10) as answer:  # noqa: S310 - our own server
+        sessions = [session["id"] for session in json.load(answer) if session["path"] == path]
+    for session in sessions:
+        request = urllib.request.Request(f"{lab.url}/api/sessions/{session}", method="DELETE")  # noqa: S310
+        urllib.request.urlopen(request, timeout=30).close()  # noqa: S310
 
 
 def _command(port: int, root: Path) -> list[str]:

@@ -6,9 +6,9 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from tests.support import eventually
 
 from course_pkg.panels.follower import Follower
+from tests.support import eventually
 
 
 class Scene:

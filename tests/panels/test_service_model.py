@@ -6,11 +6,11 @@ import threading
 from typing import Any
 
 import pytest
-from tests.support import eventually
 
 from course_pkg.errors import CallCancelled, CallUnderWay, FieldError, NothingPicked, UnknownType
 from course_pkg.interfaces import ServiceType, compile_service
 from course_pkg.panels.service.model import HISTORY, Offer, ServiceModel
+from tests.support import eventually
 
 GEOMETRY = "float32 length\nfloat32 width\nfloat32 height\n---\nfloat32 area\nfloat32 volume\n"
 EMPTY = "---\n"

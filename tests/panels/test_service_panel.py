@@ -7,27 +7,25 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.support import eventually
 
 from course_pkg.graph import NodeProcess, PrivateMaster
 from course_pkg.panels import GraphPanel, ServicePanel
+from tests.support import eventually
 
 
-@pytest.fixture(scope="module")
-def master() -> Iterator[PrivateMaster]:
-    """Start a master with the course's geometry server on it."""
-    with PrivateMaster() as master, pytest.MonkeyPatch.context() as patch:
-        patch.setenv("ROS_MASTER_URI", master.uri)
-        server = NodeProcess.rosrun("course_pkg", "server")
-        server.wait_for_service("/getGeometry", timeout=20)
-        yield master
-        server.stop()
+@pytest.fixture(scope="module", autouse=True)
+def server(master: PrivateMaster) -> Iterator[NodeProcess]:
+    """Run the course's geometry server on the master."""
+    assert master.uri
+    server = NodeProcess.rosrun("course_pkg", "server")
+    server.wait_for_service("/getGeometry", timeout=20)
+    yield server
+    server.stop()
 
 
 @pytest.fixture
-def panel(master: PrivateMaster) -> Iterator[ServicePanel]:
+def panel() -> Iterator[ServicePanel]:
     """Open a panel and close it."""
-    assert master.uri
     panel = ServicePanel("/getGeometry")
     yield panel
     panel.close()
@@ -121,9 +119,8 @@ def test_no_master_is_a_sentence(monkeypatch: pytest.MonkeyPatch, panel_class: t
     panel.close()
 
 
-def test_a_graph_panel_draws_the_real_graph(master: PrivateMaster) -> None:
+def test_a_graph_panel_draws_the_real_graph() -> None:
     """The server and its service are in the drawing and in the list."""
-    assert master.uri
     panel = GraphPanel(live=False)
     assert 'data-key="service /getGeometry"' in panel.drawing
     assert [fact["name"] for fact in panel.facts] == ["/SERVER_NODE", "/getGeometry"]

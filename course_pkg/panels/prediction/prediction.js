@@ -61,9 +61,13 @@ function line(keep) {
 /** @param {Shown} shown */
 function comparison(shown) {
   return h("section", { class: `ros-panel ros-predict ros-${shown.state}`, "aria-label": "Prediction compared" },
-    h("dl", {}, h("div", {}, h("dt", { class: "ros-muted", text: "You predicted" }), h("dd", { text: shown.predicted || "nothing" })),
-      h("div", {}, h("dt", { class: "ros-muted", text: "What really happened" }), h("dd", { text: shown.actual }))),
+    h("div", { class: "ros-sides" }, side("You predicted", shown.predicted || "nothing"), side("What really happened", shown.actual)),
     h("p", { class: "ros-verdict", text: shown.verdict }));
+}
+
+/** @param {string} label @param {string} text */
+function side(label, text) {
+  return h("p", {}, h("span", { class: "ros-muted", text: `${label} ` }), h("b", { text }));
 }
 
 /** @param {Shown[]} records */
@@ -74,7 +78,8 @@ function table(records) {
   const head = h("thead", {}, h("tr", {}, ...["Question", "You predicted", "What really happened", "Result"].map((text) => h("th", { scope: "col", text }))));
   const right = records.filter((shown) => shown.state === "right").length;
   const seen = records.filter((shown) => ["right", "wrong"].includes(shown.state)).length;
-  const text = records.length ? `${right} of ${seen} predictions came true. A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
+  const score = seen ? `${right} of ${seen} ${seen === 1 ? "prediction" : "predictions"} came true. ` : "No prediction has been compared yet. ";
+  const text = records.length ? `${score}A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
   return h("section", { class: "ros-panel ros-predict", "aria-label": "Predictions" },
     h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }));
 }

@@ -1,5 +1,5 @@
 /* The service panel: pick, fill in, call, read. All that it shows comes from the model's traits. */
-import { copyButton, freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
+import { copyButton, freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { RequestForm } from "./fields.js";
 import { recorded } from "./recording.js";
 
@@ -304,7 +304,7 @@ function table(rows) {
 /** @param {{name: string, words: string, cause?: string, remedy?: string}} error */
 function failure(error) {
   return [h("pre", { class: "ros-words", tabindex: "0", "aria-label": "The error as ROS words it" }, h("b", { text: error.name }), `: ${error.words}`),
-    ...(error.cause ? [h("p", { class: "ros-cause", text: error.cause }), h("p", { class: "ros-remedy", text: error.remedy })] : [])];
+    ...(error.cause ? [h("p", { class: "ros-cause" }, ...prose(error.cause)), h("p", { class: "ros-remedy" }, ...prose(error.remedy ?? ""))] : [])];
 }
 
 export default { render };

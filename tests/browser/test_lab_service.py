@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 
 import pytest
-from browser.jupyter import Lab, end_kernels, open_notebook, panel, picture, run_all, write_notebook
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.browser.jupyter import Lab, new_page, panel, picture, run_all, running_notebook
 
 SERVER = """
 import threading
@@ -25,18 +26,34 @@ def measure(request):
 
 served = node.serve("/getGeometry", geometry, measure)
 """
+SHOW = 'form = ServicePanel("/getGeometry")\nform'
+
+
+def serving(page: Page, lab: Lab, node: str) -> AbstractContextManager[None]:
+    """Run a notebook that serves geometry as `node` and shows a panel for it."""
+    return running_notebook(page, lab, node, SERVER.replace("NODE", node), SHOW)
+
+
+@pytest.fixture(scope="module")
+def shared(lab: Lab, browser: Browser) -> Iterator[Page]:
+    """Open one notebook for all tests that leave its cells and its kernel as they are."""
+    with new_page(browser) as page, serving(page, lab, "shared"):
+        yield page
 
 
 @pytest.fixture
-def form(lab: Lab, page: Page, request: pytest.FixtureRequest) -> Iterator[Locator]:
-    """Open a notebook that serves geometry and shows a panel for it, and run it."""
-    node = re.sub(r"[^a-z_0-9]", "_", request.node.name)
-    name = f"{node}.ipynb"
-    write_notebook(lab, name, SERVER.replace("NODE", node), 'form = ServicePanel("/getGeometry")\nform')
-    open_notebook(page, lab, name)
-    run_all(page)
-    yield panel(page)
-    end_kernels(lab)
+def form(shared: Page) -> Locator:
+    """Run all cells of the shared notebook again, which gives a fresh panel."""
+    shared.set_viewport_size({"width": 1280, "height": 1000})
+    run_all(shared)
+    return panel(shared)
+
+
+@pytest.fixture
+def own_form(lab: Lab, page: Page, request: pytest.FixtureRequest) -> Iterator[Locator]:
+    """Open a notebook and a kernel for this test alone."""
+    with serving(page, lab, request.node.name):
+        yield panel(page)
 
 
 def fill(form: Locator, **values: str) -> None:
@@ -74,7 +91,7 @@ def test_fill_call_read(form: Locator) -> None:
 
 
 def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
-    """The mark stands at the field, says what is allowed, and has the keyboard; it goes while one corrects it."""
+    """The mark stands at the field, says what is allowed, has the keyboard, and goes with the mistake."""
     fill(form, length="1.2", width="five")
     form.get_by_role("button", name="Call").click()
     width = form.get_by_label("width")
@@ -116,8 +133,9 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
     picture(form, "service-panel-timeout")
 
 
-def test_everything_by_keyboard(form: Locator, page: Page) -> None:
+def test_everything_by_keyboard(form: Locator) -> None:
     """Tab goes from the picker through the fields to Call; the history refills the form."""
+    page = form.page
     form.get_by_label("Service", exact=True).focus()
     for text in ("2", "3", "4"):
         page.keyboard.press("Tab")
@@ -136,8 +154,9 @@ def test_everything_by_keyboard(form: Locator, page: Page) -> None:
     expect(form.get_by_label("length")).to_have_value("2")
 
 
-def test_the_picker_follows_the_graph(form: Locator, page: Page) -> None:
+def test_the_picker_follows_the_graph(own_form: Locator, page: Page) -> None:
     """A service that starts appears; one that ends is said to be gone, and what was typed stays."""
+    form = own_form
     fill(form, length="7")
     hello = 'from std_srvs.srv import Trigger\nnode.serve("/hello", Trigger, lambda _: (True, "hi"))'
     run_cell(page, f"{hello}\nserved.stop()")
@@ -151,22 +170,24 @@ def test_the_picker_follows_the_graph(form: Locator, page: Page) -> None:
     picture(form, "service-panel-no-fields")
 
 
-def test_filling_from_python_shows_in_the_form(form: Locator, page: Page) -> None:
+def test_filling_from_python_shows_in_the_form(own_form: Locator, page: Page) -> None:
     """A cell and the page share one form."""
+    form = own_form
     run_cell(page, "form.call(length=1.2, width=5.2, height=8.9).area")
     expect(form.get_by_label("length")).to_have_value("1.2")
     expect(answer(form, "area")).to_have_text("6.24")
 
 
-def test_a_copy_button_copies(form: Locator, page: Page) -> None:
+def test_a_copy_button_copies(form: Locator) -> None:
     """What is copied is the command that stands there."""
     form.get_by_role("button", name="Copy the command").click()
     expect(form.get_by_text("Copied")).to_be_visible()
-    assert page.evaluate("navigator.clipboard.readText()") == "rosservice call /getGeometry 0.0 0.0 0.0"
+    assert form.page.evaluate("navigator.clipboard.readText()") == "rosservice call /getGeometry 0.0 0.0 0.0"
 
 
-def test_a_kernel_that_ends_is_said(form: Locator, page: Page) -> None:
-    """After a shutdown of the kernel the panel keeps its last state, says so, and does not pretend to call."""
+def test_a_kernel_that_ends_is_said(own_form: Locator, page: Page) -> None:
+    """After a shutdown of the kernel the panel keeps its last state, says so, and does not call."""
+    form = own_form
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "area")).to_have_text("0.0")
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
@@ -178,10 +199,9 @@ def test_a_kernel_that_ends_is_said(form: Locator, page: Page) -> None:
 
 
 @pytest.mark.parametrize("width", [1280, 560])
-def test_nothing_is_wider_than_the_page(form: Locator, page: Page, width: int) -> None:
+def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
     """On a wide and on a narrow window no part sticks out, and a call moves nothing above it."""
-    page.set_viewport_size({"width": width, "height": 1000})
-    page.get_by_role("tab", name="File Browser").click()
+    form.page.set_viewport_size({"width": width, "height": 1000})
     fill(form, length="1.2", width="5.2", height="8.9")
     before = form.get_by_role("button", name="Call").bounding_box()
     form.get_by_role("button", name="Call").click()
