@@ -25,6 +25,30 @@ p = predict("05.reply_none", "What does the client see when the handler returns 
 p
 """
 
+KINDS = '''
+from course_pkg.interfaces import compile_service
+
+kinds = compile_service("demo/Kinds", """
+uint8 ON=1
+uint8 OFF=0
+uint8 mode          # ON or OFF
+int64 big
+bool flag
+string label
+time stamp
+duration wait
+geometry_msgs/Point spot
+float64[3] gains
+int32[] ids
+geometry_msgs/Point[] path
+float64[36] covariance
+---
+string seen
+""")
+node.serve("/kinds", kinds, lambda r: f"{r.mode} {r.big} {r.flag} {r.label} {r.stamp.nsecs} {r.wait.secs} "
+           f"{r.spot.y} {r.gains[2]} {list(r.ids)} {[p.x for p in r.path]} {r.covariance[35]}")
+'''
+
 # A function of the page: what in an element has too little contrast.
 FAINT = Path(__file__).with_name("contrast.js").read_text()
 
@@ -99,3 +123,38 @@ def test_an_empty_graph_says_what_to_do(lab: Lab, page: Page) -> None:
     with running_notebook(page, lab, "empty", "from course_pkg import ServicePanel\nServicePanel()"):
         expect(panel(page).get_by_text("No node offers a service yet.")).to_be_visible()
         picture(panel(page), "service-panel-empty")
+
+
+def test_every_kind_of_field_reaches_the_server(lab: Lab, page: Page) -> None:
+    """Numbers to the last digit, times, nested messages and arrays arrive as they were typed."""
+    with running_notebook(page, lab, "kinds", GRAPH, KINDS, 'ServicePanel("/kinds", kind=kinds)'):
+        form = panel(page)
+        texts = {
+            "mode": "1",
+            "big": "9007199254740993",
+            "label": "it's",
+            "stamp": "1.5",
+            "wait": "-2",
+            "y": "2.5",
+        }
+        for name, text in texts.items():
+            form.get_by_label(f"{name} ").first.fill(text)
+        form.get_by_label("flag").check()
+        form.get_by_role("group", name="gains").get_by_label("[2]").fill("3")
+        for text in ("7", "8", "9"):
+            form.get_by_role("button", name="Add an element to ids").click()
+            page.keyboard.press("Control+a")
+            page.keyboard.type(text)
+        form.get_by_role("button", name="Remove ids[1]").click()
+        form.get_by_role("button", name="Add an element to path").click()
+        page.keyboard.press("Control+a")
+        page.keyboard.type("4")
+        covariance = form.get_by_label("covariance")
+        covariance.fill(covariance.input_value().removesuffix("0.0]") + "5]")
+        picture(form, "service-panel-kinds")
+        form.get_by_role("button", name="Call").click()
+        seen = "1 9007199254740993 True it's 500000000 -2 2.5 3.0 [7, 9] [4.0] 5.0"
+        expect(form.get_by_role("cell", name=seen)).to_be_visible()
+        form.get_by_label("mode").fill("256")
+        form.get_by_label("mode").press("Enter")
+        expect(form.get_by_text("Give a uint8 from 0 to 255.")).to_be_visible()

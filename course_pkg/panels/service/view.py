@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
 from traitlets import Dict, List, Unicode
 
 from course_pkg.graph import BoundedProxy, look
-from course_pkg.interfaces import ServiceType
+from course_pkg.interfaces import ServiceType, service_type
 from course_pkg.panels.follower import Follower
 from course_pkg.panels.panel import Panel
 from course_pkg.panels.service.model import Caller, Offer, ServiceModel
@@ -20,8 +20,9 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. The panel
-    follows the graph while a page shows it. What goes wrong in a call from the page, the panel shows.
+    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. `kind` is
+    for a type that was made in the notebook and is in no package. The panel follows the graph while a
+    page shows it. What goes wrong in a call from the page, the panel shows.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
@@ -37,9 +38,11 @@ class ServicePanel(Panel):
     history: List[Any] = List(help="earlier calls, the latest first").tag(sync=True)
     recording: List[Any] = List(help="requests with their outcomes, for a page with no kernel").tag(sync=True)
 
-    def __init__(self, service: str | None = None, *, deadline: float = 5.0) -> None:
+    def __init__(
+        self, service: str | None = None, *, kind: ServiceType | None = None, deadline: float = 5.0
+    ) -> None:
         super().__init__()
-        self._model = ServiceModel(_connect, self.publish, turn=self.turn)
+        self._model = ServiceModel(_connect, self.publish, find_type=_finder(kind), turn=self.turn)
         self._follower = Follower(_look, self._saw, self._lost)
         with self.turn, self.hold_sync():
             self.deadline = f"{deadline:g}"
@@ -106,6 +109,10 @@ class ServicePanel(Panel):
         with self.turn, self.hold_sync():
             self.trouble = str(error)
             self._model.offer([])
+
+
+def _finder(own: ServiceType | None) -> Callable[[str], ServiceType]:
+    return lambda name: own if own and own.name == name else service_type(name)
 
 
 def _connect(service: str, kind: ServiceType) -> Caller:
