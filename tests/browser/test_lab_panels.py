@@ -128,6 +128,7 @@ def test_an_empty_graph_says_what_to_do(lab: Lab, page: Page) -> None:
 def test_every_kind_of_field_reaches_the_server(lab: Lab, page: Page) -> None:
     """Numbers to the last digit, times, nested messages and arrays arrive as they were typed."""
     with running_notebook(page, lab, "kinds", GRAPH, KINDS, 'ServicePanel("/kinds", kind=kinds)'):
+        page.set_viewport_size({"width": 1280, "height": 2000})
         form = panel(page)
         texts = {
             "mode": "1",
@@ -151,10 +152,10 @@ def test_every_kind_of_field_reaches_the_server(lab: Lab, page: Page) -> None:
         page.keyboard.type("4")
         covariance = form.get_by_label("covariance")
         covariance.fill(covariance.input_value().removesuffix("0.0]") + "5]")
-        picture(form, "service-panel-kinds")
         form.get_by_role("button", name="Call").click()
         seen = "1 9007199254740993 True it's 500000000 -2 2.5 3.0 [7, 9] [4.0] 5.0"
         expect(form.get_by_role("cell", name=seen)).to_be_visible()
+        picture(form, "service-panel-kinds")
         form.get_by_label("mode").fill("256")
         form.get_by_label("mode").press("Enter")
         expect(form.get_by_text("Give a uint8 from 0 to 255.")).to_be_visible()

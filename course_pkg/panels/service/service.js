@@ -4,6 +4,7 @@ import { RequestForm } from "./fields.js";
 import { recorded } from "./recording.js";
 
 const SETTLE = 120; // ms without a keystroke before the draft is sent
+const LONG = 8; // fields, above which the answer stands below the form and not beside it
 const SLOW = 1500; // ms after which a click without an answer is explained
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement, signal?: AbortSignal}} context */
@@ -101,6 +102,7 @@ class ServiceView {
     if (typed && !same([form.service, form.type, form.md5], this.shown)) {
       this.shown = [form.service, form.type, form.md5];
       this.request.show(form.request.fields, form.request.constants, this.model.get("draft"));
+      this.body.classList.toggle("ros-long", this.request.controls.size > LONG);
       this.refused = this.model.get("check").refused ?? 0;
     }
     this.about.replaceChildren(...(typed ? [h("code", { text: form.type }), ...(form.node ? [" served by ", h("code", { text: form.node })] : []),
