@@ -91,6 +91,10 @@ def ask_for_volume(service, length, width, height):
 def ask_for_volume(service, length, width, height):
     return node.call(service, geometry, height, width, length).volume
 
+# %% 00.2 wrong: rounds it | hint: without its fraction
+def ask_for_volume(service, length, width, height):
+    return round(node.call(service, geometry, length, width, height).volume)
+
 # %% 00.3 right: subscribe and wait
 def listen(topic):
     return [message.data for message in node.subscribe(topic, UInt32).wait(3, timeout=10)]
@@ -121,10 +125,27 @@ def listen(topic):
 def listen(topic):
     return [message.data for message in node.subscribe(topic, UInt32).wait(2, timeout=10)]
 
-# %% 00.3 wrong: made up | hint: not published on the topic
+# %% 00.3 wrong: made up | hint: Nobody publishes those on the topic
 def listen(topic):
     return [1, 2, 3]
 
 # %% 00.3 wrong: as text | hint: Those are texts
 def listen(topic):
     return [str(message.data) for message in node.subscribe(topic, UInt32).wait(3, timeout=10)]
+
+# %% 00.3 wrong: counts on from one message | hint: the topic does not count in ones
+def listen(topic):
+    first = rospy.wait_for_message(topic, UInt32).data
+    return [first, first + 1, first + 2]
+
+# %% 00.3 wrong: one message thrice | hint: stands there twice
+def listen(topic):
+    return [rospy.wait_for_message(topic, UInt32).data] * 3
+
+# %% 00.3 wrong: every other one | hint: is missing
+def listen(topic):
+    return [message.data for message in node.subscribe(topic, UInt32).wait(5, timeout=10)][::2]
+
+# %% 00.3 wrong: a generator | hint: list(...) makes one
+def listen(topic):
+    return (message.data for message in node.subscribe(topic, UInt32).wait(3, timeout=10))

@@ -1,6 +1,10 @@
 """The checks of chapter 00: the graph is read, a service asked, a topic heard."""
 
+from itertools import accumulate
+
 from course_pkg.examiner import Exam, part, says
+
+NO_RETURN = "None was returned, as by a function that comes to its end without a return line."
 
 
 @part(
@@ -58,7 +62,7 @@ def ask_a_question(exam: Exam) -> None:
     for _ in range(2):
         name = f"/{exam.draw.word()}"
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
-        area, volume = exam.draw.numbers(2, 1000.0, 9000.0)
+        area, volume = (whole + 0.375 for whole in exam.draw.integers(2, 1000, 9000))  # exact as a float32
         server = exam.serve(name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v})
         returned = exam.run("ask_for_volume", name, length, width, height).value
         exam.hold(
@@ -83,11 +87,12 @@ def ask_a_question(exam: Exam) -> None:
             "the volume of the answer is returned",
             expected=volume,
             seen=returned,
-            near=1e-4,
+            near=1e-6,
             hints={
-                None: "The function came to its end without a return line.",
+                None: NO_RETURN,
                 area: "That is the area.",
-                says("area"): "That is the whole response. Return its volume.",
+                (lambda seen: "volume" in seen): "That is the whole response. Return its volume.",
+                int(volume): "That is the volume without its fraction. Return it as it came.",
                 length
                 * width
                 * height: "You multiplied. This server measures in its own way: return what it says.",
@@ -103,10 +108,11 @@ def ask_a_question(exam: Exam) -> None:
     deadline=25.0,
 )
 def hear_a_stream(exam: Exam) -> None:
-    """Publish on a topic of this check's own, which counts from a number nobody can guess."""
+    """Publish on a topic of this check's own, which counts in steps that nobody can guess."""
     topic = f"/{exam.draw.word()}"
-    first = exam.draw.integer(1000, 9000)
-    exam.publish(topic, "std_msgs/UInt32", [{"data": first + number} for number in range(300)], every=0.1)
+    steps = [exam.draw.integer(2, 50) for _ in range(300)]
+    published = list(accumulate(steps, initial=exam.draw.integer(1000, 9000)))
+    exam.publish(topic, "std_msgs/UInt32", [{"data": number} for number in published], every=0.1)
     heard = exam.run("listen", topic, within=12.0).value
     exam.hold(
         "a list is returned",
@@ -114,14 +120,15 @@ def hear_a_stream(exam: Exam) -> None:
         expected="a list of three numbers",
         seen=heard,
         hints={
-            None: "The function came to its end without a return line.",
+            None: NO_RETURN,
+            (lambda seen: "object" in seen): "That is no list. list(...) makes one.",
             says(""): "One value is no list. Collect three numbers in a list.",
         },
     )
     exam.hold(
         "the list holds numbers",
         all(type(item) is int for item in heard),
-        expected="numbers",
+        expected="numbers of type int",
         seen=heard,
         hints={
             says("data"): "Those are whole messages. A message's number is in its field data.",
@@ -131,18 +138,27 @@ def hear_a_stream(exam: Exam) -> None:
     exam.expect("three numbers are returned", expected=3, seen=len(heard), hints="Wait for three messages.")
     exam.hold(
         "the numbers are those of the topic",
-        all(first <= number < first + 1000 for number in heard),
-        expected=f"numbers from {first} on",
-        seen=heard,
-        hints="Those were not published on the topic that was named. Subscribe to the name in `topic`.",
-    )
-    exam.expect(
-        "the oldest comes first, and none is left out",
-        expected=[heard[0], heard[0] + 1, heard[0] + 2],
+        set(heard) <= set(published),
+        expected=f"numbers such as {published[:3]}",
         seen=heard,
         hints={
-            says(
-                ""
-            ): "The numbers follow one another on the topic. Return them in the order in which they came.",
+            (
+                lambda seen: set(seen) & set(published)
+            ): "Not all of those were published: the topic does not count in ones. Take each number from a "
+            "message of its own.",
+            says(""): "Nobody publishes those on the topic that was named. Subscribe to the name in `topic`.",
+        },
+    )
+    first = published.index(min(heard))
+    exam.expect(
+        "the oldest comes first, and none is left out",
+        expected=published[first : first + 3],
+        seen=heard,
+        hints={
+            (
+                lambda seen: len(set(seen)) < 3
+            ): "A number stands there twice. Each message is published once: wait for the next one.",
+            (lambda seen: seen != sorted(seen)): "Return them in the order in which they came.",
+            says(""): "One that was published between them is missing.",
         },
     )
