@@ -74,6 +74,8 @@ def _number(cell: Cell, number: int) -> None:
 
 
 def _output(output: dict[str, Any]) -> dict[str, Any]:
+    if output["output_type"] == "error":  # the frames above the last line name the files of one machine
+        output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
     if "data" in output:
         output["data"] = {kind: data for kind, data in output["data"].items() if kind != WIDGET}
         output["metadata"] = {kind: data for kind, data in output["metadata"].items() if kind != WIDGET}

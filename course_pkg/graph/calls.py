@@ -216,7 +216,7 @@ class _Call:
             return "it was not even reached"
         if self.transport.md5sum is None:
             return "the server takes connections and does not speak: stopped, or busy with another one"
-        return "its handler is still working, or waits for something itself"
+        return "its handler is still working, waits for something itself, or ended without an answer"
 
     def _break_off(self, verdict: GraphError) -> None:
         if self.over:

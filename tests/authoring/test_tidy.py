@@ -54,6 +54,14 @@ def test_what_differs_is_gone_and_what_tells_stays() -> None:
     assert "widgets" not in notebook["metadata"]
 
 
+def test_a_traceback_is_its_last_line() -> None:
+    """What stays of an error is what it says: the frames name files of the machine that it was run on."""
+    error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
+    cell = code("fail()", outputs=[error], execution_count=1)
+    tidy(book(cell))
+    assert cell["outputs"][0]["traceback"] == ["E: v"]
+
+
 def test_every_cell_gets_an_id_of_its_own() -> None:
     """Exercises and checks are called by their part; an id that is valid stays; a double is numbered."""
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
