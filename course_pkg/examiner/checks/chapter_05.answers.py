@@ -43,7 +43,7 @@ def handle_geometry(request):
     area = request.width * request.length
     return area * request.height, area
 
-# %% 05.1 wrong: forgets the volume | hint: volume was never given a value
+# %% 05.1 wrong: forgets the volume | hint: The volume is 0
 def handle_geometry(request):
     return geometryResponse(area=request.width * request.length)
 
@@ -100,7 +100,7 @@ class Counter:
     def handle_reset(self, request):
         self.count = 0
 
-# %% 05.2 wrong: answers before it counts | hint: One behind
+# %% 05.2 wrong: answers before it counts | hint: add one first
 class Counter:
     def __init__(self):
         self.count = 0
@@ -149,7 +149,7 @@ class Counter:
     def handle_reset(self, request):
         return EmptyResponse()
 
-# %% 05.2 wrong: leaves success out | hint: success was never set
+# %% 05.2 wrong: leaves success out | hint: as a field is that is left out
 class Counter:
     def __init__(self):
         self.count = 0
@@ -157,6 +157,45 @@ class Counter:
     def handle_count(self, request):
         self.count += 1
         return TriggerResponse(message=str(self.count))
+
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+# %% 05.2 wrong: wraps at 9 | hint: After 9 comes 10
+class Counter:
+    def __init__(self):
+        self.count = 0
+
+    def handle_count(self, request):
+        self.count = self.count % 9 + 1
+        return TriggerResponse(success=True, message=str(self.count))
+
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+# %% 05.2 wrong: says one digit only | hint: with both of its digits
+class Counter:
+    def __init__(self):
+        self.count = 0
+
+    def handle_count(self, request):
+        self.count += 1
+        return TriggerResponse(success=True, message=str(self.count)[-1])
+
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+# %% 05.2 wrong: says more than the number | hint: and nothing else
+class Counter:
+    def __init__(self):
+        self.count = 0
+
+    def handle_count(self, request):
+        self.count += 1
+        return TriggerResponse(success=True, message=f"{self.count} calls")
 
     def handle_reset(self, request):
         self.count = 0
@@ -184,7 +223,15 @@ def handle_checked_geometry(request):
         raise rospy.ServiceException("negative height: %g" % request.height)
     return [request.length * request.width, request.length * request.width * request.height]
 
-# %% 05.3 wrong: measures it all the same | hint: Look at each side
+# %% 05.3 right: with a capital, and from the first that is found
+def handle_checked_geometry(request):
+    sides = {"Length": request.length, "Width": request.width, "Height": request.height}
+    negative = [f"{name} is {value:.2f} m" for name, value in sides.items() if value < 0]
+    if negative:
+        raise rospy.ServiceException(negative[0])
+    return request.length * request.width, request.length * request.width * request.height
+
+# %% 05.3 wrong: measures it all the same | hint: measured like any other
 def handle_checked_geometry(request):
     area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)
@@ -211,7 +258,7 @@ def handle_checked_geometry(request):
     area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)
 
-# %% 05.3 wrong: answers with an empty box | hint: Look at each side
+# %% 05.3 wrong: answers with an empty box | hint: measured like any other
 def handle_checked_geometry(request):
     if min(request.length, request.width, request.height) < 0:
         return geometryResponse()
@@ -222,6 +269,84 @@ def handle_checked_geometry(request):
 def handle_checked_geometry(request):
     for side in ("length", "width", "height"):
         if getattr(request, side) <= 0:
+            raise rospy.ServiceException(f"{side} is {getattr(request, side)}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: returns the exception | hint: raise it: raise rospy.ServiceException
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0:
+            return rospy.ServiceException(f"{side} is {value}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: returns the words | hint: Do not return the refusal
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0:
+            return f"{side} is {value}"
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: compares without the fraction | hint: as it came: -0.5 is negative
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if int(value) < 0:
+            raise rospy.ServiceException(f"{side} is {value}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: names the side, and not its value | hint: Say its value, too
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0:
+            raise rospy.ServiceException(f"{side} is negative")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: sends the whole request back | hint: and no other
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0:
+            raise rospy.ServiceException(f"a negative side in {request}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: names all sides | hint: and no other
+def handle_checked_geometry(request):
+    sides = request.length, request.width, request.height
+    if min(sides) < 0:
+        raise rospy.ServiceException("length, width, height: %s, %s, %s" % sides)
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: names the last negative side | hint: the first negative side
+def handle_checked_geometry(request):
+    for side in ("height", "width", "length"):
+        if getattr(request, side) < 0:
+            raise rospy.ServiceException(f"{side} is {getattr(request, side)}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: refuses a box without length | hint: Zero is fine
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0 or not request.length:
+            raise rospy.ServiceException(f"{side} is {value}")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+# %% 05.3 wrong: forgets the width | hint: measured like any other
+def handle_checked_geometry(request):
+    for side in ("length", "height"):
+        if getattr(request, side) < 0:
             raise rospy.ServiceException(f"{side} is {getattr(request, side)}")
     area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)
@@ -290,7 +415,7 @@ class Switch:
         self.on = request.data
         return SetBoolResponse(success=moved, message=str(self.on))
 
-# %% 05.4 wrong: turns the other way each time | hint: other way round
+# %% 05.4 wrong: takes True for off | hint: True means on
 class Switch:
     def __init__(self):
         self.on = False
@@ -298,6 +423,45 @@ class Switch:
     def handle_switch(self, request):
         self.on = not request.data
         return SetBoolResponse(success=True, message="on" if self.on else "off")
+
+# %% 05.4 wrong: turns the other way each time | hint: data is where to go
+class Switch:
+    def __init__(self):
+        self.on = False
+
+    def handle_switch(self, request):
+        self.on = not self.on
+        return SetBoolResponse(success=True, message="on" if self.on else "off")
+
+# %% 05.4 wrong: starts on | hint: start with False
+class Switch:
+    def __init__(self):
+        self.on = True
+
+    def handle_switch(self, request):
+        moved = request.data != self.on
+        self.on = request.data
+        return SetBoolResponse(success=moved, message="on" if self.on else "off")
+
+# %% 05.4 wrong: starts nowhere | hint: start with False
+class Switch:
+    def __init__(self):
+        self.on = None
+
+    def handle_switch(self, request):
+        moved = request.data != self.on
+        self.on = request.data
+        return SetBoolResponse(success=moved, message="on" if self.on else "off")
+
+# %% 05.4 wrong: in a sentence | hint: and nothing else
+class Switch:
+    def __init__(self):
+        self.on = False
+
+    def handle_switch(self, request):
+        moved = request.data != self.on
+        self.on = request.data
+        return SetBoolResponse(success=moved, message="It is on" if self.on else "It is off")
 
 # %% 05.5 right: keeps it in the dict
 def open_service(name):
@@ -360,3 +524,50 @@ def open_service(name):
 
 def close_service(name):
     services[name].stop()
+
+# %% 05.5 right: asks before it opens
+def open_service(name):
+    if name not in services:
+        services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
+
+
+def close_service(name):
+    services[name].shutdown("closed")
+    del services[name]
+
+# %% 05.5 wrong: tells the master only | hint: the node still serves it
+import rosgraph
+
+
+def open_service(name):
+    services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
+
+
+def close_service(name):
+    rosgraph.Master(rospy.get_name()).unregisterService(name, services[name].uri)
+
+# %% 05.5 wrong: closes the oldest | hint: Another one was closed
+def open_service(name):
+    services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
+
+
+def close_service(name):
+    services.pop(min(services, key=list(services).index)).shutdown("closed")
+
+# %% 05.5 wrong: closes another one, too | hint: Another one was closed with it
+def open_service(name):
+    services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
+
+
+def close_service(name):
+    services.pop(name).shutdown("closed")
+    services.popitem()[1].shutdown("closed")
+
+# %% 05.5 wrong: never opens a name again | hint: is it still in
+def open_service(name):
+    if name not in services:
+        services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
+
+
+def close_service(name):
+    services[name].shutdown("closed")

@@ -1,15 +1,32 @@
 """The checks of chapter 05: the student's servers, called from outside."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
+from itertools import combinations
 
-from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
+from course_pkg.graph.probe import ask_all, header_fields, service_probe
+from course_pkg.graph.snapshot import ServiceSeen
 
 SIDES = ("length", "width", "height")
+OWN_WORDS = "cannot process request: (?!(service )?handler returned)"  # else rospy found the words
+A_NEW_SWITCH = """
+from rospy.impl.tcpros_service import convert_return_to_response
+from std_srvs.srv import SetBoolRequest, SetBoolResponse
+
+
+def a_new_switch(kind, data):
+    return convert_return_to_response(kind().handle_switch(SetBoolRequest(data)), SetBoolResponse)
+"""
 MESSAGE = {
     "": "The message is empty: a field that is left out is an empty text.",
     says("True|False"): "The message is the word on or the word off.",
     says("on|off"): "The message is on or off, in small letters, and nothing else.",
+}
+ELSEWHERE = {
+    True: "It stood there already, and now it says the other: data is where to go, not a push of a button.",
+    False: "That is where it stood before. Turn it first, and answer then.",
 }
 
 
@@ -31,7 +48,7 @@ def area_and_volume(exam: Exam) -> None:
             seen=response.area,
             near=1e-3,
             hints={
-                0.0: "The field area was never given a value: a field that is left out is 0.",
+                0.0: "The area is 0, as a field is that never gets a value.",
                 width + length: "That is width + length. An area is a product.",
                 2 * (width + length): "That is the way around the floor. An area is a product.",
                 width * height: "That is the front of the box, width times height, and not its floor.",
@@ -45,7 +62,7 @@ def area_and_volume(exam: Exam) -> None:
             seen=response.volume,
             near=1e-3,
             hints={
-                0.0: "The field volume was never given a value: a field that is left out is 0.",
+                0.0: "The volume is 0, as a field is that never gets a value.",
                 width + length + height: "That is the sum of the sides. A volume is their product.",
                 width * length + height: "That is area + height. A volume is a product.",
                 width * length: "That is the area once more: multiply it by the height.",
@@ -60,22 +77,23 @@ def area_and_volume(exam: Exam) -> None:
     needs=["Counter"],
 )
 def a_counter_that_resets(exam: Exam) -> None:
-    """Reset first, since the count goes on from whatever earlier calls have left; then two rounds."""
+    """Count once to know where earlier calls have left it; then a short round and one beyond 9."""
     count = exam.service("/count", "std_srvs/Trigger")
     reset = exam.service(
         "/reset_count",
         "std_srvs/Empty",
         hints={says("returned None"): "Even an empty response has to be returned: return EmptyResponse()."},
     )
-    for _ in range(2):
+    before = count().message
+    for last in (exam.draw.integer(3, 6), 12):
         reset()
-        for number in range(1, exam.draw.integer(3, 6)):
+        for number in range(1, last + 1):
             response = count()
             exam.expect(
                 "success is True",
                 expected=True,
                 seen=response.success,
-                hints={False: "success was never set to True: a field that is left out is False."},
+                hints={False: "success is False, as a field is that is left out: set it to True."},
             )
             exam.expect(
                 "the message counts 1, 2, 3 from each reset",
@@ -83,16 +101,22 @@ def a_counter_that_resets(exam: Exam) -> None:
                 seen=response.message,
                 hints={
                     "": "The message is empty: a field that is left out is an empty text.",
-                    "0": "One behind: add one first, and answer then.",
-                    "1": "It says 1 again: keep the count in self, which outlives the call.",
                     says(r"\D"): "The message is the number as text, and nothing else.",
-                    _is_above(number): "It went on from the old count: set self.count to zero in the reset.",
+                    _lost_a_digit(number): "After 9 comes 10, with both of its digits.",
+                    _follows(before): "It went on from the old count: set self.count to zero in the reset.",
+                    "0": "It says 0 after a call: add one first, and answer then.",
+                    "1": "It says 1 again: keep the count in self, which outlives the call.",
                 },
             )
+            before = response.message
 
 
-def _is_above(number: int) -> Callable[[str], bool]:
-    return lambda message: int(message) > number
+def _lost_a_digit(number: int) -> Callable[[str], bool]:
+    return lambda message: len(message) < len(str(number))
+
+
+def _follows(before: str) -> Callable[[str], bool]:
+    return lambda message: int(message) == int(before) + 1
 
 
 @part(
@@ -102,62 +126,85 @@ def _is_above(number: int) -> Callable[[str], bool]:
     needs=["handle_checked_geometry"],
 )
 def a_box_that_cannot_be(exam: Exam) -> None:
-    """Send a good box, a flat one, and then each side negative in turn."""
+    """Send a good box and three flat ones; then each side negative in turn, and each two of them."""
     get_geometry = exam.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
-        hints={says("process"): "This box can be. Zero is fine; less is not."},
+        hints={says(OWN_WORDS): "This box can be. Zero is fine; less is not."},
     )
-    for height in (exam.draw.number(0.5, 9.0), 0.0):
-        length, width = exam.draw.numbers(2, 0.5, 9.0)
-        response = get_geometry(length=length, width=width, height=height)
+    for flat in ("", *SIDES):
+        sides = _box(exam, {flat: 0.0})
+        response = get_geometry(**sides)
+        area = sides["width"] * sides["length"]
         exam.expect(
             "a box that can be is measured",
-            expected=[width * length, width * length * height],
+            expected=[area, area * sides["height"]],
             seen=[response.area, response.volume],
             near=1e-3,
         )
-    for side in exam.draw.shuffled(SIDES):
-        _negative(exam, get_geometry, side)
+    depths = [*(-float(depth) for depth in exam.draw.integers(2, 2, 9)), -0.5]
+    for side, depth in zip(exam.draw.shuffled(SIDES), depths, strict=True):
+        _refused(exam, get_geometry, {side: depth})
+    for pair in combinations(SIDES, 2):
+        _refused(exam, get_geometry, dict(zip(pair, exam.draw.shuffled(depths[:2]), strict=True)))
 
 
-def _negative(exam: Exam, get_geometry: Service, side: str) -> None:
-    sides = dict(zip(SIDES, exam.draw.numbers(3, 0.5, 9.0), strict=True))
-    sides[side] = -float(exam.draw.integer(2, 9))
+def _box(exam: Exam, given: Mapping[str, float]) -> dict[str, float]:
+    drawn = zip(SIDES, exam.draw.numbers(3, 0.5, 9.0), strict=True)
+    return {side: given.get(side, value) for side, value in drawn}
+
+
+def _refused(exam: Exam, get_geometry: Service, negative: Mapping[str, float]) -> None:
+    """Hold that a box is refused in words that name the first of its negative sides."""
     words = get_geometry.refused(
         "a negative side is refused",
         saying="responded with an error",
         hints={
-            says("area"): "It was measured like any other. Look at each side before you multiply.",
+            (
+                lambda seen: isinstance(seen, dict)
+            ): "It was measured like any other. Compare each side with zero, as it came: -0.5 is negative.",
         },
-        **sides,
+        **_box(exam, negative),
     )
     exam.hold(
         "the refusal is a rospy.ServiceException",
-        "cannot process request" in words,
-        expected="service cannot process request: …",
+        bool(says(OWN_WORDS).search(words)),
+        expected="service cannot process request: …, in words of your own",
         seen=words,
         hints={
             says(
                 "error processing request"
             ): "Another exception came out of the handler. Only rospy.ServiceException "
             "reads as a refusal; any other reads as a fault.",
-        },
-    )
-    exam.hold(
-        "the words name the side and its value",
-        side in words and f"{sides[side]:g}" in words,
-        expected=f"words with {side} and {sides[side]:g} in them",
-        seen=words,
-        hints={
             says(
                 "returned None"
             ): "The handler returned None, so rospy found the words. Raise rospy.ServiceException "
             "with words of your own.",
-            says("|".join(SIDES)): "Name the side that is negative, and say its value.",
-            says(""): "The client can't know which side was wrong. Name it, and say its value.",
+            says(
+                "handler returned"
+            ): "What the handler returned is no response, so rospy found the words. Do not return the "
+            "refusal, raise it: raise rospy.ServiceException(...).",
         },
     )
+    side, value = next(iter(negative.items()))
+    reason = words.lower().partition("process request:")[2]
+    named = [name for name in SIDES if name in reason]
+    exam.hold(
+        "the words name the side and its value",
+        named == [side] and value in map(float, re.findall(r"-?\d+(?:\.\d+)?", reason)),
+        expected=f"words with {side} and {value:g} in them, and no other side",
+        seen=words,
+        hints=_unclear(named, side),
+    )
+
+
+def _unclear(named: list[str], side: str) -> str:
+    """Return what to do about words that name the sides in `named` where they should name `side`."""
+    if not named:
+        return "The client can't know which side was wrong. Name it, and say its value."
+    if named != [side]:
+        return "Name the first negative side, in the order length, width, height, and no other."
+    return "The side is named. Say its value, too, as it came."
 
 
 @part(
@@ -167,14 +214,14 @@ def _negative(exam: Exam, get_geometry: Service, side: str) -> None:
     needs=["Switch"],
 )
 def a_switch_that_tells(exam: Exam) -> None:
-    """Put it in a known place, then ten random turns."""
+    """Put it in a known place, then ten turns; the one at /switch may be on, so ask a new one, too."""
     turn = exam.service("/switch", "std_srvs/SetBool")
     turn(data=False)
     exam.expect(
         "data=False means off",
         expected="off",
         seen=turn(data=False).message,
-        hints={"on": "That is the other way round: data=True means on.", **MESSAGE},
+        hints={"on": "It was told data=False, and says on: True means on, False means off.", **MESSAGE},
     )
     on = False
     for data in [True, True, False, False, *(exam.draw.choice([True, False]) for _ in range(6))]:
@@ -183,10 +230,7 @@ def a_switch_that_tells(exam: Exam) -> None:
             "the message says where it stands now",
             expected="on" if data else "off",
             seen=response.message,
-            hints={
-                "on" if on else "off": "That is where it stood before. Turn it first, and answer then.",
-                **MESSAGE,
-            },
+            hints={"off" if data else "on": ELSEWHERE[data == on], **MESSAGE},
         )
         exam.expect(
             "success says whether it moved",
@@ -198,6 +242,14 @@ def a_switch_that_tells(exam: Exam) -> None:
             },
         )
         on = data
+    turn(data=False)
+    exam.prepare(A_NEW_SWITCH)
+    exam.expect(
+        "a new switch is off",
+        expected={"success": False, "message": "off"},
+        seen=exam.run("a_new_switch", Its("Switch"), False).value,
+        hints="A new switch was told to go off, where it should have been already: start with False.",
+    )
 
 
 @part(
@@ -207,43 +259,62 @@ def a_switch_that_tells(exam: Exam) -> None:
     needs=["open_service", "close_service"],
 )
 def open_and_close(exam: Exam) -> None:
-    """Open two, close one, and see that the other one and the node are still there; open it once more."""
-    closing, staying = (f"/{exam.draw.word()}" for _ in range(2))
-    for name in (closing, staying):
-        exam.run("open_service", name).value  # noqa: B018 -- that it returns is a rule
-        _is_open(exam, name)
-    exam.run("close_service", closing).value  # noqa: B018
-    served = [name for name in (closing, staying) if _is_served(exam, name)]
+    """Open three, close the one in the middle, ask for the others, and open it once more."""
+    names = [f"/{exam.draw.word()}" for _ in range(3)]
+    opened = [_opened(exam, name, "Use the name that it is given, and serve it at once.") for name in names]
+    first, closing, last = names
+    exam.run("close_service", closing).value  # noqa: B018 -- that it returns is a rule
     exam.expect(
         "a closed service is gone, and the others stay",
-        expected=[staying],
-        seen=served,
+        expected=[first, last],
+        seen=[name for name in names if exam.look().service(name)],
         hints={
-            (closing, staying): "rospy keeps a reference of its own, so forgetting yours changes nothing. "
-            "Call its shutdown().",
-            (closing,): "The other one was closed. Keep each service under its name, and look it up there.",
+            tuple(
+                names
+            ): "It is still there. rospy keeps a reference of its own, so forgetting yours changes "
+            "nothing. Call its shutdown().",
             (): "Everything was closed. Shut down the one service; if the node is gone, restart the kernel.",
+            (
+                lambda seen: closing in seen
+            ): "Another one was closed. Keep each service under its name, and look it up there.",
+            says(""): "Another one was closed with it. Shut down the one service.",
         },
     )
-    exam.run("open_service", closing).value  # noqa: B018
-    _is_open(exam, closing)
-
-
-def _is_served(exam: Exam, name: str) -> bool:
-    return any(service.name == name for service in exam.look().services)
-
-
-def _is_open(exam: Exam, name: str) -> None:
     exam.hold(
-        "open_service() serves the name that it is given",
-        _is_served(exam, name),
-        expected=f"{name} on the graph",
-        seen="nobody who serves it",
-        hints="Use the name that it is given, and serve it before you return.",
+        "a closed service answers no more",
+        not _answers(opened[1]),
+        expected="no answer where it was served",
+        seen="an answer there",
+        hints="The master lists it no more, but the node still serves it. Call the service's own shutdown().",
     )
+    _opened(
+        exam, closing, "It was closed, and open_service() has to serve it again: is it still in `services`?"
+    )
+
+
+def _opened(exam: Exam, name: str, hint: str) -> ServiceSeen:
+    """Have `name` opened, hold that it is there and answers, and return it."""
+    exam.run("open_service", name).value  # noqa: B018 -- that it returns is a rule
+    service = exam.look().service(name)
+    if not service:
+        exam.fail(
+            "open_service() serves the name that it is given",
+            expected=f"{name} on the graph",
+            seen="nobody who serves it",
+            hint=hint,
+        )
+    exam.hold("open_service() serves the name that it is given", True)
     response = exam.service(name, "std_srvs/Trigger")()
     exam.expect(
         "an open service answers True and open",
         expected=[True, "open"],
         seen=[response.success, response.message],
     )
+    return service
+
+
+def _answers(service: ServiceSeen) -> bool:
+    """Return whether somebody serves it where it was seen; a node that lives on may say that it does not."""
+    probe = service_probe(service.name, service.uri)
+    ask_all([probe], 1.0)
+    return "type" in header_fields(probe.answer)
