@@ -54,6 +54,11 @@ def measure(service, length, width, height):
     rospy.ServiceProxy(service, geometry)(request)
     return request.length, request.width
 
+# %% 06.1 wrong: rounds them | hint: unchanged
+def measure(service, length, width, height):
+    response = rospy.ServiceProxy(service, geometry)(length, width, height)
+    return round(response.area), round(response.volume)
+
 # %% 06.2 right: try and except
 def is_there(service, seconds):
     try:
@@ -94,7 +99,7 @@ def is_there(service, seconds):
     except rospy.ROSException:
         return False
 
-# %% 06.2 wrong: looks once | hint: instead of looking once
+# %% 06.2 wrong: looks once | hint: as long as `seconds` says
 def is_there(service, seconds):
     try:
         rospy.wait_for_service(service, timeout=0.1)
@@ -109,6 +114,46 @@ def is_there(service, seconds):
         return True
     except rospy.ROSException:
         print("not there")
+
+# %% 06.2 wrong: a limit of its own | hint: It waited longer than it was told to
+def is_there(service, seconds):
+    try:
+        rospy.wait_for_service(service, timeout=2)
+    except rospy.ROSException:
+        return False
+    return True
+
+# %% 06.2 wrong: three times the limit | hint: Give wait_for_service the limit
+def is_there(service, seconds):
+    for _ in range(3):
+        try:
+            rospy.wait_for_service(service, timeout=seconds)
+            return True
+        except rospy.ROSException:
+            continue
+    return False
+
+# %% 06.2 wrong: always waits to the end | hint: Return as soon as it is there
+import rosservice
+
+
+def is_there(service, seconds):
+    rospy.sleep(seconds)
+    return service in rosservice.get_service_list()
+
+# %% 06.2 wrong: believes the master | hint: its process is gone
+import time
+
+import rosservice
+
+
+def is_there(service, seconds):
+    end = time.time() + seconds
+    while time.time() < end:
+        if service in rosservice.get_service_list():
+            return True
+        time.sleep(0.1)
+    return False
 
 # %% 06.3 right: ServiceException
 def volume_or_none(service, length, width, height):
@@ -126,6 +171,48 @@ def volume_or_none(service, length, width, height):
         rospy.logwarn("no volume: %s", error)
         return None
     return response.volume
+
+# %% 06.3 right: waits first
+def volume_or_none(service, length, width, height):
+    try:
+        rospy.wait_for_service(service, timeout=1)
+    except rospy.ROSException:
+        return None
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except rospy.ServiceException:
+        return None
+
+# %% 06.3 wrong: waits first, and forgets that it may be in vain | hint: Catch it there
+def volume_or_none(service, length, width, height):
+    rospy.wait_for_service(service, timeout=0.5)
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except rospy.ServiceException:
+        return None
+
+# %% 06.3 wrong: takes 0 for nothing | hint: An answer of 0.0 is a volume
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume or None
+    except rospy.ServiceException:
+        return None
+
+# %% 06.3 wrong: tries again | hint: Give up after one
+def volume_or_none(service, length, width, height):
+    for _ in range(2):
+        try:
+            return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+        except rospy.ServiceException:
+            continue
+    return None
+
+# %% 06.3 wrong: catches a number that is too large, too | hint: Nobody hears of a wrong argument
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):
+        return None
 
 # %% 06.3 wrong: catches everything | hint: nothing wider
 def volume_or_none(service, length, width, height):
@@ -152,7 +239,7 @@ def volume_or_none(service, length, width, height):
     except rospy.ServiceException:
         return 0.0
 
-# %% 06.3 wrong: returns only after a failure | hint: None was returned
+# %% 06.3 wrong: returns only after a failure | hint: The server answered, and None was returned
 def volume_or_none(service, length, width, height):
     try:
         rospy.ServiceProxy(service, geometry)(length, width, height).volume
@@ -176,6 +263,53 @@ def first_answer(services, length, width, height):
         return node.call(services[0], geometry, length, width, height, timeout=1).volume
     except (CallTimeout, rospy.ServiceException):
         return first_answer(services[1:], length, width, height)
+
+# %% 06.4 right: waits for each first
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            rospy.wait_for_service(service, timeout=0.5)
+            return node.call(service, geometry, length, width, height, timeout=1).volume
+        except (rospy.ROSException, rospy.ServiceException, CallTimeout) as error:
+            rospy.logdebug(error)
+
+# %% 06.4 wrong: two seconds | hint: The limit is one second
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=2).volume
+        except (rospy.ServiceException, CallTimeout):
+            continue
+    return None
+
+# %% 06.4 wrong: no patience | hint: has a whole second
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=0.1).volume
+        except (rospy.ServiceException, CallTimeout):
+            continue
+    return None
+
+# %% 06.4 wrong: asks two only | hint: go through all
+def first_answer(services, length, width, height):
+    for service in services[:2]:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=1).volume
+        except (rospy.ServiceException, CallTimeout):
+            continue
+    return None
+
+# %% 06.4 wrong: takes 0 for no answer | hint: but it is a volume
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            volume = node.call(service, geometry, length, width, height, timeout=1).volume
+        except (rospy.ServiceException, CallTimeout):
+            continue
+        if volume:
+            return volume
+    return None
 
 # %% 06.4 wrong: no limit | hint: Give the call a limit
 def first_answer(services, length, width, height):
@@ -217,7 +351,7 @@ def first_answer(services, length, width, height):
 def first_answer(services, length, width, height):
     for service in services:
         volume = node.call(service, geometry, length, width, height, timeout=1).volume
-        if volume:
+        if volume is not None:
             return volume
 
 # %% 06.5 right: myargv and float
@@ -268,4 +402,32 @@ def read_sides(argv):
 # %% 06.5 wrong: lets the error out | hint: raises ValueError
 def read_sides(argv):
     sides = [float(text) for text in rospy.myargv(argv)[1:]]
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: digits and a point only | hint: -1.5 is a number
+def read_sides(argv):
+    sides = [float(text) for text in rospy.myargv(argv)[1:] if text.replace(".", "", 1).isdigit()]
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: digits only | hint: a number may have a point
+def read_sides(argv):
+    sides = [float(text) for text in rospy.myargv(argv)[1:] if text.isdigit()]
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: drops the sign | hint: return it as it is
+def read_sides(argv):
+    try:
+        sides = [abs(float(text)) for text in rospy.myargv(argv)[1:]]
+    except ValueError:
+        return None
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: leaves a word out | hint: nothing to leave out
+def read_sides(argv):
+    sides = []
+    for text in rospy.myargv(argv)[1:]:
+        try:
+            sides.append(float(text))
+        except ValueError:
+            continue
     return sides if len(sides) == 3 else None

@@ -2,10 +2,17 @@
 
 from threading import Timer
 
-from course_pkg.examiner import Exam, HangUp, Refuse, Silence, part, says
+from course_pkg.examiner import Exam, HangUp, Late, Refuse, Silence, part, says
+from course_pkg.examiner.outcome import Outcome
+from course_pkg.examiner.scripted import ScriptedServer
 
 GEOMETRY = "course_pkg/geometry"
-NO_RETURN = "The function came to its end without a return line."
+NO_RETURN = "None was returned, as by a function that comes to its end without a return line."
+
+
+def _volumes(exam: Exam, count: int) -> list[float]:
+    """Return volumes that a float32 holds exactly, with a fraction, so that rounding shows."""
+    return [whole + 0.375 for whole in exam.draw.integers(count, 1000, 9000)]
 
 
 @part(
@@ -19,7 +26,7 @@ def the_geometry_client(exam: Exam) -> None:
     for _ in range(2):
         name = f"/{exam.draw.word()}"
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
-        area, volume = exam.draw.numbers(2, 1000.0, 9000.0)
+        area, volume = _volumes(exam, 2)
         server = exam.serve(name, GEOMETRY, lambda _, a=area, v=volume: {"area": a, "volume": v})
         returned = exam.run("measure", name, length, width, height).value
         exam.hold(
@@ -51,7 +58,7 @@ def the_geometry_client(exam: Exam) -> None:
             "area and volume are returned, in this order",
             expected=[area, volume],
             seen=returned,
-            near=1e-4,
+            near=1e-6,
             hints=[
                 (None, NO_RETURN),
                 (
@@ -73,28 +80,52 @@ def the_geometry_client(exam: Exam) -> None:
     deadline=20.0,
 )
 def is_anybody_there(exam: Exam) -> None:
-    """Ask for one that is there, one that never comes, and one that comes while the student waits."""
-    here, nowhere, later = (f"/{exam.draw.word()}" for _ in range(3))
+    """Ask for one that is there, two that never answer, and one that comes while the student waits."""
+    here, nowhere, killed, later = (f"/{exam.draw.word()}" for _ in range(4))
     exam.serve(here, GEOMETRY, lambda _: {})
-    hints = {
-        None: NO_RETURN,
-        False: "The service was there. wait_for_service returns nothing when it succeeds.",
-    }
+    exam.absent(killed, stale=True)
+    there = exam.run("is_there", here, 2.0)
     exam.expect(
         "True for a service that is there",
         expected=True,
-        seen=exam.run("is_there", here, 2.0).value,
-        hints=hints,
+        seen=there.value,
+        hints={
+            None: NO_RETURN,
+            False: "The service was there. wait_for_service returns nothing when it succeeds.",
+        },
     )
+    exam.hold(
+        "at once for a service that is there",
+        there.took < 1.0,
+        expected="an answer at once",
+        seen=f"an answer after {there.took:.1f} s",
+        hints="Return as soon as it is there. wait_for_service does, and waits no longer than it must.",
+    )
+    _never_there(exam, nowhere, "It said that a service is there that nobody serves.")
+    _never_there(
+        exam,
+        killed,
+        "The master still lists this one, but its process is gone. wait_for_service asks the server itself.",
+    )
+    Timer(1.3, exam.serve, [later, GEOMETRY, lambda _: {}]).start()
+    exam.expect(
+        "True for a service that comes in time",
+        expected=True,
+        seen=exam.run("is_there", later, 4.0, within=8.0).value,
+        hints={False: "It came after 1.3 s, and there were 4. Wait for as long as `seconds` says."},
+    )
+
+
+def _never_there(exam: Exam, name: str, hint: str) -> None:
+    """Give half a second, in which rospy looks twice; three times as long is too long."""
+    too_long = "It waited longer than it was told to. Give wait_for_service the limit: timeout=seconds."
     missing = exam.run(
         "is_there",
-        nowhere,
-        1.0,
-        within=5.0,
+        name,
+        0.5,
+        within=3.0,
         hints={
-            says(
-                "TimesUp"
-            ): "It waited longer than it was told to. Give wait_for_service the limit: timeout=seconds.",
+            says("TimesUp"): too_long,
             says(
                 "ROSException"
             ): "wait_for_service raises rospy.ROSException when the time is up. Catch that one.",
@@ -104,20 +135,14 @@ def is_anybody_there(exam: Exam) -> None:
         "False for a service that does not come",
         expected=False,
         seen=missing.value,
-        hints={
-            None: "When the time was up, the function returned nothing. Return False there.",
-            True: "It said that a service is there that nobody serves.",
-        },
+        hints={None: "When the time was up, None was returned. Return False there.", True: hint},
     )
-    Timer(0.7, exam.serve, [later, GEOMETRY, lambda _: {}]).start()
-    seen = exam.run("is_there", later, 4.0, within=8.0).value
-    exam.expect(
-        "True for a service that comes in time",
-        expected=True,
-        seen=seen,
-        hints={
-            False: "It came after 0.7 s, and there were 4. Wait for it, instead of looking once.",
-        },
+    exam.hold(
+        "it waits no longer than it is told to",
+        missing.took < 1.4,
+        expected="an answer after 0.5 s or little more",
+        seen=f"an answer after {missing.took:.1f} s",
+        hints=too_long,
     )
 
 
@@ -126,63 +151,80 @@ def is_anybody_there(exam: Exam) -> None:
     points=2,
     goal="Return the volume, or None if the call failed; let errors of your own come out.",
     needs=["volume_or_none"],
-    deadline=20.0,
+    deadline=30.0,
 )
 def catch_what_can_happen(exam: Exam) -> None:
-    """Try a good server, four that fail each in its own way, and one wrong argument."""
-    good = f"/{exam.draw.word()}"
+    """Try two good servers, four that fail each in its own way, and wrong arguments of two kinds."""
+    good, flat = (f"/{exam.draw.word()}" for _ in range(2))
     sides = exam.draw.numbers(3, 0.5, 9.0)
-    volume = exam.draw.number(1000.0, 9000.0)
+    (volume,) = _volumes(exam, 1)
     exam.serve(good, GEOMETRY, lambda _: {"volume": volume})
-    returned = exam.run("volume_or_none", good, *sides).value
-    exam.expect(
-        "the volume of the answer is returned",
-        expected=volume,
-        seen=returned,
-        near=1e-4,
-        hints={
-            None: "The server answered, and None was returned.",
-            says(""): "Return the volume that the server answered with.",
-        },
-    )
-    for failure, name in _failing(exam):
-        outcome = exam.run(
-            "volume_or_none",
-            name,
-            *sides,
+    exam.serve(flat, GEOMETRY, lambda _: {"volume": 0.0})
+    for name, expected in ((good, volume), (flat, 0.0)):
+        exam.expect(
+            "the volume of the answer is returned",
+            expected=expected,
+            seen=exam.run("volume_or_none", name, *sides).value,
+            near=1e-6,
             hints={
-                says(
-                    "ServiceException"
-                ): "A call that fails raises rospy.ServiceException, no rospy.ROSException. Catch that one.",
+                None: "The server answered, and None was returned. An answer of 0.0 is a volume, too.",
+                says(""): "Return the volume that the server answered with.",
             },
         )
+    for failure, name, server in _failing(exam):
+        _fails(exam, failure, name, sides)
         exam.expect(
-            f"None from a server that {failure}",
-            expected=None,
-            seen=outcome.value,
-            hints=("Return None when the call failed, so that the caller can tell it from a volume."),
+            "a call that failed is not made again",
+            expected=1,
+            seen=len(server.requests) if server else 1,
+            hints="A call that fails may have done its work. Give up after one: the caller may try again.",
         )
-    wrong = exam.run("volume_or_none", good, "one metre", *sides[1:])
-    exam.hold(
-        "an error of your own comes out",
-        bool(wrong.error),
-        expected="an error about 'one metre'",
-        seen=wrong.error or "no error",
-        hints=("A slip in your own program was hidden. Catch rospy.ServiceException, and nothing wider."),
+    for slip in ("one metre", 1e300):
+        wrong = exam.run("volume_or_none", good, slip, *sides[1:])
+        exam.hold(
+            "an error of your own comes out",
+            bool(wrong.error),
+            expected=f"an error about {slip!r}",
+            seen=wrong.error or "no error",
+            hints="Nobody hears of a wrong argument then. Catch rospy.ServiceException, and nothing wider.",
+        )
+
+
+def _fails(exam: Exam, failure: str, name: str, sides: list[float]) -> None:
+    """Hold that a call of `name` gives None; in `within`, a student may wait up to 10 s for the service."""
+    outcome = exam.run(
+        "volume_or_none",
+        name,
+        *sides,
+        within=12.0,
+        hints={
+            says(
+                "^ServiceException"
+            ): "A call that fails raises rospy.ServiceException, no rospy.ROSException. Catch that one.",
+            says(
+                "^ROSException.*waiting for service"
+            ): "wait_for_service raises rospy.ROSException when the time is up. Catch it there.",
+        },
+    )
+    exam.expect(
+        f"None from a server that {failure}",
+        expected=None,
+        seen=outcome.value,
+        hints="Return None when the call failed, so that the caller can tell it from a volume.",
     )
 
 
-def _failing(exam: Exam) -> list[tuple[str, str]]:
-    """Return pairs of what a server does and the name at which one does it."""
+def _failing(exam: Exam) -> list[tuple[str, str, ScriptedServer | None]]:
+    """Return what a server does, the name at which one does it, and the server where there is one."""
     name = exam.draw.word()
-    exam.serve(f"/{name}_refuses", GEOMETRY, lambda _: Refuse("not today"))
-    exam.serve(f"/{name}_dies", GEOMETRY, lambda _: HangUp())
+    refuses = exam.serve(f"/{name}_refuses", GEOMETRY, lambda _: Refuse("not today"))
+    dies = exam.serve(f"/{name}_dies", GEOMETRY, lambda _: HangUp())
     exam.absent(f"/{name}_killed", stale=True)
     return [
-        ("is not there", f"/{name}_nowhere"),
-        ("refuses", f"/{name}_refuses"),
-        ("dies during the call", f"/{name}_dies"),
-        ("was killed", f"/{name}_killed"),
+        ("is not there", f"/{name}_nowhere", None),
+        ("refuses", f"/{name}_refuses", refuses),
+        ("dies during the call", f"/{name}_dies", dies),
+        ("was killed", f"/{name}_killed", None),
     ]
 
 
@@ -196,19 +238,18 @@ def _failing(exam: Exam) -> list[tuple[str, str]]:
 def ask_the_next_one(exam: Exam) -> None:
     """Offer the preferred one first; then with all kinds of failure before it; then with nothing else."""
     word = exam.draw.word()
-    sides = exam.draw.numbers(3, 0.5, 9.0)
-    first, second = exam.draw.numbers(2, 1000.0, 9000.0)
+    first, second, late = _volumes(exam, 3)
     exam.serve(f"/{word}_first", GEOMETRY, lambda _: {"volume": first})
     reserve = exam.serve(f"/{word}_second", GEOMETRY, lambda _: {"volume": second})
+    exam.serve(f"/{word}_flat", GEOMETRY, lambda _: {"volume": 0.0})
+    exam.serve(f"/{word}_late", GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     exam.serve(f"/{word}_refuses", GEOMETRY, lambda _: Refuse("not today"))
     exam.serve(f"/{word}_frozen", GEOMETRY, lambda _: Silence())
-    both = [f"/{word}_first", f"/{word}_second"]
-    seen = exam.run("first_answer", both, *sides).value
     exam.expect(
         "the preferred one is taken when it answers",
         expected=first,
-        seen=seen,
-        near=1e-4,
+        seen=_first_of(exam, word, "first", "second").value,
+        near=1e-6,
         hints={
             None: NO_RETURN,
             second: "That is the answer of the second one. Stop at the first that answers.",
@@ -219,59 +260,67 @@ def ask_the_next_one(exam: Exam) -> None:
         "nobody else is bothered then",
         expected=0,
         seen=len(reserve.requests),
-        hints=("The second was called although the first had answered. Return as soon as you have one."),
+        hints="The second was called although the first had answered. Return as soon as you have one.",
     )
-    for failure in exam.draw.shuffled(["nowhere", "refuses"]):
-        outcome = exam.run(
-            "first_answer",
-            [f"/{word}_{failure}", f"/{word}_second"],
-            *sides,
-            hints={
-                says(
-                    "ServiceException"
-                ): "A failed call must not end the search. Catch rospy.ServiceException inside the loop.",
-            },
-        )
+    exam.expect(
+        "a volume of 0 is an answer, too",
+        expected=0.0,
+        seen=_first_of(exam, word, "flat", "second").value,
+        hints="The first answered with the volume 0.0. Return it: 0.0 counts as False, but it is a volume.",
+    )
+    for failing in (*exam.draw.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
         exam.expect(
             "the next one is asked when one fails",
             expected=second,
-            seen=outcome.value,
-            near=1e-4,
-            hints={
-                None: "It gave up after the first. Put try and except inside the loop.",
-            },
+            seen=_first_of(exam, word, *failing, "second").value,
+            near=1e-6,
+            hints={None: "The last of them answers. Put try and except inside the loop, and go through all."},
         )
-    frozen = exam.run(
-        "first_answer",
-        [f"/{word}_frozen", f"/{word}_second"],
-        *sides,
-        within=6.0,
-        hints={
-            says(
-                "TimesUp"
-            ): "It waits for a server that never answers. Give the call a limit: node.call(..., timeout=1).",
-            says("CallTimeout"): "The limit worked, and its CallTimeout ended the search. Catch it, too.",
-        },
+    exam.expect(
+        "one that answers within the second is waited for",
+        expected=late,
+        seen=_first_of(exam, word, "late", "second").value,
+        near=1e-6,
+        hints={second: "The first answers after 0.6 s, and has a whole second. Wait for it."},
     )
+    frozen = _first_of(exam, word, "frozen", "second")
     exam.expect(
         "the next one is asked when one is frozen",
         expected=second,
         seen=frozen.value,
-        near=1e-4,
-        hints={
-            None: "It gave up after the frozen one. Go on with the next.",
-        },
+        near=1e-6,
+        hints={None: "The second one answers. Go on with it when the first has had its time."},
     )
     exam.hold(
         "a frozen one costs at most about a second",
-        frozen.took < 2.5,
+        frozen.took < 1.75,
         expected="an answer after a good second",
         seen=f"an answer after {frozen.took:.1f} s",
         hints="The limit is one second for each service.",
     )
-    none = exam.run("first_answer", [f"/{word}_nowhere", f"/{word}_refuses"], *sides)
     exam.expect(
-        "None when nobody answers", expected=None, seen=none.value, hints="Return None after the loop."
+        "None when nobody answers",
+        expected=None,
+        seen=_first_of(exam, word, "nowhere", "refuses").value,
+        hints="Return None after the loop.",
+    )
+
+
+def _first_of(exam: Exam, word: str, *kinds: str) -> Outcome:
+    """Run the student's function on the services of these kinds, in this order."""
+    return exam.run(
+        "first_answer",
+        [f"/{word}_{kind}" for kind in kinds],
+        *exam.draw.numbers(3, 0.5, 9.0),
+        hints={
+            says(
+                "^ServiceException"
+            ): "A failed call must not end the search. Catch rospy.ServiceException inside the loop.",
+            says(
+                "^TimesUp"
+            ): "It waits for a server that never answers. Give the call a limit: node.call(..., timeout=1).",
+            says("^CallTimeout"): "The limit worked, and its CallTimeout ended the search. Catch it, too.",
+        },
     )
 
 
@@ -283,6 +332,7 @@ def ask_the_next_one(exam: Exam) -> None:
 )
 def read_the_arguments(exam: Exam) -> None:
     """Give good arguments with and without those of ROS, then too few, too many, and no numbers."""
+    name_first = "The first argument is the program's own name. The sides start at the second."
     sides = exam.draw.numbers(3, 0.5, 9.0)
     texts = [str(side) for side in sides]
     program = f"/opt/{exam.draw.word()}"
@@ -292,23 +342,26 @@ def read_the_arguments(exam: Exam) -> None:
         seen=exam.run(
             "read_sides",
             [program, *texts],
-            hints={
-                says(
-                    "could not convert"
-                ): "The first argument is the program's own name. The sides start at the second.",
-            },
+            hints={says("could not convert"): name_first},
         ).value,
         near=1e-9,
         hints={
-            None: "The first argument is the program's own name. The sides start at the second.",
+            None: f"{name_first} And a number may have a point.",
             (
                 lambda seen: all(isinstance(item, str) for item in seen)
             ): "Those are texts. Make a float of each.",
             (
                 lambda seen: all(isinstance(item, int) for item in seen)
             ): "A side may have a fraction. Make a float of it.",
-            says(""): "The first argument is the program's own name. The sides start at the second.",
+            says(""): name_first,
         },
+    )
+    exam.expect(
+        "a number may be negative",
+        expected=[-sides[0], sides[1], -sides[2]],
+        seen=exam.run("read_sides", [program, f"-{texts[0]}", texts[1], f"-{texts[2]}"]).value,
+        near=1e-9,
+        hints="-1.5 is a number, too: return it as it is. float(text) reads it, and raises when it can't.",
     )
     remapped = [
         program,
@@ -343,15 +396,16 @@ def read_the_arguments(exam: Exam) -> None:
         seen=exam.run("read_sides", [program, *texts, "1.0"]).value,
         hints="Four numbers are one too many. Return None, instead of leaving one out without a word.",
     )
-    exam.expect(
-        "None when one is no number",
-        expected=None,
-        seen=exam.run(
-            "read_sides",
-            [program, texts[0], "wide", texts[2]],
-            hints={
-                says("could not convert"): "float('wide') raises ValueError. Catch it, and return None.",
-            },
-        ).value,
-        hints="A word is no number. Return None.",
-    )
+    for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
+        exam.expect(
+            "None when one is no number",
+            expected=None,
+            seen=exam.run(
+                "read_sides",
+                [program, *others],
+                hints={
+                    says("could not convert"): "float('wide') raises ValueError. Catch it, and return None.",
+                },
+            ).value,
+            hints="A word is no number, and nothing to leave out. Return None.",
+        )
