@@ -64,9 +64,7 @@ class BrokenDefinition(InterfaceError):
     the offending line, `problem` and `remedy` are two halves of a sentence.
     """
 
-    def __init__(
-        self, source: str, line: int, column: int, text: str, problem: str, remedy: str
-    ) -> None:
+    def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
         # A tab is one column here, so that the mark stands below the right letter.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""

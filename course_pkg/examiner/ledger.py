@@ -14,7 +14,7 @@ Recognised = Value  # a wrong value, a compiled pattern, or a predicate on what 
 Hints = str | Mapping[Recognised, str] | Iterable[tuple[Recognised, str]]
 
 
-class RuleBroken(Exception):  # noqa: N818 -- it ends a check and is no error of the course
+class RuleBroken(Exception):
     """A rule does not hold: the check is over."""
 
 

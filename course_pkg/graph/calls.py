@@ -70,7 +70,7 @@ class BoundedProxy(rospy.ServiceProxy):
             # A socket that was shut down under rospy's hands shows as any of these.
             if call.verdict is None:
                 raise
-            raise call.verdict from error
+            raise call.verdict from None  # what rospy made of the socket closed under it says nothing
         finally:
             call.over = True
             self._under_way.discard(call)
