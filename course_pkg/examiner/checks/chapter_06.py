@@ -173,12 +173,13 @@ def catch_what_can_happen(exam: Exam) -> None:
         )
     for failure, name, server in _failing(exam):
         _fails(exam, failure, name, sides)
-        exam.expect(
-            "a call that failed is not made again",
-            expected=1,
-            seen=len(server.requests) if server else 1,
-            hints="A call that fails may have done its work. Give up after one: the caller may try again.",
-        )
+        if server:
+            exam.expect(
+                "a call that failed is not made again",
+                expected=1,
+                seen=len(server.requests),
+                hints="A call that fails may have done its work. Give up after one: the caller may try again.",
+            )
     for slip in ("one metre", 1e300):
         wrong = exam.run("volume_or_none", good, slip, *sides[1:])
         exam.hold(
