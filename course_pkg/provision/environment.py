@@ -12,7 +12,8 @@ from pathlib import Path
 from course_pkg.provision.places import Places
 from course_pkg.provision.stamps import replace_text
 
-OURS = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP")  # of the user's, and not for the course
+# Of the user's, and not for the course; the last would have JupyterLab compiled anew at every start (2 s).
+OURS = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")
 NETWORK = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")
 

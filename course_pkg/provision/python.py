@@ -42,8 +42,7 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
             [uv, "venv", "--clear", "--system-site-packages", "--python", _base(), places.venv], env=env
         )
     lock = lock_file(extra)
-    options = ["--require-hashes", "--compile-bytecode"]
-    journal.run([uv, "pip", "install", "--python", places.python, *options, "-r", lock], env=env)
+    journal.run([uv, "pip", "install", "--python", places.python, "--require-hashes", "-r", lock], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{UNWANTED}"):
         unwanted.unlink()
 
