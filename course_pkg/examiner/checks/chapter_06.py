@@ -178,7 +178,7 @@ def catch_what_can_happen(exam: Exam) -> None:
                 "a call that failed is not made again",
                 expected=1,
                 seen=len(server.requests),
-                hints="A call that fails may have done its work. Give up after one: the caller may try again.",
+                hints="A call that failed may have done its work. Give up after one; others may try again.",
             )
     for slip in ("one metre", 1e300):
         wrong = exam.run("volume_or_none", good, slip, *sides[1:])
