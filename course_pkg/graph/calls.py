@@ -66,7 +66,7 @@ class BoundedProxy(rospy.ServiceProxy):
         call.watches.append(self._watchdog.arm(call.deadline, call.expire))
         try:
             return self._persistently(call, request) if self.persistent else self._once(call, request)
-        except (rospy.ServiceException, TransportException, OSError, AttributeError) as error:
+        except (rospy.ServiceException, TransportException, OSError, AttributeError):
             # A socket that was shut down under rospy's hands shows as any of these.
             if call.verdict is None:
                 raise
