@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 import inspect
 import io
+import logging
 import os
 import shutil
 import signal
@@ -108,7 +109,7 @@ class Hands:
         started = time.monotonic()
         values = [self._argument(value) for value in args]
         named = {key: self._argument(value) for key, value in kwargs.items()}
-        with redirect_stdout(printed), redirect_stderr(printed):
+        with redirect_stdout(printed), redirect_stderr(printed), _ros_console(printed):
             outcome = _outcome(lambda: self._find(name)(*values, **named), within)
         return {**outcome, "printed": printed.text, "took": time.monotonic() - started}
 
@@ -127,6 +128,24 @@ class Hands:
                 shutil.copy(self._folder / name, folder)
             command = [sys.executable if argv[0] == "python" else argv[0], *argv[1:]]
             return _finished(command, folder, within)
+
+
+@contextmanager
+def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
+    """Have rospy's log print to `stream`; its handler keeps the streams that it found when it was made."""
+    handlers = [
+        handler
+        for handler in logging.getLogger("rosout").handlers
+        if hasattr(handler, "_stdout") and hasattr(handler, "_stderr")
+    ]
+    kept = [(handler._stdout, handler._stderr) for handler in handlers]
+    for handler in handlers:
+        handler._stdout = handler._stderr = stream
+    try:
+        yield
+    finally:
+        for handler, (out, err) in zip(handlers, kept, strict=True):
+            handler._stdout, handler._stderr = out, err
 
 
 def _outcome(function: Callable[[], Any], timeout: float) -> dict[str, Any]:
