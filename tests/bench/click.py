@@ -32,7 +32,9 @@ button, label = ipywidgets.Button(description="click"), ipywidgets.Label("0")
 button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
 ipywidgets.VBox([button, label])
 """
+# The pause lets the kernel come to rest after the click before, as it does between a person's clicks.
 CLICK = """async () => {
+    await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
     const button = document.querySelector(".jupyter-button")
     const changed = new Promise(done => new MutationObserver((_, it) => { it.disconnect(); done() })
