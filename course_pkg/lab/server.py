@@ -104,7 +104,8 @@ class CourseLab(LabServerApp):  # type: ignore[misc]  # of an untyped package
             )
         if self.ready_file:
             page = f"lab/tree/{quote(self.first_notebook)}" if self.first_notebook else "lab"
-            address = f"{serverapp.connection_url}{page}?token={self._token()}"
+            # Tabs restored from the last time would each start a kernel again before this page is usable.
+            address = f"{serverapp.connection_url}{page}?token={self._token()}&reset"
             replace_text(Path(self.ready_file), json.dumps({"address": address}))
 
     def _token(self) -> str:
