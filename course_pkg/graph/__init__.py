@@ -3,8 +3,9 @@
 The names are looked up on first use: `course` starts a master before it can import rospy.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
     from course_pkg.graph.calls import BoundedProxy
@@ -45,32 +46,20 @@ __all__ = [
     "stale_registrations",
 ]
 
-
-def __getattr__(name: str) -> Any:  # noqa: ANN401 -- PEP 562: a module's attribute is of any type
-    homes = {
-        "BoundedProxy": "calls",
-        "Heard": "heard",
-        "Leash": "leash",
-        "MasterClient": "rpc",
-        "Node": "node",
-        "NodeProcess": "processes",
-        "NodeSeen": "snapshot",
-        "PrivateMaster": "master",
-        "Served": "served",
-        "ServedCall": "served",
-        "ServiceSeen": "snapshot",
-        "Snapshot": "snapshot",
-        "StaleRegistration": "stale",
-        "SystemState": "rpc",
-        "TopicSeen": "snapshot",
-        "find_or_start_master": "master",
-        "guard_against_idle_connections": "handshake",
-        "join": "joining",
-        "look": "snapshot",
-        "master_uri": "master",
-        "remove_stale": "stale",
-        "stale_registrations": "stale",
-    }
-    if name not in homes:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{homes[name]}"), name)
+__getattr__ = lazily(
+    __name__,
+    {
+        "calls": "BoundedProxy",
+        "handshake": "guard_against_idle_connections",
+        "heard": "Heard",
+        "joining": "join",
+        "leash": "Leash",
+        "master": "PrivateMaster find_or_start_master master_uri",
+        "node": "Node",
+        "processes": "NodeProcess",
+        "rpc": "MasterClient SystemState",
+        "served": "Served ServedCall",
+        "snapshot": "NodeSeen ServiceSeen Snapshot TopicSeen look",
+        "stale": "StaleRegistration remove_stale stale_registrations",
+    },
+)

@@ -3,8 +3,9 @@
 The names are looked up on first use, so that a model can be had without widgets and without ROS.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
     from course_pkg.panels.graph.picture import graph_text
@@ -14,15 +15,12 @@ if TYPE_CHECKING:
 
 __all__ = ["GraphPanel", "ServicePanel", "graph_text", "predict", "predictions"]
 
-
-def __getattr__(name: str) -> Any:  # noqa: ANN401 -- PEP 562: a module's attribute is of any type
-    homes = {
-        "GraphPanel": "graph.view",
-        "ServicePanel": "service.view",
-        "graph_text": "graph.picture",
-        "predict": "prediction.view",
-        "predictions": "prediction.view",
-    }
-    if name not in homes:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{homes[name]}"), name)
+__getattr__ = lazily(
+    __name__,
+    {
+        "graph.picture": "graph_text",
+        "graph.view": "GraphPanel",
+        "prediction.view": "predict predictions",
+        "service.view": "ServicePanel",
+    },
+)
