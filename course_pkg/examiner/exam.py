@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 from course_pkg.errors import ExamError
 from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
+from course_pkg.examiner.hearing import Hearing
 from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
 from course_pkg.examiner.link import Link
 from course_pkg.examiner.node import Node, held_back
@@ -137,11 +138,32 @@ class Exam:
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 
     def publish(
-        self, topic: str, kind: str, messages: Iterable[Mapping[str, Plain]], *, every: float = 0.05
+        self,
+        topic: str,
+        kind: str,
+        messages: Iterable[Mapping[str, Plain]],
+        *,
+        every: float = 0.05,
+        once: bool = False,
     ) -> Publishing:
-        """Publish `messages` (fields by name) of the type `kind` in turn, every `every` s."""
+        """Publish `messages` (fields by name) of the type `kind` in turn, every `every` s, over and over.
+
+        With `once`, as soon as somebody listens, and each message one time.
+        """
         cls = message_type(kind).cls
-        return self._open.enter_context(Publishing(topic, cls, messages, every))
+        return self._open.enter_context(Publishing(topic, cls, messages, every, once))
+
+    # -- the student's topics, heard from the graph
+
+    def hear(self, topic: str, kind: str) -> Hearing:
+        """Listen to `topic`, from now until the check is over; see hearing.py for what is to be asked of it.
+
+        A listener that comes late has missed something: hear first, and then run what publishes.
+        """
+        label = "the topic" if self.draw.made(topic) else topic
+        return self._open.enter_context(
+            Hearing(self._ledger, self._node, topic, message_type(kind).cls, label)
+        )
 
     # -- what the student wrote, in the kernel
 

@@ -4,32 +4,66 @@ from __future__ import annotations
 
 import itertools
 import threading
+import time
 from collections.abc import Iterable
 
 import rospy
 
 from course_pkg.examiner.plain import Plain
 
+LOOK = 0.01  # s between looks at who listens
+
 
 class Publishing:
-    """Publishes one message after the other on `topic`, every `every` s, and starts again after the last."""
+    """Publishes one message after the other on `topic`, every `every` s, and starts again after the last.
 
-    def __init__(self, topic: str, kind: type, messages: Iterable[Plain], every: float) -> None:
+    With `once` it begins as soon as somebody listens, and ends after the last. `sent` are the times of
+    time.monotonic() at which messages went out, in s.
+    """
+
+    def __init__(self, topic: str, kind: type, messages: Iterable[Plain], every: float, once: bool) -> None:
+        self.sent: list[float] = []
         self._messages = [kind(**message) for message in messages]
         self._every = every
+        self._once = once
         self._over = threading.Event()
-        self._publisher = rospy.Publisher(topic, kind, queue_size=100)
+        self._done = threading.Event()
+        self._publisher = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
+
+    def heard(self, within: float = 2.0) -> bool:
+        """Return whether somebody listens, as soon as somebody does, at the latest after `within` s."""
+        deadline = time.monotonic() + within
+        while not self._publisher.get_num_connections() and time.monotonic() < deadline:
+            if self._over.wait(LOOK):
+                break
+        return bool(self._publisher.get_num_connections())
+
+    def finish(self, within: float = 10.0) -> bool:
+        """Wait until the last message is out, with `once`; return whether it is, after `within` s at most."""
+        return self._done.wait(within)
+
+    def stop(self) -> None:
+        """Publish nothing more, and stay on the graph as one who could."""
+        self._over.set()
 
     def __enter__(self) -> Publishing:
         threading.Thread(target=self._publish, daemon=True).start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._over.set()
+        self.stop()
         self._publisher.unregister()
 
     def _publish(self) -> None:
-        for message in itertools.cycle(self._messages):
+        if self._once:
+            self._await_listener()
+        for message in self._messages if self._once else itertools.cycle(self._messages):
             if self._over.wait(self._every):
                 return
+            self.sent.append(time.monotonic())
             self._publisher.publish(message)
+        self._done.set()
+
+    def _await_listener(self) -> None:
+        while not self._over.is_set() and not self.heard(1.0):
+            pass
