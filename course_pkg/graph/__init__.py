@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from course_pkg.graph.leash import Leash
     from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
     from course_pkg.graph.node import Node
+    from course_pkg.graph.preparation import prepare_node
     from course_pkg.graph.processes import NodeProcess
     from course_pkg.graph.rpc import MasterClient, SystemState
     from course_pkg.graph.served import Served, ServedCall
@@ -42,6 +43,7 @@ __all__ = [
     "join",
     "look",
     "master_uri",
+    "prepare_node",
     "remove_stale",
     "stale_registrations",
 ]
@@ -56,6 +58,7 @@ __getattr__ = lazily(
         "leash": "Leash",
         "master": "PrivateMaster find_or_start_master master_uri",
         "node": "Node",
+        "preparation": "prepare_node",
         "processes": "NodeProcess",
         "rpc": "MasterClient SystemState",
         "served": "Served ServedCall",

@@ -16,14 +16,13 @@ import rospy
 import course_pkg
 from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined, SetupError
 from course_pkg.graph.calls import settle_keepalive
-from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.logs import logging_kept
 from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
 from course_pkg.graph.node import Node
+from course_pkg.graph.preparation import prepare_node
 from course_pkg.graph.probe import Reach, ask_all, node_probe
 from course_pkg.graph.registrar import (
-    hasten_shutdown,
     node_known,
     register_all,
     registration_manager,
@@ -103,11 +102,10 @@ class _Kernel:
             settle_keepalive(master)
             with logging_kept():
                 rospy.init_node(full.removeprefix("/"), disable_signals=True)
-            hasten_shutdown()
         elif not node_known(master):
             _make_room(full, master)
             register_all(master)
-        guard_against_idle_connections()
+        prepare_node()
 
     def _settle_master(self) -> None:
         """Have a master that answers; a private one that was lost is replaced at the same address."""

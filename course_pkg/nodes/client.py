@@ -10,7 +10,7 @@ import rospy
 from course_pkg.errors import CourseError
 from course_pkg.graph.calls import BoundedProxy
 from course_pkg.graph.master import master_uri
-from course_pkg.graph.registrar import hasten_shutdown
+from course_pkg.graph.preparation import prepare_node
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.srv import geometry
 
@@ -44,7 +44,7 @@ def ask(sides: tuple[float, float, float]) -> str:
     """Join the graph, wait for the server, and return its answer as two lines of text."""
     MasterClient(master_uri()).pid()  # init_node would wait for a master for ever
     rospy.init_node("client", anonymous=True)
-    hasten_shutdown()
+    prepare_node()
     rospy.wait_for_service("getGeometry", timeout=PATIENCE)
     response = BoundedProxy("getGeometry", geometry, timeout=PATIENCE)(*sides)
     return f"area: {response.area:.2f}\nvolume: {response.volume:.2f}"

@@ -8,10 +8,13 @@ from typing import NoReturn
 import rospy
 from std_srvs.srv import Trigger
 
+from course_pkg.graph.preparation import prepare_node
+
 
 def main() -> None:
     """Serve until the first call."""
     rospy.init_node("dying_server")
+    prepare_node()
     rospy.Service("dying", Trigger, _die)
     rospy.spin()
 

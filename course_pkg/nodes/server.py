@@ -7,9 +7,8 @@ from typing import Any
 
 import rospy
 
-from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.master import await_master
-from course_pkg.graph.registrar import hasten_shutdown
+from course_pkg.graph.preparation import prepare_node
 from course_pkg.srv import geometry, geometryResponse
 
 
@@ -20,8 +19,7 @@ def main() -> None:
     except KeyboardInterrupt:
         return
     rospy.init_node("SERVER_NODE")
-    guard_against_idle_connections()
-    hasten_shutdown()
+    prepare_node()
     service = rospy.Service("getGeometry", geometry, measure)
     rospy.loginfo("Ready to measure boxes on %s", service.resolved_name)
     rospy.spin()

@@ -1,0 +1,16 @@
+"""What makes a process that has called init_node() a node of the course."""
+
+from __future__ import annotations
+
+from course_pkg.graph.handshake import guard_against_idle_connections
+from course_pkg.graph.registrar import hasten_shutdown
+
+
+def prepare_node() -> None:
+    """Make this process's node one that no idle connection blocks, and that ends at once.
+
+    Call it right after rospy.init_node(), before anything is served, published or called. A second call
+    changes nothing.
+    """
+    guard_against_idle_connections()
+    hasten_shutdown()
