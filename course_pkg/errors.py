@@ -28,7 +28,8 @@ CourseError
 │   ├── NothingPicked: no service, or none that has a form
 │   ├── CallUnderWay: one call at a time
 │   ├── DrawingFailed: graphviz did not lay the graph out
-│   └── PredictionsBroken: the file of predictions cannot be read
+│   ├── PredictionsBroken: the file of predictions cannot be read
+│   └── NotASeries: what a plot was given cannot be drawn
 └── (each subpackage adds its branch below, and to this picture)
 
 A message says what happened, where, and what to do next.
@@ -215,3 +216,7 @@ class DrawingFailed(PanelError):
 
 class PredictionsBroken(PanelError):
     """The file of predictions cannot be read."""
+
+
+class NotASeries(PanelError):
+    """A plot was given what is no series of numbers."""

@@ -23,6 +23,7 @@ class Panel(anywidget.AnyWidget):
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
+    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # of the parts that it has in common with other panels
 
     notice = Unicode(help="what went wrong inside the panel itself, in one line").tag(sync=True)
 
@@ -40,7 +41,7 @@ class Panel(anywidget.AnyWidget):
 
     @property
     def _css(self) -> str:
-        return sheet(HERE / "look.css", self.style_sheet)
+        return sheet(HERE / "look.css", *self.shared_sheets, self.style_sheet)
 
     def shown(self) -> None:
         """Begin what the panel does only while a page shows it; told again for each further view."""

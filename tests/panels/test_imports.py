@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-MODELS = ["service.model", "graph.model", "graph.drawing", "prediction.model", "explanations"]
+MODELS = ["service.model", "graph.model", "graph.drawing", "plot.model", "prediction.model", "explanations"]
 
 
 @pytest.mark.parametrize("model", MODELS)

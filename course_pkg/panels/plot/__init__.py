@@ -1,0 +1,1 @@
+"""The plot: measured data as lines, dots or bars."""
