@@ -168,11 +168,21 @@ class Exam:
     # -- what the student wrote, in the kernel
 
     def run(
-        self, function: str, *args: Value, within: float = 5.0, hints: Hints = (), **kwargs: Value
+        self,
+        function: str,
+        *args: Value,
+        within: float = 5.0,
+        hints: Hints = (),
+        worded: str = "",
+        **kwargs: Value,
     ) -> Outcome:
-        """Call the student's `function` in the kernel; it is broken off after `within` s."""
-        self.doing = f"waiting for {function}()"
-        words = _as_call(function, args, kwargs)
+        """Call the student's `function` in the kernel; it is broken off after `within` s.
+
+        A report says what was called; `worded` says it better where `function` is a helper of the check's.
+        """
+        label = worded or f"{function}()"
+        self.doing = f"waiting for {label}"
+        words = worded or _as_call(function, args, kwargs)
         self._ledger.asked = lambda: words
         what = {
             "name": function,
@@ -180,7 +190,7 @@ class Exam:
             "kwargs": {key: _wired(value) for key, value in kwargs.items()},
             "within": within,
         }
-        return Outcome(self._ledger, function, self._link.ask("call", timeout=within + SLACK, **what), hints)
+        return Outcome(self._ledger, label, self._link.ask("call", timeout=within + SLACK, **what), hints)
 
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run `code` of the check's own in the kernel, apart from the student's names.

@@ -13,13 +13,13 @@ from course_pkg.examiner.show import explained, shown
 class Outcome:
     """How one call of a student's function ended: with a value or with an error, never both."""
 
-    def __init__(self, ledger: Ledger, function: str, answer: Mapping[str, Any], hints: Hints) -> None:
-        self.function = function
+    def __init__(self, ledger: Ledger, label: str, answer: Mapping[str, Any], hints: Hints) -> None:
         self.printed = str(answer.get("printed", ""))
         self.took = float(answer.get("took", 0.0))  # s
         self._value = answer.get("value")
         self._error: Mapping[str, Any] | None = answer.get("error")
         self._ledger = ledger
+        self._label = label  # of the call, as a rule words it: "measure()"
         self._hints = hints
 
     @property
@@ -32,7 +32,7 @@ class Outcome:
     @property
     def value(self) -> Plain:
         """What the function returned, as plain data. That it returned at all is a rule."""
-        rule = f"{self.function}() returns"
+        rule = f"{self._label} returns"
         if self.error:
             hint = hint_for(self._hints, self.error) or self._explained()
             self._ledger.fails(rule, expected="a value", seen=self.error, hint=hint)
@@ -55,7 +55,7 @@ class Outcome:
 
     def _explained(self) -> str:
         if self.error.startswith("TimesUp"):
-            return f"{self.function}() waits for something that does not happen: give the wait a limit."
+            return f"{self._label} waits for something that does not happen: give the wait a limit."
         where = (self._error or {}).get("line")
         return explained(self.error) or (f"The error came from line {where} of the cell." if where else "")
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
+
 import pytest
 
 from course_pkg.errors import UnknownCheck
-from course_pkg.examiner.parts import every_part, find, parts_of
+from course_pkg.examiner import checks
+from course_pkg.examiner.parts import Part, every_part, find, parts_of
 
 
 def test_an_unknown_id_gets_the_closest_ones() -> None:
@@ -28,3 +32,16 @@ def test_every_part_says_what_it_is_worth() -> None:
         assert part.goal.endswith(".")
         assert part.needs
         assert 0 < part.deadline <= 60
+
+
+def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
+    """A chapter may be a package: it names every part that one of its modules declares."""
+    modules = [
+        importlib.import_module(found.name)
+        for found in pkgutil.walk_packages(checks.__path__, f"{checks.__name__}.")
+    ]
+    declared = {
+        value.check for module in modules for value in vars(module).values() if isinstance(value, Part)
+    }
+    assert declared == {part.check for part in every_part()}
+    assert len(modules) > len({part.check[:2] for part in every_part()})

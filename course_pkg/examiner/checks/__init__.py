@@ -1,1 +1,1 @@
-"""The checks, one module a chapter, and beside each module the answers that it is held to."""
+"""The checks, one module or package a chapter, and beside each the answers that it is held to."""
