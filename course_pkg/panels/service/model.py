@@ -10,8 +10,8 @@ from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 from course_pkg.errors import CallCancelled, CallUnderWay, CourseError, FieldError, NothingPicked
+from course_pkg.graph.explanations import explain
 from course_pkg.interfaces import ServiceType, service_type
-from course_pkg.panels.explanations import explain
 from course_pkg.panels.service.form import DEADLINE, RequestForm, State, correction, seconds
 from course_pkg.panels.service.rows import rows, summary
 from course_pkg.panels.service.texts import Texts, compact

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from course_pkg.panels.explanations import explain
+from course_pkg.graph.explanations import explain
 
 # The words as rospy 1.15 says them on a real graph, with a stretch of the explanation that fits.
 SAID = "ServiceException: service [/x] responded with an error: "

@@ -1,4 +1,4 @@
-"""What rospy's words mean, and what to do about them.
+"""What rospy's words mean, and what to do about them; for panels and checks, so it needs no rospy itself.
 
 A row matches on the part of a message that is the same in every release; the first row that matches counts.
 """
