@@ -29,7 +29,8 @@ CourseError
 │   ├── CallUnderWay: one call at a time
 │   ├── DrawingFailed: graphviz did not lay the graph out
 │   ├── PredictionsBroken: the file of predictions cannot be read
-│   └── NotASeries: what a plot was given cannot be drawn
+│   ├── NotASeries: what a plot was given cannot be drawn
+│   └── NotAChoice: a case expects what is no option, or stands there twice
 └── (each subpackage adds its branch below, and to this picture)
 
 A message says what happened, where, and what to do next.
@@ -220,3 +221,7 @@ class PredictionsBroken(PanelError):
 
 class NotASeries(PanelError):
     """A plot was given what is no series of numbers."""
+
+
+class NotAChoice(PanelError):
+    """A case of choose() expects what is no option, or stands there twice."""

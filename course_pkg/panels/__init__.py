@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
+    from course_pkg.panels.choices.view import choose
     from course_pkg.panels.graph.picture import graph_text
     from course_pkg.panels.graph.view import GraphPanel
     from course_pkg.panels.plot.view import Plot
     from course_pkg.panels.prediction.view import predict, predictions
     from course_pkg.panels.service.view import ServicePanel
 
-__all__ = ["GraphPanel", "Plot", "ServicePanel", "graph_text", "predict", "predictions"]
+__all__ = ["GraphPanel", "Plot", "ServicePanel", "choose", "graph_text", "predict", "predictions"]
 
 __getattr__ = lazily(
     __name__,
     {
+        "choices.view": "choose",
         "graph.picture": "graph_text",
         "graph.view": "GraphPanel",
         "plot.view": "Plot",

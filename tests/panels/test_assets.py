@@ -46,7 +46,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 def test_there_are_panels_to_join() -> None:
     """The parametrised test above looks at the three panels."""
-    assert [entry.stem for entry in ENTRIES] == ["graph", "plot", "prediction", "service"]
+    assert [entry.stem for entry in ENTRIES] == ["choices", "graph", "plot", "prediction", "service"]
 
 
 def test_sheets_stand_in_the_order_given(tmp_path: Path) -> None:

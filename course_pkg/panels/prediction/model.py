@@ -7,6 +7,7 @@ from dataclasses import replace
 from datetime import datetime, timezone
 
 from course_pkg.panels.prediction.store import PredictionStore, Record
+from course_pkg.panels.store import Row
 
 
 class PredictionModel:
@@ -65,7 +66,7 @@ def verdict(record: Record) -> str:
     return f"You predicted {record.first!r}, {said}.{changed}"
 
 
-def summary(records: Iterable[Record], chapter: str) -> list[Record]:
+def summary(records: Iterable[Row], chapter: str) -> list[Row]:
     """Return the records of a chapter (`05` has `05.reply_none`), or all for "", by their keys."""
     chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
     return sorted(chosen, key=lambda each: each.key)

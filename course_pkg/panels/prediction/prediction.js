@@ -1,7 +1,7 @@
 /* Predictions: the question, the comparison, and the table of a chapter. */
 import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 
-/** @typedef {{question: string, predicted: string, actual: string, state: string, verdict: string}} Shown */
+/** @typedef {{question: string, predicted: string, actual: string, state: string, verdict: string, result?: string, fit?: number, cases?: number}} Shown */
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -74,11 +74,14 @@ function side(label, text) {
 function table(records) {
   const words = { open: "not compared yet", late: "no prediction", right: "as predicted", wrong: "otherwise" };
   const rows = records.map((shown) => h("tr", { class: `ros-${shown.state}` }, h("td", { text: shown.question }), h("td", { text: shown.predicted || "nothing" }),
-    h("td", { text: shown.actual || "not yet seen" }), h("td", { class: "ros-result", text: words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
+    h("td", { text: shown.actual || "not yet seen" }), h("td", { class: "ros-result", text: shown.result || words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
   const head = h("thead", {}, h("tr", {}, ...["Question", "You predicted", "What really happened", "Result"].map((text) => h("th", { scope: "col", text }))));
   const right = records.filter((shown) => shown.state === "right").length;
   const seen = records.filter((shown) => ["right", "wrong"].includes(shown.state)).length;
-  const score = seen ? `${right} of ${seen} ${seen === 1 ? "prediction" : "predictions"} came true. ` : "No prediction has been compared yet. ";
+  const predicted = seen ? `${right} of ${seen} ${seen === 1 ? "prediction" : "predictions"} came true. ` : "";
+  const [fit, cases] = ["fit", "cases"].map((part) => records.reduce((sum, shown) => sum + (/** @type {any} */ (shown)[part] ?? 0), 0));
+  const chosen = cases ? `${fit} of ${cases} choices fit. ` : "";
+  const score = predicted + chosen || "No prediction has been compared yet. ";
   const text = records.length ? `${score}A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
   return h("section", { class: "ros-panel ros-predict", "aria-label": "Predictions" },
     h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }));

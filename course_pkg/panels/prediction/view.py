@@ -12,6 +12,8 @@ from typing import Any, ClassVar
 
 from traitlets import Bool, Dict, List, Unicode
 
+from course_pkg.panels.choices.model import standing
+from course_pkg.panels.choices.store import ChoiceRecord, ChoiceStore
 from course_pkg.panels.panel import Panel
 from course_pkg.panels.prediction.model import PredictionModel, right, summary, verdict
 from course_pkg.panels.prediction.store import PredictionStore, Record
@@ -79,15 +81,19 @@ class Comparison(_Predict):
 
 
 class Predictions(_Predict):
-    """The predictions of a chapter in a table."""
+    """The predictions and choices of a chapter in a table."""
 
     chapter = Unicode().tag(sync=True)
     records: List[Any] = List().tag(sync=True)
 
-    def __init__(self, chapter: str = "", *, store: PredictionStore | None = None) -> None:
+    def __init__(
+        self, chapter: str = "", *, store: PredictionStore | None = None, choices: ChoiceStore | None = None
+    ) -> None:
         super().__init__()
-        records = summary((store or PredictionStore()).read().values(), chapter)
-        self.publish(part="summary", chapter=chapter, records=[_shown(each) for each in records])
+        predicted = summary((store or PredictionStore()).read().values(), chapter)
+        decided = summary((choices or ChoiceStore()).read().values(), chapter)
+        records = [*map(_shown, predicted), *map(_decided, decided)]
+        self.publish(part="summary", chapter=chapter, records=records)
 
     def __repr__(self) -> str:
         return f"predictions({self.chapter!r})" if self.chapter else "predictions()"
@@ -119,4 +125,18 @@ def _shown(record: Record) -> dict[str, Any]:
         "actual": record.actual,
         "state": state,
         "verdict": verdict(record),
+    }
+
+
+def _decided(record: ChoiceRecord) -> dict[str, Any]:
+    seen = bool(record.compared)
+    return {
+        "question": record.question,
+        "predicted": f"{len(record.first if seen else record.chosen)} of {record.cases} cases decided",
+        "actual": f"{record.fit} fit" if seen else "",
+        "state": "decided" if seen else "open",
+        "result": f"{record.fit} of {len(record.first)} fit" if seen else "",
+        "fit": record.fit,
+        "cases": len(record.first),
+        "verdict": standing(record),
     }

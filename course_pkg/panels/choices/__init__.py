@@ -1,0 +1,1 @@
+"""Choices: many cases, the same few options, a reason for each."""
