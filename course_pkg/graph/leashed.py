@@ -21,6 +21,7 @@ if TYPE_CHECKING:  # typing takes longer to import than all the rest
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 GRACE = 2.0  # s between asking descendants to end and killing them
+COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 LOOK = 200  # ms between looks at the parent where the system has no pidfd
 
 
@@ -53,7 +54,9 @@ class Leashed:
         while self.owner_lives() and self.status is None and not self.hurry:
             self._wait(None if self._pidfd is not None else LOOK)
             self._reap()
-        self._end_descendants()
+        ports = self._end_descendants()
+        if ports and not self.hurry and "ROS_MASTER_URI" in os.environ:
+            _take_back(ports)
         return self.status or 0
 
     def owner_lives(self) -> bool:
@@ -94,8 +97,12 @@ class Leashed:
             if pid == self.child:
                 self.status = status
 
-    def _end_descendants(self) -> None:
-        """Ask all to end, kill those that do not; who loses its parent becomes a child of this process."""
+    def _end_descendants(self) -> frozenset[int]:
+        """Ask all to end, kill those that do not; who loses its parent becomes a child of this process.
+
+        Return on which ports those listened that were killed.
+        """
+        ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.hurry else GRACE)
         if self._reap() and not self.hurry:
             _signal_all((signal.SIGCONT, signal.SIGTERM), self.child)
@@ -104,8 +111,11 @@ class Leashed:
             self._pidfd = None
         while self._reap():
             if time.monotonic() >= deadline or self.hurry:
+                if not self.hurry:
+                    ports |= _listening(descendants(os.getpid()))
                 _signal_all((signal.SIGKILL,), self.child)
             self._wait(20)
+        return ports
 
 
 def _pidfd(pid: int) -> int | None:
@@ -158,6 +168,23 @@ def descendants(root: int) -> list[int]:
         found += below
         todo += below
     return found
+
+
+def _listening(pids: list[int]) -> frozenset[int]:
+    with suppress(ImportError):  # the checkout is gone
+        sys.path.append(COURSE)
+        from course_pkg.graph.ports import listening_ports
+
+        return listening_ports(pids) or frozenset()
+    return frozenset()
+
+
+def _take_back(ports: frozenset[int]) -> None:
+    """Withdraw what was registered at these ports: nodes that were killed could not sign off."""
+    with suppress(ImportError):
+        from course_pkg.graph.estate import registered_at, take_back
+
+        take_back(registered_at(ports))
 
 
 def forget(master_uri: str, node: str, node_uri: str) -> None:

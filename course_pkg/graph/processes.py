@@ -10,14 +10,14 @@ import weakref
 from collections.abc import Sequence
 from types import TracebackType
 
-from course_pkg.errors import GraphError, NodeFailed
+from course_pkg.errors import NodeFailed
+from course_pkg.graph.estate import registered_at, take_back
 from course_pkg.graph.executables import find_executable
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.ports import family, listening_ports, port_of
 from course_pkg.graph.probe import ask_all, service_probe
 from course_pkg.graph.rpc import MasterClient
-from course_pkg.graph.stale import entries_at, withdraw
 
 TAIL = 2000  # characters of output in an error message
 LOOK = 0.02  # s between looks
@@ -97,10 +97,10 @@ class NodeProcess:
         """End it, by force after `grace` s, and return when it and its registrations are gone."""
         if not self.running:
             return
-        nodes, services = self._registered() if withdraw else ({}, {})
+        left = registered_at(listening_ports(family(self.pid)) or ()) if withdraw else []
         self._leash.end(grace)
-        if nodes or services:
-            self._withdraw(nodes, services)
+        if left:  # by one that had no time to sign off
+            take_back(left)
 
     def kill(self) -> None:
         """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, stale."""
@@ -129,29 +129,6 @@ class NodeProcess:
         probe = service_probe(name, uri)
         ask_all([probe], timeout=1.0)
         return probe.answered
-
-    def _registered(self) -> tuple[dict[str, str], dict[str, str]]:
-        """Return the nodes and the services of this process with their addresses, told by their ports."""
-        ports = listening_ports(family(self.pid)) or frozenset()
-        try:
-            master = MasterClient(master_uri())
-            state = master.system_state()
-            found = master.lookup_all(state.nodes, state.services)
-        except GraphError:
-            return {}, {}  # nobody left to be registered with
-        nodes, services = (
-            {name: uri for name, uri in all_.items() if port_of(uri) in ports} for all_ in found
-        )
-        return nodes, services
-
-    def _withdraw(self, nodes: dict[str, str], services: dict[str, str]) -> None:
-        """Take back what the process had no time to; an entry that is another's by now stays."""
-        try:
-            master = MasterClient(master_uri())
-            for entry in entries_at(master.system_state(), nodes, services):
-                withdraw(master, entry)
-        except GraphError:
-            return
 
     def _failed(self, what: str) -> NodeFailed:
         tail = self.output()[-TAIL:].strip()

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 import time
 from collections.abc import Callable
 
-IDLE = 3600.0  # s to sleep when nothing is armed
+LINGER = 5.0  # s between looks whether anything is still armed
 AGAIN = 0.02  # s until an action that has not helped is repeated
 
 
 class Watchdog:
     """Calls an action once its deadline has passed, and again every 20 ms, until it is disarmed.
 
-    Repeated, because a socket cannot be shut down before it is made, or not yet.
+    Repeated, because a socket cannot be shut down before it is made, or not yet. Its thread is there
+    while something is armed, and some seconds longer: calls come in rows.
     """
 
     def __init__(self) -> None:
@@ -44,12 +46,21 @@ class Watchdog:
             self._changed.notify()
 
     def _watch(self) -> None:
-        while True:
+        while self._armed or not self._ends():
             now = time.monotonic()
             due = [action for deadline, action in list(self._armed.values()) if deadline <= now]
             for action in due:
                 action()
             with self._changed:
-                earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now + IDLE)
-                self._wake = max(earliest, now + AGAIN) if due else earliest
+                self._wake = math.inf  # who arms from here on may not have been seen, and knocks
+                earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
+                self._wake = max(earliest, now + AGAIN) if due else min(earliest, now + LINGER)
                 self._changed.wait(max(self._wake - time.monotonic(), 0))
+
+    def _ends(self) -> bool:
+        """Say whether this thread may end; it first says that it has, so that arm() makes another."""
+        with self._changed:
+            self._thread = None
+            if self._armed:  # by somebody who still saw this thread
+                self._thread = threading.current_thread()
+            return self._thread is None

@@ -59,6 +59,39 @@ def test_killed_owner_on_a_shared_master(master: PrivateMaster) -> None:
     kernel.exit()
 
 
+DEAF = """
+import signal, rospy
+from std_msgs.msg import Empty as Message
+from std_srvs.srv import Empty
+rospy.init_node("deaf")
+service = rospy.Service("/deaf", Empty, lambda request: [])
+publisher, subscriber = rospy.Publisher("/said", Message), rospy.Subscriber("/heard", Message)
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+rospy.Service("/deafened", Empty, lambda request: [])
+while True:
+    signal.pause()
+"""
+
+
+def test_deaf_node_on_a_shared_master(master: PrivateMaster) -> None:
+    """A node that hears no SIGTERM is killed some time after its owner, and no registration is left of it."""
+    kernel = Kernel()
+    kernel.run(f"""
+import sys
+from course_pkg.graph import NodeProcess
+node = NodeProcess([sys.executable, "-c", {DEAF!r}])
+node.wait_for_service("/deafened")
+""")
+    pids = family(kernel.pid)
+    with NodeProcess.rosrun("course_pkg", "server") as other:
+        other.wait_for_service("/getGeometry")
+        kernel.kill()
+        eventually(lambda: gone(pids))
+        eventually(lambda: not MasterClient(master.uri).lookup_node("/deaf"))
+        assert MasterClient(master.uri).system_state().nodes == ("/SERVER_NODE",)
+    kernel.exit()
+
+
 def test_graceful_end_leaves_nothing(master: PrivateMaster) -> None:
     """A kernel that ends by itself leaves neither a registration nor a process, and takes no time over it."""
     kernel = Kernel()

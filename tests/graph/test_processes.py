@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("master")
     [
         ("no_such_package", "server", "no package 'no_such_package'"),
         ("course_pkg", "sever", "Did you mean 'server'?"),
-        ("course_pkg", "zzz", "It has: client, "),
+        ("course_pkg", "zzz", "It has: "),
     ],
 )
 def test_missing_program(package: str, program: str, told: str) -> None:
@@ -121,6 +121,20 @@ def test_running_again_replaces(kernel: Kernel) -> None:
         third.wait_for_service("/third")
         assert (first.running, second.running, third.running) == (False, True, True)
         assert (repr(first), repr(third)) == ("<course_pkg/server, ended>", "<third, running>")
+    """)
+
+
+def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
+    """A namespace among the arguments makes another node, so the first goes on; the same again replaces it."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("student")
+        left, right = (node.run("course_pkg", "server", f"__ns:=/{side}") for side in ("left", "right"))
+        left.wait_for_service("/left/getGeometry")
+        right.wait_for_service("/right/getGeometry")
+        again = node.run("course_pkg", "server", "__ns:=/left")
+        again.wait_for_service("/left/getGeometry")
+        assert (left.running, right.running, again.running) == (False, True, True)
     """)
 
 
