@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from course_pkg.graph.calls import BoundedProxy
     from course_pkg.graph.handshake import guard_against_idle_connections
     from course_pkg.graph.heard import Heard
+    from course_pkg.graph.island import Island
     from course_pkg.graph.joining import join
     from course_pkg.graph.leash import Leash
     from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = [
     "BoundedProxy",
     "Heard",
+    "Island",
     "Leash",
     "MasterClient",
     "Node",
@@ -54,6 +56,7 @@ __getattr__ = lazily(
         "calls": "BoundedProxy",
         "handshake": "guard_against_idle_connections",
         "heard": "Heard",
+        "island": "Island",
         "joining": "join",
         "leash": "Leash",
         "master": "PrivateMaster find_or_start_master master_uri",

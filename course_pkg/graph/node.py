@@ -87,10 +87,12 @@ class Node:
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
         """Run a package's node as a process, in the place of the one started as the same before.
 
-        `name` renames the node, so that several of one program can run. Raises UnknownExecutable.
+        `name` renames the node, so that several of one program can run, as `__name:=…` and `__ns:=…` do
+        among `args`. Raises UnknownExecutable.
         """
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
-        return self._started(name or f"{package}/{executable}", start)
+        renamed = [word for word in map(str, args) if word.startswith(("__name:=", "__ns:="))]
+        return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
 
     def launch(self, package: str, file: str, *args: str) -> NodeProcess:
         """Run a launch file with arguments such as "client:=true", in the place of the one started before."""

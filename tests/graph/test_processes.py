@@ -125,7 +125,7 @@ def test_running_again_replaces(kernel: Kernel) -> None:
 
 
 def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
-    """A namespace among the arguments makes another node, so the first goes on; the same again replaces it."""
+    """A namespace among the arguments makes another node beside the first; the same again replaces it."""
     kernel.run("""
         from course_pkg.graph import join
         node = join("student")
