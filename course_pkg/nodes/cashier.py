@@ -1,0 +1,120 @@
+"""The node `cashier`: greets every customer once, in one of three designs.
+
+`~design` is `poll` (ask `detect_customer` `~rate` times a second), `topic` (listen to `customers`), or
+`wait` (ask `detect_customer`, and let the question stand for `~patience` s). It publishes whom it greets on
+`greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections import deque
+from typing import Any
+
+import rospy
+from std_msgs.msg import UInt32
+
+from course_pkg.errors import CourseError
+from course_pkg.graph.calls import BoundedProxy
+from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
+
+DESIGNS = ("poll", "topic", "wait")
+KEPT = 10_000  # moments in the report
+GRACE = 2.0  # s for an answer, beyond what the question itself may take
+AGAIN = 0.5  # s until a question that failed is put again
+CONNECTED = 5.0  # s to wait for a publisher before the report is offered all the same
+
+
+class Cashier:
+    """Greets, and takes note of it."""
+
+    def __init__(self) -> None:
+        self._turn = threading.Lock()
+        self._asked = self._heard = self._last = 0
+        self._greeted: deque[tuple[int, rospy.Time]] = deque(maxlen=KEPT)
+        self._learnt: deque[rospy.Time] = deque(maxlen=KEPT)
+        self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
+        self._detect = BoundedProxy("detect_customer", DetectCustomer)
+
+    def handle_report(self, _: object) -> CashierReportResponse:
+        """Say what has been done so far."""
+        with self._turn:
+            numbers, times = zip(*self._greeted, strict=True) if self._greeted else ((), ())
+            return CashierReportResponse(  # type: ignore[no-untyped-call]
+                self._asked, self._heard, list(numbers), list(times), list(self._learnt)
+            )
+
+    def hear(self, message: Any) -> None:  # noqa: ANN401 -- a class that genpy generates
+        """Take in the number of a customer who has come."""
+        with self._turn:
+            self._heard += 1
+        self._learn(message.data)
+
+    def listen(self) -> None:
+        """Hear whoever comes, until the node is shut down."""
+        subscriber = rospy.Subscriber("customers", UInt32, self.hear, tcp_nodelay=True)
+        deadline = time.monotonic() + CONNECTED
+        while not subscriber.get_num_connections() and time.monotonic() < deadline:
+            rospy.sleep(0.02)
+        self.offer_report()
+        rospy.spin()
+
+    def keep_asking(self, patience: float, pause: float) -> None:
+        """Ask again and again, at most once in `pause` s, until the node is shut down."""
+        self.offer_report()
+        due = time.monotonic()
+        while not rospy.is_shutdown():
+            answered = self._ask(patience)
+            due = max(due + (pause if answered else max(pause, AGAIN)), time.monotonic())
+            rospy.sleep(due - time.monotonic())
+
+    def offer_report(self) -> None:
+        """Serve the report: from then on the cashier is at work."""
+        rospy.Service("~report", CashierReport, self.handle_report)
+
+    def _ask(self, patience: float) -> bool:
+        """Ask for the next customer; return whether there was an answer."""
+        with self._turn:
+            self._asked += 1
+        try:
+            answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
+        except (rospy.ServiceException, CourseError) as error:
+            rospy.logwarn_throttle(10, f"No answer, and asking on: {error}")
+            return False
+        self._learn(answer.number if answer.detected else 0)
+        return True
+
+    def _learn(self, number: int) -> None:
+        """Take note that there was news, and greet the customer `number` if there is one not yet greeted."""
+        with self._turn:
+            now = rospy.Time.now()
+            self._learnt.append(now)
+            if number <= self._last:
+                return
+            self._last = number
+            self._greeted.append((number, now))
+        self._publisher.publish(number)
+
+
+def main() -> None:
+    """Greet until the node is shut down."""
+    if not step_onto_graph("cashier"):
+        return
+    design = rospy.get_param("~design", "wait")
+    if design not in DESIGNS:
+        sys.exit(f"~design is {design!r}, and has to be one of {', '.join(DESIGNS)}.")
+    rate = number_parameter("~rate", 2.0, 0.01, 1000.0)
+    patience = number_parameter("~patience", 2.0, 0.1, 60.0)
+    cashier = Cashier()
+    try:
+        if design == "topic":
+            cashier.listen()
+        elif design == "poll":
+            cashier.keep_asking(patience=0.0, pause=1 / rate)
+        else:
+            cashier.keep_asking(patience=patience, pause=0.0)
+    except rospy.ROSInterruptException:  # shut down while it slept
+        return

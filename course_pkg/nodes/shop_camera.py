@@ -1,0 +1,79 @@
+"""The node `shop_camera`: a shop with a counter, and the camera above it.
+
+It publishes on `counter` (std_msgs/UInt32MultiArray) the numbers of the customers who are there, at each
+change and ten times a second, and serves `let_in` (course_pkg/LetIn). With `~every` above 0, others come by
+themselves, one in so many seconds on average.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Any
+
+import rospy
+from std_msgs.msg import UInt32MultiArray
+
+from course_pkg.errors import FieldError
+from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.shop.counter import Counter, Visit
+from course_pkg.srv import LetIn, LetInResponse
+
+PULSE = 0.1  # s between messages when nothing changes
+STAY = 4.0  # s that those who come by themselves stay
+
+
+class ShopCamera:
+    """The shop, and what its camera says."""
+
+    def __init__(self, number: int, every: float) -> None:
+        self._counter = Counter(number)
+        self._every = every
+        self._changed = threading.Condition()
+        self._publisher = rospy.Publisher("counter", UInt32MultiArray, queue_size=10)
+
+    def handle_let_in(self, request: Any) -> LetInResponse:  # noqa: ANN401 -- a class that catkin generates
+        """Let customers in, and say when each comes."""
+        try:
+            visits = self._let_in(request.after, request.stay)
+        except FieldError as error:
+            raise rospy.ServiceException(str(error)) from error
+        comes = [rospy.Time.from_sec(visit.comes) for visit in visits]
+        return LetInResponse(first=visits[0].number if visits else 0, comes=comes)  # type: ignore[no-untyped-call]
+
+    def watch(self) -> None:
+        """Say who is at the counter until the node is shut down."""
+        while not rospy.is_shutdown():
+            with self._changed:
+                now = time.time()
+                self._publisher.publish(data=self._counter.there(now))
+                change = self._counter.next_change(now)
+                self._changed.wait(max(min(change - time.time(), PULSE), 0.0))
+            if self._every and change == math.inf:
+                self._let_in([random.expovariate(1 / self._every)], STAY)
+
+    def _let_in(self, after: Sequence[float], stay: float) -> list[Visit]:
+        with self._changed:
+            visits = self._counter.let_in(time.time(), after, stay)
+            self._changed.notify()
+        # Numbers go on after a restart: who knows the customers up to one waits for a higher one. Without
+        # a master they begin again, and customers come all the same.
+        with suppress(OSError, rospy.ROSException):
+            rospy.set_param("~number", self._counter.number)
+        return visits
+
+
+def main() -> None:
+    """Run the shop until the node is shut down."""
+    if not step_onto_graph("shop_camera"):
+        return
+    number = number_parameter("~number", 1, 1, 2**31)
+    every = number_parameter("~every", 0.0, 0.0, 600.0)
+    camera = ShopCamera(int(number), every)
+    rospy.Service("let_in", LetIn, camera.handle_let_in)
+    rospy.loginfo("Watching the counter")
+    camera.watch()

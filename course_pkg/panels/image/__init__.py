@@ -1,0 +1,1 @@
+"""Pictures that nodes send, in the notebook."""

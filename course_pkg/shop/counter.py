@@ -1,0 +1,61 @@
+"""The counter of a shop: who comes when, who goes when, and who is there now. No ROS."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from course_pkg.errors import FieldError
+
+MOST = 1000  # customers at a time
+LONGEST = 3600.0  # s
+
+
+@dataclass(frozen=True)
+class Visit:
+    """One customer: a number, and when they come to the counter and leave it, in s of one clock."""
+
+    number: int
+    comes: float
+    goes: float
+
+
+class Counter:
+    """Knows the visits that go on and those to come; `number` is what the next customer gets."""
+
+    def __init__(self, number: int = 1) -> None:
+        self.number = number
+        self._visits: list[Visit] = []
+
+    def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
+        """Have a customer come `after` s from `now`, for each, and stay for `stay` s; return their visits.
+
+        Those who were still to come do not come then. Raises FieldError, and changes nothing.
+        """
+        if len(after) > MOST:
+            raise FieldError(
+                "after", after, f"at most {MOST} customers", f"{len(after)} customers are too many"
+            )
+        for place, delay in enumerate(after):
+            _require_seconds(f"after[{place}]", delay)
+        _require_seconds("stay", stay)
+        starts = sorted(now + delay for delay in after)
+        visits = [Visit(number, start, start + stay) for number, start in enumerate(starts, self.number)]
+        self.number += len(visits)
+        self._visits = [visit for visit in self._visits if visit.comes <= now < visit.goes] + visits
+        return visits
+
+    def there(self, now: float) -> tuple[int, ...]:
+        """Return the numbers of those who are at the counter, in the order in which they came."""
+        return tuple(visit.number for visit in self._visits if visit.comes <= now < visit.goes)
+
+    def next_change(self, now: float) -> float:
+        """Return when the next customer comes or goes; infinity when nobody will."""
+        times = (time for visit in self._visits for time in (visit.comes, visit.goes) if time > now)
+        return min(times, default=math.inf)
+
+
+def _require_seconds(field: str, value: float) -> None:
+    if not 0.0 <= value <= LONGEST:  # which a NaN is not
+        raise FieldError(field, value, f"seconds, from 0 to {LONGEST:g}", f"{value:g} s cannot be waited for")
