@@ -12,19 +12,30 @@ from course_pkg.lazy import lazily
 if TYPE_CHECKING:
     from course_pkg.examiner import check, results
     from course_pkg.graph import join
-    from course_pkg.panels import GraphPanel, Plot, ServicePanel, choose, predict, predictions
+    from course_pkg.panels import GraphPanel, Plot, ServicePanel, choose, predict, predictions, show_image
 
 # catkin generates `course_pkg.srv` into another folder; without this, the checkout hides it.
 __path__ = extend_path(__path__, __name__)
 
-__all__ = ["GraphPanel", "Plot", "ServicePanel", "check", "choose", "join", "predict", "predictions", "results"]
+__all__ = [
+    "GraphPanel",
+    "Plot",
+    "ServicePanel",
+    "check",
+    "choose",
+    "join",
+    "predict",
+    "predictions",
+    "results",
+    "show_image",
+]
 
 __getattr__ = lazily(
     __name__,
     {
         "examiner": "check results",
         "graph": "join",
-        "panels": "GraphPanel Plot ServicePanel choose predict predictions",
+        "panels": "GraphPanel Plot ServicePanel choose predict predictions show_image",
     },
 )
 

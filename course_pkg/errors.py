@@ -17,6 +17,8 @@ CourseError
 │   ├── NotAServiceType, NotAMessageType: another class was given in its place
 │   ├── CallError: CallTimeout, CallCancelled, a call that brought no answer
 │   ├── NothingHeard: fewer messages than asked for within the time
+│   ├── NobodyListens: fewer subscribers than asked for within the time
+│   ├── NotAdvertised: this publisher was stopped
 │   ├── UnknownExecutable: no such package, or no such program in it
 │   └── NodeFailed: the process of a node ended; holds the end of its output
 ├── ExamError: a check cannot be carried out
@@ -30,7 +32,8 @@ CourseError
 │   ├── DrawingFailed: graphviz did not lay the graph out
 │   ├── PredictionsBroken: the file of predictions cannot be read
 │   ├── NotASeries: what a plot was given cannot be drawn
-│   └── NotAChoice: a case expects what is no option, or stands there twice
+│   ├── NotAChoice: a case expects what is no option, or stands there twice
+│   └── NotAnImage: what should be shown is no picture, or not one that can be shown
 └── (each subpackage adds its branch below, and to this picture)
 
 A message says what happened, where, and what to do next.
@@ -154,6 +157,14 @@ class NothingHeard(GraphError):
     """Fewer messages came than were asked for within the time."""
 
 
+class NobodyListens(GraphError):
+    """Fewer subscribers connected than were asked for within the time."""
+
+
+class NotAdvertised(GraphError):
+    """This publisher was stopped."""
+
+
 class UnknownExecutable(GraphError):
     """No package of this name, or no program of this name in it."""
 
@@ -225,3 +236,7 @@ class NotASeries(PanelError):
 
 class NotAChoice(PanelError):
     """A case of choose() expects what is no option, or stands there twice."""
+
+
+class NotAnImage(PanelError, TypeError):
+    """What should be shown is no sensor_msgs/Image, or not one that can be shown."""

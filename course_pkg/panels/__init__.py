@@ -11,11 +11,21 @@ if TYPE_CHECKING:
     from course_pkg.panels.choices.view import choose
     from course_pkg.panels.graph.picture import graph_text
     from course_pkg.panels.graph.view import GraphPanel
+    from course_pkg.panels.image.view import show_image
     from course_pkg.panels.plot.view import Plot
     from course_pkg.panels.prediction.view import predict, predictions
     from course_pkg.panels.service.view import ServicePanel
 
-__all__ = ["GraphPanel", "Plot", "ServicePanel", "choose", "graph_text", "predict", "predictions"]
+__all__ = [
+    "GraphPanel",
+    "Plot",
+    "ServicePanel",
+    "choose",
+    "graph_text",
+    "predict",
+    "predictions",
+    "show_image",
+]
 
 __getattr__ = lazily(
     __name__,
@@ -23,6 +33,7 @@ __getattr__ = lazily(
         "choices.view": "choose",
         "graph.picture": "graph_text",
         "graph.view": "GraphPanel",
+        "image.view": "show_image",
         "plot.view": "Plot",
         "prediction.view": "predict predictions",
         "service.view": "ServicePanel",
