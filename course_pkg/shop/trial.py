@@ -1,4 +1,4 @@
-"""One design of a cashier tried on one day's customers, in a process of its own, and measured from outside."""
+"""One design of a cashier, tried on the customers of one day in a process of its own, and measured."""
 
 from __future__ import annotations
 

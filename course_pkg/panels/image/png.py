@@ -50,7 +50,7 @@ def _layout(image: Any) -> tuple[int, tuple[int, ...]]:  # noqa: ANN401
         raise NotAnImage(f"A picture of {width} x {height} points has nothing to show.")
     if step < width * len(order) or size != step * height or size > MOST:
         raise NotAnImage(
-            f"The picture says that it has {height} rows of {step} bytes, each of {width} points in {encoding}. "
+            f"The picture says that it has {height} rows of {step} bytes, each {width} points in {encoding}. "
             f"It holds {size} bytes, and these do not fit together."
         )
     return colour, order
