@@ -17,6 +17,7 @@ from course_pkg.graph.output import HandlerOutput
 from course_pkg.graph.processes import NodeProcess
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.served import Handler, Served
+from course_pkg.graph.spoken import Spoken
 from course_pkg.graph.types import message_class, service_class
 from course_pkg.graph.watchdog import Watchdog
 
@@ -30,6 +31,7 @@ class Node:
         self._master = MasterClient(master_uri())
         self._served: dict[str, Served] = {}
         self._heard: dict[str, Heard] = {}
+        self._spoken: dict[str, Spoken] = {}
         self._processes: dict[str, NodeProcess] = {}
         self._proxies: dict[tuple[str, Any], BoundedProxy] = {}
         self._uri = rospy.get_node_uri()
@@ -84,6 +86,19 @@ class Node:
         self._heard[full] = Heard(full, message_class(kind), callback)
         return self._heard[full]
 
+    def advertise(self, topic: str, kind: Any, *, queue_size: int = 10, latch: bool = False) -> Spoken:  # noqa: ANN401
+        """Publish on a topic, in the place of an earlier publisher; `latch` keeps the last message.
+
+        Raises MasterUnreachable or MasterSilent where rospy.Publisher would wait for ever.
+        """
+        self._require()
+        self._client().pid()
+        full = rospy.resolve_name(topic)
+        if full in self._spoken:
+            self._spoken.pop(full).stop()
+        self._spoken[full] = Spoken(full, message_class(kind), queue_size=queue_size, latch=latch)
+        return self._spoken[full]
+
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
         """Run a package's node as a process, in the place of the one started as the same before.
 
@@ -113,6 +128,8 @@ class Node:
             served.renew(self._client())
         for heard in self._heard.values():
             heard.renew()
+        for spoken in self._spoken.values():
+            spoken.renew()
 
     def close(self, *, with_master: bool = True) -> None:
         """End all that was begun here; without a master that answers, nothing is withdrawn from it."""
@@ -124,6 +141,8 @@ class Node:
             self._proxies.popitem()[1].close()
         while self._heard:
             self._heard.popitem()[1].stop(withdraw=with_master)
+        while self._spoken:
+            self._spoken.popitem()[1].stop(withdraw=with_master)
         while self._served:
             self._served.popitem()[1].stop(withdraw=with_master)
         self._output.remove()
