@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
+    from course_pkg.graph.activity import Activity, Carried, listen
+    from course_pkg.graph.callers import ServiceCaller, service_callers
     from course_pkg.graph.calls import BoundedProxy
     from course_pkg.graph.handshake import guard_against_idle_connections
     from course_pkg.graph.heard import Heard
     from course_pkg.graph.island import Island
-    from course_pkg.graph.joining import join
+    from course_pkg.graph.joining import join, this_node
     from course_pkg.graph.leash import Leash
     from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
     from course_pkg.graph.node import Node
@@ -21,10 +23,13 @@ if TYPE_CHECKING:
     from course_pkg.graph.rpc import MasterClient, SystemState
     from course_pkg.graph.served import Served, ServedCall
     from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, Snapshot, TopicSeen, look
+    from course_pkg.graph.spoken import Spoken
     from course_pkg.graph.stale import StaleRegistration, remove_stale, stale_registrations
 
 __all__ = [
+    "Activity",
     "BoundedProxy",
+    "Carried",
     "Heard",
     "Island",
     "Leash",
@@ -35,29 +40,36 @@ __all__ = [
     "PrivateMaster",
     "Served",
     "ServedCall",
+    "ServiceCaller",
     "ServiceSeen",
     "Snapshot",
+    "Spoken",
     "StaleRegistration",
     "SystemState",
     "TopicSeen",
     "find_or_start_master",
     "guard_against_idle_connections",
     "join",
+    "listen",
     "look",
     "master_uri",
     "prepare_node",
     "remove_stale",
+    "service_callers",
     "stale_registrations",
+    "this_node",
 ]
 
 __getattr__ = lazily(
     __name__,
     {
+        "activity": "Activity Carried listen",
+        "callers": "ServiceCaller service_callers",
         "calls": "BoundedProxy",
         "handshake": "guard_against_idle_connections",
         "heard": "Heard",
         "island": "Island",
-        "joining": "join",
+        "joining": "join this_node",
         "leash": "Leash",
         "master": "PrivateMaster find_or_start_master master_uri",
         "node": "Node",
@@ -66,6 +78,7 @@ __getattr__ = lazily(
         "rpc": "MasterClient SystemState",
         "served": "Served ServedCall",
         "snapshot": "NodeSeen ServiceSeen Snapshot TopicSeen look",
+        "spoken": "Spoken",
         "stale": "StaleRegistration remove_stale stale_registrations",
     },
 )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import socket
 import threading
 import time
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -22,6 +23,7 @@ from rospy.msg import args_kwds_to_message
 from course_pkg.errors import CallCancelled, CallTimeout, GraphError, MasterSilent, MasterUnreachable
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.rpc import MasterClient
+from course_pkg.graph.service_taps import RecordedCall, RecordedLookup, service_transport
 from course_pkg.graph.types import service_class
 from course_pkg.graph.watchdog import Watchdog
 
@@ -57,24 +59,8 @@ class BoundedProxy(rospy.ServiceProxy):
 
         Raises CallTimeout after `timeout` s, CallCancelled after cancel(), and what rospy raises.
         """
-        request = args_kwds_to_message(self.request_class, args, fields)
-        if request._type != self.request_class._type:
-            words = "request object type [%s] does not match service type [%s]"  # rospy's
-            raise TypeError(words % (request.__class__, self.request_class))
-        call = _Call(self.resolved_name, self.timeout if timeout is None else timeout)
-        self._under_way.add(call)
-        call.watches.append(self._watchdog.arm(call.deadline, call.expire))
-        try:
-            return self._persistently(call, request) if self.persistent else self._once(call, request)
-        except (rospy.ServiceException, TransportException, OSError, AttributeError):
-            # A socket that was shut down under rospy's hands shows as any of these.
-            if call.verdict is None:
-                raise
-            raise call.verdict from None  # what rospy made of the socket closed under it says nothing
-        finally:
-            call.over = True
-            self._under_way.discard(call)
-            self._disarm(call)
+        with RecordedCall(self.resolved_name):
+            return self._called(args, fields, self.timeout if timeout is None else timeout)
 
     def cancel(self) -> None:
         """End the calls that are under way; each raises CallCancelled where it was made."""
@@ -90,6 +76,26 @@ class BoundedProxy(rospy.ServiceProxy):
         if kept is not None:
             kept.close()
         self._master.close()
+
+    def _called(self, args: Sequence[Any], fields: Mapping[str, Any], timeout: float) -> Any:  # noqa: ANN401
+        request = args_kwds_to_message(self.request_class, args, fields)
+        if request._type != self.request_class._type:
+            words = "request object type [%s] does not match service type [%s]"  # rospy's
+            raise TypeError(words % (request.__class__, self.request_class))
+        call = _Call(self.resolved_name, timeout)
+        self._under_way.add(call)
+        call.watches.append(self._watchdog.arm(call.deadline, call.expire))
+        try:
+            return self._persistently(call, request) if self.persistent else self._once(call, request)
+        except (rospy.ServiceException, TransportException, OSError, AttributeError):
+            # A socket that was shut down under rospy's hands shows as any of these.
+            if call.verdict is None:
+                raise
+            raise call.verdict from None  # what rospy made of the socket closed under it says nothing
+        finally:
+            call.over = True
+            self._under_way.discard(call)
+            self._disarm(call)
 
     def _disarm(self, call: _Call) -> None:
         for watch in list(call.watches):
@@ -130,7 +136,7 @@ class BoundedProxy(rospy.ServiceProxy):
         uri = self._looked_up(call)
         host, port = parse_rosrpc_uri(uri)
         settle_keepalive(self._current_master())
-        transport = TCPROSTransport(self.protocol, self.resolved_name)
+        transport = service_transport(self.protocol, self.resolved_name)
         call.transport = transport
         connected = False
         try:
@@ -149,7 +155,8 @@ class BoundedProxy(rospy.ServiceProxy):
     def _looked_up(self, call: _Call) -> str:
         master = self._current_master()
         try:
-            uri = master.lookup_service(self.resolved_name, timeout=call.rest())
+            with RecordedLookup(self.resolved_name):
+                uri = master.lookup_service(self.resolved_name, timeout=call.rest())
         except MasterUnreachable as error:
             raise rospy.ServiceException("unable to contact master") from error
         except MasterSilent as error:

@@ -9,6 +9,11 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Any
+from xml.parsers.expat import ExpatError
+from xmlrpc.client import Fault, dumps, loads
+
+END = b"</methodResponse>"  # of an answer by XML-RPC
 
 
 class Reach(Enum):
@@ -61,13 +66,27 @@ def service_probe(name: str, uri: str) -> Probe:
 
 
 def node_probe(uri: str) -> Probe:
-    """Return a probe that shows whether a node answers; XML-RPC, getPid of the slave API."""
-    body = (
-        b"<?xml version='1.0'?><methodCall><methodName>getPid</methodName>"
-        b"<params><param><value><string>/course</string></value></param></params></methodCall>"
-    )
+    """Return a probe that shows whether a node answers; getPid of the slave API."""
+    return rpc_probe(uri, "getPid")
+
+
+def rpc_probe(uri: str, method: str, *arguments: float | str) -> Probe:
+    """Return a probe that asks a node by XML-RPC; http://wiki.ros.org/ROS/Slave_API."""
+    body = dumps(("/course", *arguments), method).encode()
     head = f"POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {len(body)}\r\n\r\n"
-    return Probe(_address(uri), head.encode() + body, lambda answer: b"</methodResponse>" in answer)
+    return Probe(_address(uri), head.encode() + body, lambda answer: END in answer[-2 * len(END) :])
+
+
+def rpc_answer(probe: Probe) -> Any:  # noqa: ANN401 -- of any type
+    """Return the value that a node has answered by XML-RPC, or None if it has not, or does not know how."""
+    if not probe.answered:
+        return None
+    try:
+        answer: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
+        code, _, value = answer
+    except (ExpatError, Fault, LookupError, TypeError, ValueError):
+        return None
+    return value if code == 1 else None
 
 
 def header_fields(answer: bytes) -> dict[str, str]:

@@ -1,0 +1,217 @@
+"""Where rospy's service calls are listened to, on both ends, for the flight recorder.
+
+A call is known by what is on the wire: the connection it went over, named by its TCP ports, and its number
+there. Both ends count alike, because TCP neither loses nor reorders. rospy has no hooks for any of this, so a
+few of its methods are replaced; a rospy that is built differently is left alone.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from types import TracebackType
+from typing import Any
+
+import rospy
+from rospy.impl import tcpros_service
+from rospy.impl.tcpros_base import TCPROSTransport
+from rospy.impl.tcpros_service import ServiceImpl, ServiceProxy
+
+from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, MASTER, REQUEST, RESPONSE, WAIT
+from course_pkg.graph.taps import Method, Tap, Transport, connection_name
+from course_pkg.graph.trace import Mark, Wire, recorder
+
+BLIND = "service calls: this rospy makes and answers them otherwise"
+NO_ANSWER = "ended without an answer"
+MADE_HERE = "TCPROSTransport"  # the name by which both ends make their connections
+
+
+def tap_services() -> bool:
+    """Have this process's calls and handlers recorded; say whether it could be done."""
+    taps = (
+        Tap(ServiceProxy, "call", ("self", "args", "kwds"), _calling, uses=[MADE_HERE]),
+        Tap(ServiceProxy, "_get_service_uri", ("self", "request"), _looking_up),
+        Tap(ServiceImpl, "_handle_request", ("self", "transport", "request"), _handling),
+    )
+    if not (all(tap.fits() for tap in taps) and _fits(getattr(tcpros_service, MADE_HERE, None))):
+        recorder().blind.add(BLIND)
+        return False
+    setattr(tcpros_service, MADE_HERE, RecordedTransport)
+    for tap in taps:
+        tap.put()
+    return True
+
+
+def service_transport(protocol: Any, name: str) -> TCPROSTransport:  # noqa: ANN401
+    """Return a client's connection as rospy would make one now, which is recorded if anything is."""
+    made: TCPROSTransport = getattr(tcpros_service, MADE_HERE)(protocol, name)
+    return made
+
+
+class RecordedCall:
+    """A call that is made on this thread: the block whose parts are recorded as belonging together."""
+
+    __slots__ = ("number", "service", "settled")
+
+    def __init__(self, service: str) -> None:
+        self.service = service
+        self.number = next(recorder().numbers)
+        self.settled = False  # whether it is on record how it ended
+
+    def __enter__(self) -> RecordedCall:
+        recorder().here.call = self
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        recorder().here.call = None
+        if error is not None and not self.settled:
+            words = f"{type(error).__name__}: {error}"
+            recorder().moment(ERROR, self.service, call=self.number, note=words)
+
+
+class RecordedLookup:
+    """The block in which the master is asked for the address of a service."""
+
+    __slots__ = ("_mark", "_service")
+
+    def __init__(self, service: str) -> None:
+        self._service = service
+
+    def __enter__(self) -> None:
+        self._mark = recorder().begin(LOOKUP, self._service, peer=MASTER, call=_number())
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        recorder().end(self._mark)
+
+
+class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
+    """One end of a service's connection, which takes down what passes."""
+
+    def __init__(self, protocol: Any, name: str, header: Any = None) -> None:  # noqa: ANN401
+        super().__init__(protocol, name, header)
+        self.serving = header is not None  # only a server has read one before it makes the transport
+        self.connection = ""
+        self.exchanges = 0
+        self.handled: Mark | None = None  # at the server, the request that is being worked on
+
+    def set_socket(self, sock: Any, endpoint_id: str) -> None:  # noqa: ANN401
+        """Take over a connection, at the server."""
+        super().set_socket(sock, endpoint_id)
+        with suppress(OSError):  # it may have gone already
+            self.connection = connection_name(sock.getpeername(), self.local_endpoint[1])
+
+    def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
+        """Connect and exchange headers, at the client."""
+        mark = recorder().begin(CONNECT, self.name, call=_number())
+        try:
+            super().connect(dest_addr, dest_port, endpoint_id, timeout)
+            self.connection = connection_name(self.local_endpoint, dest_port)
+            mark.peer = self.callerid_pub
+        finally:
+            recorder().end(mark)
+
+    def send_message(self, msg: Any, seq: int) -> None:  # noqa: ANN401
+        """Send a request at the client, or a response at the server."""
+        if self.serving:
+            super().send_message(msg, seq)
+            return
+        self.exchanges += 1
+        mark = recorder().begin(
+            REQUEST, self.name, peer=self.callerid_pub, call=_number(), wires=self.wires()
+        )
+        try:
+            super().send_message(msg, seq)
+        finally:
+            recorder().end(mark)
+
+    def receive_once(self) -> Any:  # noqa: ANN401
+        """Wait for a request at the server, or for a response at the client."""
+        if self.serving:
+            return super().receive_once()
+        wires, peer = self.wires(), self.callerid_pub  # neither is there when the transport has been closed
+        mark = recorder().begin(WAIT, self.name, peer=peer, call=_number(), wires=wires)
+        try:
+            responses = super().receive_once()
+        except rospy.ServiceException as error:  # the server answered, in words
+            recorder().end(mark)
+            _settle(ERROR, mark, str(error))
+            raise
+        except BaseException:
+            recorder().end(mark)
+            raise
+        recorder().end(mark)
+        _settle(RESPONSE, mark)
+        return responses
+
+    def write_data(self, data: bytes) -> Any:  # noqa: ANN401
+        """Send bytes; at the server they are an answer, and what the handler does is over."""
+        if self.handled is not None:
+            recorder().end(self.handled, _refusal(data))
+        return super().write_data(data)
+
+    def wires(self) -> list[Wire]:
+        """Return how the exchange under way is known on both ends."""
+        return [(self.connection, self.exchanges, self.callerid_pub)] if self.connection else []
+
+
+def _calling(bare: Method) -> Method:
+    def call(self: ServiceProxy, *args: Any, **kwds: Any) -> Any:  # noqa: ANN401
+        with RecordedCall(self.resolved_name):
+            return bare(self, *args, **kwds)
+
+    return call
+
+
+def _looking_up(bare: Method) -> Method:
+    def _get_service_uri(self: ServiceProxy, request: Any) -> Any:  # noqa: ANN401
+        with RecordedLookup(self.resolved_name):
+            return bare(self, request)
+
+    return _get_service_uri
+
+
+def _handling(bare: Method) -> Method:
+    def _handle_request(self: ServiceImpl, transport: Any, request: Any) -> None:  # noqa: ANN401
+        if not isinstance(transport, RecordedTransport):
+            bare(self, transport, request)
+            return
+        transport.exchanges += 1
+        caller = str(transport.endpoint_id)
+        recorder().tally.begun(self.resolved_name, caller)
+        mark = recorder().begin(HANDLER, self.resolved_name, peer=caller, wires=transport.wires())
+        transport.handled = mark
+        try:
+            bare(self, transport, request)
+        finally:
+            transport.handled = None
+            recorder().end(mark, NO_ANSWER)  # no matter if an answer was sent: then it is over already
+            recorder().tally.ended(self.resolved_name, caller)
+
+    return _handle_request
+
+
+def _fits(transport: Any) -> bool:  # noqa: ANN401
+    """Say whether rospy's own transport is what the recorded one stands on."""
+    return isinstance(transport, type) and issubclass(transport, Transport)
+
+
+def _settle(kind: str, waited: Mark, note: str = "") -> None:
+    """Take down that the server has answered the call of this thread."""
+    recorder().moment(kind, waited.name, peer=waited.peer, call=waited.call, wires=waited.wires, note=note)
+    call = recorder().here.call
+    if call is not None:
+        call.settled = True
+
+
+def _number() -> int:
+    """Return the number of the call that this thread makes, or 0."""
+    call = recorder().here.call
+    return 0 if call is None else int(call.number)
+
+
+def _refusal(data: bytes) -> str:
+    """Return the words with which a server refuses, after a byte 0 and their length; http://wiki.ros.org/ROS/TCPROS."""
+    return data[5:].decode("utf-8", "replace") if data[:1] == b"\0" else ""
