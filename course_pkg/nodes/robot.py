@@ -1,0 +1,65 @@
+"""The node `robot`: an arm in motion, which says on the topic `joint_states` how its joints stand."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import NamedTuple
+
+import rospy
+from sensor_msgs.msg import JointState
+
+from course_pkg.graph.stepping import number_parameter, step_onto_graph
+
+RATE = 20.0  # Hz
+
+
+class Joint(NamedTuple):
+    """A joint that swings: `reach` in rad to either side of `middle`, there and back in `period` s."""
+
+    name: str
+    middle: float
+    reach: float
+    period: float
+
+    def position(self, at: float) -> float:
+        """Return its angle in rad, `at` s after it began to swing."""
+        return self.middle + self.reach * math.sin(math.tau * at / self.period)
+
+    def velocity(self, at: float) -> float:
+        """Return how fast the angle changes, in rad/s."""
+        return self.reach * math.tau / self.period * math.cos(math.tau * at / self.period)
+
+
+ARM = (
+    Joint("base", 0.0, 1.2, 8.0),
+    Joint("shoulder", 0.4, 0.6, 5.0),
+    Joint("elbow", -0.8, 0.9, 3.2),
+    Joint("wrist", 0.1, 0.3, 2.0),
+)
+
+
+def main() -> None:
+    """Say where the joints are, `~rate` (default 20) times a second, until the node is shut down."""
+    if not step_onto_graph("robot"):
+        return
+    rate = rospy.Rate(number_parameter("~rate", RATE, 0.1, 1000.0))
+    publisher = rospy.Publisher("joint_states", JointState, queue_size=1, tcp_nodelay=True)
+    started = time.monotonic()
+    while not rospy.is_shutdown():
+        message = stance(time.monotonic() - started)
+        message.header.stamp = rospy.Time.now()
+        publisher.publish(message)
+        try:
+            rate.sleep()
+        except rospy.ROSInterruptException:  # shut down while it slept
+            return
+
+
+def stance(at: float) -> JointState:
+    """Return where the joints are and how fast they move, `at` s after they began."""
+    return JointState(  # type: ignore[no-untyped-call]
+        name=[joint.name for joint in ARM],
+        position=[joint.position(at) for joint in ARM],
+        velocity=[joint.velocity(at) for joint in ARM],
+    )

@@ -1,0 +1,168 @@
+"""The robot says how its joints stand, and the simulator shows it turned over, whatever else it hears."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+from collections.abc import Iterator
+
+import pytest
+from sensor_msgs.msg import JointState
+
+from course_pkg.graph import MasterClient, NodeProcess, PrivateMaster
+from course_pkg.nodes.robot import ARM, stance
+from course_pkg.nodes.simulator import mirrored
+from tests.kernel import Kernel
+from tests.support import eventually
+
+pytestmark = pytest.mark.usefixtures("master")
+
+LISTEN = """
+import time
+import rospy
+from course_pkg import join
+from sensor_msgs.msg import JointState
+from std_msgs.msg import UInt32
+node = join("student")
+
+def connected(publisher):
+    while not publisher.get_num_connections():
+        time.sleep(0.01)
+"""
+
+
+@pytest.fixture
+def simulator() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg simulator`, on the graph."""
+    with NodeProcess(["rosrun", "course_pkg", "simulator"]) as process:
+        process.wait_for_service("/simulator/get_loggers")
+        yield process
+
+
+def test_a_stance_is_where_the_joints_are_and_how_fast_they_move() -> None:
+    """The velocity is the change of the position; the motion has no jumps and stays within reach."""
+    step = 1e-5
+    for at in (0.0, 0.7, 3.1, 100.0):
+        now, soon = stance(at), stance(at + step)
+        assert list(now.name) == ["base", "shoulder", "elbow", "wrist"]
+        for joint, here, there, speed in zip(ARM, now.position, soon.position, now.velocity, strict=True):
+            assert (there - here) / step == pytest.approx(speed, abs=1e-3)
+            assert abs(here - joint.middle) <= joint.reach
+
+
+def test_a_mirror_turns_signs_and_leaves_the_message_alone() -> None:
+    """The time and the names stay; what was heard is not changed: other callbacks get the same object."""
+    message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
+    message.header.stamp.secs = 7
+    shown = mirrored(message)
+    assert (shown.position, shown.velocity) == ([-0.5, 1.0], [0.0, -2.0])
+    assert (shown.header.stamp.secs, shown.name, shown.effort) == (7, ["a", "b"], [1.0, 1.0])
+    assert (message.position, message.velocity) == ([0.5, -1.0], [0.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("odd", "told"),
+    [
+        (JointState(name=["a", "b"], position=[1.0]), "1 positions for 2 joints"),
+        (JointState(name=[], position=[1.0]), "1 positions for 0 joints"),
+        (JointState(name=["a"], position=[math.nan]), "one of the positions is no finite number"),
+        (JointState(name=["a"], position=[math.inf]), "one of the positions is no finite number"),
+        (JointState(name=["a"], position=[1.0], velocity=[1.0, 2.0]), "2 velocities for 1 joints"),
+        (JointState(name=["a"], position=[1.0], velocity=[math.nan]), "one of the velocities is no finite"),
+    ],
+)
+def test_what_is_no_stance_is_refused(odd: JointState, told: str) -> None:
+    """Wrong lengths and numbers that are none are told in words."""
+    with pytest.raises(ValueError, match=told):
+        mirrored(odd)
+
+
+@pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
+def test_what_says_little_is_a_stance_all_the_same(fine: JointState) -> None:
+    """A robot without joints, or one that does not say how fast it moves, is shown as it is."""
+    assert len(mirrored(fine).position) == len(fine.name)
+
+
+def test_the_robot_speaks_whether_or_not_anybody_listens(kernel: Kernel) -> None:
+    """At its rate, with the time of each stance, each a little after the one before."""
+    kernel.run(LISTEN)
+    with NodeProcess(["rosrun", "course_pkg", "robot", "_rate:=100"]):
+        kernel.run("heard = node.subscribe('/joint_states', JointState).wait(50, timeout=20)")
+    stamps = kernel.run("result = [message.header.stamp.to_sec() for message in heard]")
+    assert stamps == sorted(stamps)
+    assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05  # as by default, at 20 Hz
+    jumps = kernel.run(
+        "result = [max(abs(b - a) for a, b in zip(one.position, next.position))"
+        " for one, next in zip(heard, heard[1:])]"
+    )
+    assert 0 < max(jumps) < 0.5
+
+
+def test_the_simulator_shows_every_stance_and_draws_meanwhile(simulator: NodeProcess, kernel: Kernel) -> None:
+    """In the order in which they came, and while it is busy with pictures of its own."""
+    kernel.run(LISTEN)
+    kernel.run(
+        "shown, pictures = node.subscribe('/mirrored_joints', JointState),"
+        " node.subscribe('/simulator/pictures', UInt32)\n"
+        "say = rospy.Publisher('/joint_states', JointState, queue_size=100)\n"
+        "connected(say); pictures.wait(1, timeout=10)"
+    )
+    kernel.run("for n in range(60): say.publish(JointState(name=['a'], position=[n])); time.sleep(0.02)")
+    assert kernel.run("result = [message.position[0] for message in shown.wait(60)]") == [
+        -float(number) for number in range(60)
+    ]
+    assert kernel.run("result = pictures.wait(3, timeout=10)[2].data") >= 3
+
+
+def test_an_odd_message_is_left_out_and_the_next_is_shown(simulator: NodeProcess, kernel: Kernel) -> None:
+    """What cannot be shown is told once in a while, and nothing stands still over it."""
+    kernel.run(LISTEN)
+    kernel.run(
+        "shown = node.subscribe('/mirrored_joints', JointState)\n"
+        "say = rospy.Publisher('/joint_states', JointState, queue_size=100); connected(say)\n"
+        "for position in ([], [1.0, 2.0], [float('nan')], [float('inf')], [3.0]):\n"
+        "    say.publish(JointState(name=['a'], position=position))"
+    )
+    assert kernel.run("result = [list(message.position) for message in shown.wait(1)]") == [[-3.0]]
+    eventually(lambda: simulator.output().count("Not shown: 0 positions for 1 joints") == 1)
+    assert "Traceback" not in simulator.output()
+
+
+def test_the_launch_file_starts_both(kernel: Kernel) -> None:
+    """With an argument for the rate, and one that leaves the simulator out."""
+    kernel.run(LISTEN)
+    with NodeProcess.roslaunch("course_pkg", "mirror.launch", "rate:=50"):
+        kernel.run("shown = node.subscribe('/mirrored_joints', JointState).wait(20, timeout=20)")
+    apart = kernel.run("result = (shown[-1].header.stamp - shown[0].header.stamp).to_sec()")
+    assert 0.018 < apart / 19 < 0.05
+    with NodeProcess.roslaunch("course_pkg", "mirror.launch", "simulator:=false") as process:
+        process.wait_for_service("/robot/get_loggers")
+        assert kernel.run("from course_pkg.graph import look; result = look().node('/simulator')") is None
+
+
+@pytest.mark.parametrize("program", ["robot", "simulator"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_they_end_when_told(program: str, number: signal.Signals, master: PrivateMaster) -> None:
+    """Ctrl-C, or kill, ends them without a traceback, and leaves no registration."""
+    with NodeProcess(["rosrun", "course_pkg", program]) as process:
+        process.wait_for_service(f"/{program}/get_loggers")
+        os.kill(process.pid, number)
+        assert process.wait(10) == 0
+        assert "Traceback" not in process.output()
+    assert MasterClient(master.uri).lookup_node(f"/{program}") is None
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        (("robot", "_rate:=fast"), "/robot/rate is 'fast'"),
+        (("simulator", "_drawing:=0"), "/simulator/drawing is 0"),
+    ],
+)
+def test_a_parameter_that_cannot_be(command: tuple[str, ...], told: str) -> None:
+    """It is named, with what it may be, and the program ends with status 1."""
+    with NodeProcess(["rosrun", "course_pkg", *command]) as process:
+        assert process.wait(10) == 1
+        assert told in process.output()
+        assert "Traceback" not in process.output()
