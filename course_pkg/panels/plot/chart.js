@@ -74,7 +74,7 @@ export class Chart {
     const { dash, name } = look(index);
     const places = points.map((point) => this.toPage(point));
     if (kind === "dots") return [markers(places, index, places.length > CROWD)];
-    const line = s("polyline", { class: `${name} ros-line`, "stroke-dasharray": dash, points: places.map((each) => each.join(",")).join(" ") });
+    const line = s("polyline", { class: `${name} ros-series-line`, "stroke-dasharray": dash, points: places.map((each) => each.join(",")).join(" ") });
     return places.length <= FEW ? [line, markers(places, index)] : [line];
   }
 
@@ -192,6 +192,6 @@ function grid({ across, up }, box, toPage, x, y) {
 /** @param {number} index of the series @param {string} kind */
 function sample(index, kind) {
   const { dash, name } = look(index);
-  const line = kind === "dots" ? [] : [s("line", { class: `${name} ros-line`, x1: 0, x2: 32, y1: 8, y2: 8, "stroke-dasharray": dash })];
+  const line = kind === "dots" ? [] : [s("line", { class: `${name} ros-series-line`, x1: 0, x2: 32, y1: 8, y2: 8, "stroke-dasharray": dash })];
   return s("svg", { width: 32, height: 16, "aria-hidden": "true" }, ...line, markers([[16, 8]], index));
 }

@@ -12,9 +12,10 @@ from typing import Any, Protocol
 from course_pkg.errors import CallCancelled, CallUnderWay, CourseError, FieldError, NothingPicked
 from course_pkg.graph.explanations import explain
 from course_pkg.interfaces import ServiceType, service_type
-from course_pkg.panels.service.form import DEADLINE, RequestForm, State, correction, seconds
-from course_pkg.panels.service.rows import rows, summary
-from course_pkg.panels.service.texts import Texts, compact
+from course_pkg.panels.forms.form import State, correction
+from course_pkg.panels.forms.rows import rows, summary
+from course_pkg.panels.forms.texts import Texts, compact
+from course_pkg.panels.service.form import DEADLINE, RequestForm, seconds
 
 HISTORY = 20
 TOOLS = ("/get_loggers", "/set_logger_level")

@@ -1,6 +1,7 @@
 /* The service panel: pick, fill in, call, read. All that it shows comes from the model's traits. */
-import { copyButton, freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
-import { RequestForm } from "./fields.js";
+import { FieldsForm } from "../forms/fields.js";
+import { command, valueTable } from "../forms/parts.js";
+import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { recorded } from "./recording.js";
 
 const SETTLE = 120; // ms without a keystroke before the draft is sent
@@ -22,7 +23,7 @@ class ServiceView {
     this.live = true; // until silence says otherwise: a flash of "no kernel" would be worse
     this.waiting = false;
     this.refused = model.get("check").refused ?? 0;
-    this.request = new RequestForm(() => this.#edited());
+    this.request = new FieldsForm(() => this.#edited(), "This request has no fields: just call.");
     this.#build();
     const draw = { services: "picker", trouble: "picker", notice: "banner", form: "picker", draft: "draft", check: "check",
       outcome: "outcome", history: "history", recording: "history", deadline: "deadline" };
@@ -166,7 +167,7 @@ class ServiceView {
     say(this.clock, outcome.at ? `#${outcome.number} at ${outcome.at}` : "");
     clearInterval(this.ticking);
     if (phase === "running") this.#tick();
-    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [table(outcome.rows)] : []));
+    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields: that it came is the answer.")] : []));
     this.answer.classList.toggle("ros-past-answer", phase === "running");
     this.#drawButtons();
   }
@@ -288,20 +289,6 @@ class ServiceView {
 
 /** @param {HTMLElement} button */
 const disabled = (button) => button.hasAttribute("aria-disabled");
-
-/** @param {string} label @param {HTMLElement} pre @param {string} what */
-function command(label, pre, what) {
-  return h("div", { class: "ros-command" }, h("span", { class: "ros-muted", text: label }), pre,
-    copyButton(what, () => pre.textContent ?? ""));
-}
-
-/** @param {{depth: number, name: string, type: string, text: string}[]} rows */
-function table(rows) {
-  if (!rows.length) return h("p", { class: "ros-muted", text: "The response has no fields: that it came is the answer." });
-  return h("table", {}, h("tbody", {}, ...rows.map((row) => h("tr", {},
-    h("th", { scope: "row", style: `padding-left: ${16 * row.depth}px` }, row.name),
-    h("td", { class: "ros-value", text: row.text }), h("td", { class: "ros-muted", text: row.type })))));
-}
 
 /** @param {{name: string, words: string, cause?: string, remedy?: string}} error */
 function failure(error) {

@@ -26,6 +26,7 @@ class ServicePanel(Panel):
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
+    shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css",)
     style_sheet: ClassVar[Path] = HERE / "service.css"
 
     services: List[Any] = List(help="what is on the graph").tag(sync=True)

@@ -1,15 +1,16 @@
-/* The request as a form: controls for the fields of a type, and the draft, a tree of texts, that they edit. */
+/* A message as a form: controls for the fields of a type, and the draft, a tree of texts, that they edit. */
 import { freshId, h, same, say, setAttribute } from "../kit.js";
 
 /** @typedef {{name: string, type: string, kind: string, low?: any, high?: any, length?: number | null,
  *   help?: string, item?: Field, fields?: Field[], default?: any}} Field */
 /** @typedef {{input: HTMLInputElement, note: HTMLElement, help: string, touched: boolean, error: string}} Control */
 
-/** The form for one request; `edited` hears of every keystroke. */
-export class RequestForm {
-  /** @param {() => void} edited */
-  constructor(edited) {
+/** The form for one message; `edited` hears of every keystroke, `empty` is said of a type without fields. */
+export class FieldsForm {
+  /** @param {() => void} edited @param {string} empty */
+  constructor(edited, empty) {
     this.edited = edited;
+    this.empty = empty;
     this.el = h("div", { class: "ros-fields" });
     /** @type {any} */
     this.draft = {};
@@ -57,7 +58,7 @@ export class RequestForm {
     this.el.replaceChildren(
       ...this.fields.map((field) => this.#field(field, field.name, field.name)),
       ...(this.constants?.length ? [this.#constants()] : []),
-      ...(this.fields.length ? [] : [h("p", { class: "ros-muted", text: "This request has no fields: just call." })]),
+      ...(this.fields.length ? [] : [h("p", { class: "ros-muted", text: this.empty })]),
     );
   }
 

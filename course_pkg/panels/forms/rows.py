@@ -1,4 +1,4 @@
-"""A response as the lines of a table: one line for each value, short enough to send and to read."""
+"""A message as the lines of a table: one line for each value, short enough to send and to read."""
 
 from __future__ import annotations
 
