@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from course_pkg.graph.activity import Activity, Carried, listen
     from course_pkg.graph.callers import ServiceCaller, service_callers
     from course_pkg.graph.calls import BoundedProxy
+    from course_pkg.graph.events import Event
     from course_pkg.graph.handshake import guard_against_idle_connections
     from course_pkg.graph.heard import Heard
     from course_pkg.graph.island import Island
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from course_pkg.graph.node import Node
     from course_pkg.graph.preparation import prepare_node
     from course_pkg.graph.processes import NodeProcess
+    from course_pkg.graph.recording import Recording
     from course_pkg.graph.rpc import MasterClient, SystemState
     from course_pkg.graph.served import Served, ServedCall
     from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, Snapshot, TopicSeen, look
@@ -30,6 +32,7 @@ __all__ = [
     "Activity",
     "BoundedProxy",
     "Carried",
+    "Event",
     "Heard",
     "Island",
     "Leash",
@@ -38,6 +41,7 @@ __all__ = [
     "NodeProcess",
     "NodeSeen",
     "PrivateMaster",
+    "Recording",
     "Served",
     "ServedCall",
     "ServiceCaller",
@@ -66,6 +70,7 @@ __getattr__ = lazily(
         "activity": "Activity Carried listen",
         "callers": "ServiceCaller service_callers",
         "calls": "BoundedProxy",
+        "events": "Event",
         "handshake": "guard_against_idle_connections",
         "heard": "Heard",
         "island": "Island",
@@ -75,6 +80,7 @@ __getattr__ = lazily(
         "node": "Node",
         "preparation": "prepare_node",
         "processes": "NodeProcess",
+        "recording": "Recording",
         "rpc": "MasterClient SystemState",
         "served": "Served ServedCall",
         "snapshot": "NodeSeen ServiceSeen Snapshot TopicSeen look",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import partial
 from typing import Any
 
@@ -11,10 +12,12 @@ import rospy
 
 from course_pkg.errors import NotJoined
 from course_pkg.graph.calls import BoundedProxy
+from course_pkg.graph.gathering import recorded
 from course_pkg.graph.heard import Heard
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.output import HandlerOutput
 from course_pkg.graph.processes import NodeProcess
+from course_pkg.graph.recording import Recording
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.served import Handler, Served
 from course_pkg.graph.spoken import Spoken
@@ -112,6 +115,14 @@ class Node:
     def launch(self, package: str, file: str, *args: str) -> NodeProcess:
         """Run a launch file with arguments such as "client:=true", in the place of the one started before."""
         return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
+
+    def record(self) -> AbstractContextManager[Recording]:
+        """Record what every course node on the graph does during the block of a `with`.
+
+        The recording is filled when the block ends, which takes at most 1 s longer for nodes that are silent.
+        """
+        self._require()
+        return recorded(self.name, self.uri, self._client())
 
     def leave(self) -> None:
         """End what this node has begun, and take it off the graph; join() brings it back."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from course_pkg.graph.farewell import say_farewell_at_the_end
 from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.registrar import hasten_shutdown
 from course_pkg.graph.service_taps import tap_services
@@ -20,3 +21,4 @@ def prepare_node() -> None:
     tap_services()
     tap_topics()
     extend_slave()
+    say_farewell_at_the_end()

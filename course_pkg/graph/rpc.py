@@ -87,6 +87,14 @@ class MasterClient:
         code, _, value = self._ask("getParam", (self.caller, name))
         return value if code == 1 else default
 
+    def set_param(self, name: str, value: str, timeout: float | None = None) -> bool:
+        """Set a parameter; say whether the master took it."""
+        return bool(self._ask("setParam", (self.caller, name, value), timeout)[0] == 1)
+
+    def delete_param(self, name: str, timeout: float | None = None) -> bool:
+        """Delete a parameter; say whether it was there."""
+        return bool(self._ask("deleteParam", (self.caller, name), timeout)[0] == 1)
+
     def register_service(self, node: str, name: str, uri: str, node_uri: str) -> None:
         """Say that `node` serves `name` at `uri`; who served it before no longer does."""
         self._value("registerService", name, uri, node_uri, caller=node)

@@ -8,6 +8,7 @@ the times of several nodes can be put beside each other. This module knows no ro
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections import deque
@@ -18,6 +19,7 @@ from typing import Any
 from course_pkg.graph.tally import Tally
 
 SIZE = 20_000  # marks; some 6 MB when full
+LEFT = 50  # records of nodes that have ended
 LONGEST = 300  # characters of what is kept of an error's words
 
 Wire = tuple[str, int, str]  # a connection, the number of the message on it, and who is at its other end
@@ -76,6 +78,8 @@ class Recorder:
         self.tally = Tally()
         self.blind: set[str] = set()  # what cannot be seen in this process, in words
         self.here = _Here()
+        self.recordings = 0  # that are being made in this process
+        self.left: deque[tuple[str, dict[str, Any]]] = deque(maxlen=LEFT)  # by nodes that ended meanwhile
         self.numbers = count(1)
         self._over: deque[Mark] = deque(maxlen=size)
         self._lasting: set[Mark] = set()
@@ -116,12 +120,14 @@ class Recorder:
     def since(self, start: float) -> dict[str, Any]:
         """Return what was going on at `start` (of time.monotonic()) or later, as plain data.
 
-        `clock` is the time now, `complete_from` the time from which on nothing has been pushed out.
+        `clock` is the time now, `process` the process id; from `complete_from` on, nothing has been pushed
+        out of the ring.
         """
         marks = {id(mark): mark for mark in (*self._lasting.copy(), *self._over.copy())}
         shown = [mark.as_dict() for mark in marks.values() if mark.end is None or mark.end >= start]
         return {
             "clock": time.monotonic(),
+            "process": os.getpid(),
             "complete_from": self._complete_from(),
             "blind": sorted(self.blind),
             "marks": shown,
