@@ -44,6 +44,11 @@ def join(name: str) -> Node:
     return _kernel(os.getpid()).join(name)
 
 
+def this_node() -> Node | None:
+    """Return what join() has made of this kernel, or None when it has not been called yet."""
+    return _kernel(os.getpid()).node
+
+
 def leave(node: Node) -> None:
     """Take this kernel's node off the graph."""
     _kernel(os.getpid()).leave(node)
@@ -80,6 +85,11 @@ class _Kernel:
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._hire(master)
+        return self._node
+
+    @property
+    def node(self) -> Node | None:
+        """This kernel's node, if it has joined."""
         return self._node
 
     def leave(self, node: Node) -> None:

@@ -1,45 +1,127 @@
-"""A layout as SVG: a pure function, with colours left to the page's style sheet."""
+"""A layout as SVG: a pure function, with colours left to a style sheet, which a still picture carries."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-from course_pkg.panels.graph.layout import Layout, Placed, Point, Routed
+from course_pkg.panels.assets import sheet
+from course_pkg.panels.graph.layout import Framed, Layout, Placed, Point, Routed
 from course_pkg.panels.graph.picture import Kind
 
 MARGIN = 12.0
 ARROW = 9.0  # px, length of an arrowhead
 CORNER = 12.0  # px, by which a service's ends are pointed
+CARD = 4.0  # px, by which the second card of a folded namespace looks out
+ABOVE, BELOW = -7.0, 10.0  # px from the middle of a shape to its name and to the line under it
+TITLE = 13.0  # px from the top of a frame to the middle of its name
 
 
-def svg(layout: Layout, *, title: str = "The ROS graph", description: str = "") -> str:
-    """Return the drawing. Each shape is a button and says in words what it is; `data-key` names it."""
-    width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN
-    root = Element(
-        "svg",
-        {
-            "xmlns": "http://www.w3.org/2000/svg",
-            "class": "ros-graph-drawing",
-            "viewBox": f"0 0 {_number(width)} {_number(height)}",
-            "width": _number(width),
-            "height": _number(height),
-            "role": "group",
-            "aria-label": title,
-        },
-    )
-    SubElement(root, "title").text = title
-    SubElement(root, "desc").text = description
-    canvas = SubElement(root, "g", {"transform": f"translate({_number(MARGIN)} {_number(MARGIN)})"})
-    for line in layout.lines:
-        _draw_line(canvas, line)
-    for placed in layout.shapes:
-        _draw_shape(canvas, placed)
-    return tostring(root, encoding="unicode")
+def svg(
+    layout: Layout,
+    *,
+    title: str = "The ROS graph",
+    description: str = "",
+    notes: Mapping[str, str] | None = None,
+    still: bool = False,
+) -> str:
+    """Return the drawing; `notes` are the words under the names of topics, by key.
+
+    In a page each shape is a button with its name in words, and `data-key` tells which. A `still` one is a
+    picture with a text alternative, for a file.
+    """
+    return _Drawing(notes or {}, still).of(layout, title, description)
 
 
-def _draw_line(canvas: Element, routed: Routed) -> None:
+class _Drawing:
+    def __init__(self, notes: Mapping[str, str], still: bool) -> None:
+        self._notes = notes
+        self._still = still
+
+    def of(self, layout: Layout, title: str, description: str) -> str:
+        width, height = (_number(side + 2 * MARGIN) for side in (layout.width, layout.height))
+        root = Element(
+            "svg",
+            {
+                "xmlns": "http://www.w3.org/2000/svg",
+                "class": "ros-graph-drawing ros-still" if self._still else "ros-graph-drawing",
+                "viewBox": f"0 0 {width} {height}",
+                "width": width,
+                "height": height,
+                "role": "img" if self._still else "group",
+                "aria-label": f"{title}: {description}" if self._still else title,
+            },
+        )
+        SubElement(root, "title").text = title
+        SubElement(root, "desc").text = description
+        if self._still:
+            SubElement(root, "style").text = _style()
+        canvas = SubElement(root, "g", {"transform": f"translate({_number(MARGIN)} {_number(MARGIN)})"})
+        for frame in layout.frames:
+            self._frame(canvas, frame)
+        for line in layout.lines:
+            _line(canvas, line)
+        SubElement(canvas, "g", {"class": "ros-calls", "aria-hidden": "true"})
+        for placed in layout.shapes:
+            self._shape(canvas, placed)
+        return tostring(root, encoding="unicode")
+
+    def _frame(self, canvas: Element, framed: Framed) -> None:
+        (x, y), name = framed.corner, framed.frame.name
+        size = {"width": framed.width, "height": framed.height}
+        SubElement(canvas, "rect", {"class": "ros-frame", **_numbers(x=x, y=y, rx=6, **size)})
+        said = f"namespace {name}, unfolded"
+        group = self._button(canvas, "ros-title", framed.frame.key, said, expanded=True)
+        label = f"▾ {framed.label}"
+        SubElement(group, "rect", _numbers(x=x + 4, y=y + 3, width=7.3 * len(label) + 8, height=20, rx=3))
+        SubElement(group, "text", _numbers(x=x + 8, y=y + TITLE)).text = label
+
+    def _shape(self, canvas: Element, placed: Placed) -> None:
+        shape = placed.shape
+        classes = f"ros-shape ros-{shape.kind.value}" + ("" if shape.reachable else " ros-lost")
+        said = f"{shape.kind.value} {shape.name}"
+        said += f", folded: {placed.note}" if shape.kind is Kind.SPACE else ""
+        said += "" if shape.reachable else ", does not answer"
+        folded = False if shape.kind is Kind.SPACE else None
+        group = self._button(canvas, classes, shape.key, said, expanded=folded)
+        _outline(group, placed)
+        (x, y), low = placed.centre, shape.kind in (Kind.TOPIC, Kind.SPACE)
+        mark = "▸ " if shape.kind is Kind.SPACE else ""
+        SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0))).text = mark + placed.label
+        if low:
+            under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})
+            under.text = placed.note or self._notes.get(shape.key, "")
+
+    def _button(
+        self, canvas: Element, classes: str, key: str, said: str, *, expanded: bool | None
+    ) -> Element:
+        attributes = {"class": classes, "data-key": key}
+        if not self._still:
+            attributes |= {"role": "button", "tabindex": "0", "aria-label": said}
+            attributes |= {} if expanded is None else {"aria-expanded": str(expanded).lower()}
+        group = SubElement(canvas, "g", attributes)
+        SubElement(group, "title").text = said
+        return group
+
+
+def _outline(group: Element, placed: Placed) -> None:
+    (x, y), wide, high = placed.centre, placed.width / 2, placed.height / 2
+    box = {"x": x - wide, "y": y - high, "width": 2 * wide, "height": 2 * high, "rx": 3.0}
+    if placed.shape.kind is Kind.NODE:
+        SubElement(group, "ellipse", _numbers(cx=x, cy=y, rx=wide, ry=high))
+    elif placed.shape.kind is Kind.SERVICE:
+        SubElement(group, "polygon", {"points": _hexagon(x, y, wide, high)})
+    elif placed.shape.kind is Kind.TOPIC:
+        SubElement(group, "rect", _numbers(**box))
+    else:
+        smaller = {"width": box["width"] - CARD, "height": box["height"] - CARD}
+        SubElement(group, "rect", _numbers(**{**box, **smaller, "x": box["x"] + CARD}))
+        SubElement(group, "rect", _numbers(**{**box, **smaller, "y": box["y"] + CARD}))
+
+
+def _line(canvas: Element, routed: Routed) -> None:
     start, *rest = routed.points
     kind = "ros-call" if routed.line.both else "ros-stream"
     attributes = {"class": f"ros-edge {kind}", "data-tail": routed.line.tail, "data-head": routed.line.head}
@@ -50,27 +132,8 @@ def _draw_line(canvas: Element, routed: Routed) -> None:
         SubElement(group, "polygon", {"points": _arrow(routed.points[1], routed.points[0])})
 
 
-def _draw_shape(canvas: Element, placed: Placed) -> None:
-    shape = placed.shape
-    classes = f"ros-shape ros-{shape.kind.value}" + ("" if shape.reachable else " ros-lost")
-    said = f"{shape.kind.value} {shape.name}" + ("" if shape.reachable else ", does not answer")
-    attributes = {
-        "class": classes,
-        "data-key": shape.key,
-        "role": "button",
-        "tabindex": "0",
-        "aria-label": said,
-    }
-    group = SubElement(canvas, "g", attributes)
-    SubElement(group, "title").text = said
-    (x, y), wide, high = placed.centre, placed.width / 2, placed.height / 2
-    if shape.kind is Kind.NODE:
-        SubElement(group, "ellipse", _numbers(cx=x, cy=y, rx=wide, ry=high))
-    elif shape.kind is Kind.TOPIC:
-        SubElement(group, "rect", _numbers(x=x - wide, y=y - high, width=2 * wide, height=2 * high, rx=3))
-    else:
-        SubElement(group, "polygon", {"points": _hexagon(x, y, wide, high)})
-    SubElement(group, "text", _numbers(x=x, y=y)).text = placed.label
+def _style() -> str:
+    return sheet(Path(__file__).with_name("drawing.css"))
 
 
 def _hexagon(x: float, y: float, wide: float, high: float) -> str:

@@ -1,7 +1,7 @@
 /* The graph panel: the drawing, the details of what is clicked, and the same facts as a list. */
 import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
-
-/** @typedef {{key: string, kind: string, name: string, lost: boolean, facts: [string, string][]}} Fact */
+import { Canvas } from "./canvas.js";
+import { pairs } from "./words.js";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -9,6 +9,8 @@ function render({ model, el }) {
   const panel = new GraphView(model);
   el.append(panel.el);
   kernelLink(model, ending.signal, (live) => panel.kernel(live));
+  const clock = setInterval(() => panel.tick(), 1000);
+  ending.signal.addEventListener("abort", () => clearInterval(clock));
   return () => ending.abort();
 }
 
@@ -21,61 +23,74 @@ class GraphView {
     this.#build();
     model.on("change:drawing", () => this.#draw());
     model.on("change:facts", () => this.#drawFacts());
+    model.on("change:activity", () => this.#drawActivity());
+    model.on("change:spaces", () => this.#drawFolding());
     for (const trait of ["trouble", "notice"]) model.on(`change:${trait}`, () => this.#drawBanner());
     for (const trait of ["noise", "own", "show_own"]) model.on(`change:${trait}`, () => this.#drawBoxes());
     this.#draw();
     this.#drawFacts();
     this.#drawBanner();
     this.#drawBoxes();
+    this.#drawFolding();
   }
 
   #build() {
     this.banner = h("div", { class: "ros-banner", role: "status", hidden: true });
-    this.canvas = h("div", { class: "ros-canvas", onclick: (/** @type {Event} */ event) => this.#choose(event.target),
-      onkeydown: (/** @type {KeyboardEvent} */ event) => this.#key(event) });
+    this.canvas = new Canvas((key, folded) => this.#choose(key, folded));
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
     this.noise = box("loggers and /rosout", () => this.#toggle());
     this.own = box("this notebook's node", () => this.#toggle());
     this.list = h("tbody", {});
     const legend = h("ul", { class: "ros-legend", "aria-label": "Shapes" }, sample("node", "node"), sample("topic", "topic: a stream, one way"),
       sample("service", "service: a question and its answer"));
-    this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas, this.details,
-      h("div", { class: "ros-foot" }, legend, h("div", { class: "ros-boxes", role: "group", "aria-label": "Show" }, h("span", { class: "ros-muted", text: "Show" }), this.noise.el, this.own.el)),
+    this.folding = h("div", { class: "ros-boxes", role: "group", "aria-label": "Namespaces", hidden: true },
+      h("span", { class: "ros-muted", text: "Namespaces" }), this.#fold("Fold all", true), this.#fold("Unfold all", false));
+    this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas.tools, this.canvas.el, this.details,
+      h("div", { class: "ros-foot" }, legend, this.folding,
+        h("div", { class: "ros-boxes", role: "group", "aria-label": "Show" }, h("span", { class: "ros-muted", text: "Show" }), this.noise.el, this.own.el)),
       h("details", { class: "ros-list" }, h("summary", { text: "The same as a list" }), h("table", {}, h("thead", {}, h("tr", {},
         ...["Kind", "Name", "Details"].map((text) => h("th", { scope: "col", text })))), this.list)));
   }
 
   #draw() {
-    const drawing = this.model.get("drawing");
-    const focused = this.canvas.contains(document.activeElement) ? document.activeElement?.getAttribute("data-key") : null;
-    // The drawing is built in Python by an XML library, which escapes every name that comes from the graph.
-    this.canvas.innerHTML = drawing;
-    for (const shape of this.canvas.querySelectorAll("[data-key]")) shape.setAttribute("data-lm-suppress-shortcuts", "true");
-    setAttribute(this.canvas, "hidden", !drawing);
-    if (focused) /** @type {SVGElement | null} */ (this.#shape(focused))?.focus();
-    this.#mark();
+    this.canvas.draw(this.model.get("drawing"));
+    this.#drawActivity();
   }
 
-  #drawFacts() {
-    /** @type {Fact[]} */
-    const facts = this.model.get("facts");
-    this.list.replaceChildren(...facts.map((fact) => h("tr", {}, h("td", { text: fact.kind }), h("td", {}, h("code", { text: fact.name })),
-      h("td", {}, ...pairs(fact)))));
-    if (!facts.length) this.list.replaceChildren(h("tr", {}, h("td", { colspan: 3, text: "Nothing is on the graph yet." })));
-    const list = /** @type {HTMLDetailsElement} */ (this.el.querySelector(".ros-list"));
-    if (!this.model.get("drawing") && facts.length) list.open = true;
+  #drawActivity() {
+    this.canvas.happen(this.#activity());
+    this.#drawList();
     this.#drawDetails();
   }
 
+  #drawFacts() {
+    const list = /** @type {HTMLDetailsElement} */ (this.el.querySelector(".ros-list"));
+    if (!this.model.get("drawing") && this.model.get("facts").length) list.open = true;
+    this.#drawList();
+    this.#drawDetails();
+  }
+
+  #drawList() {
+    /** @type {import("./words.js").Fact[]} */
+    const facts = this.model.get("facts").filter((/** @type {import("./words.js").Fact} */ each) => each.kind !== "namespace");
+    const said = JSON.stringify([facts, this.#activity().details, this.#activity().callers, this.live]);
+    if (said === this.listed) return;
+    this.listed = said;
+    this.list.replaceChildren(...facts.map((fact) => h("tr", {}, h("td", { text: fact.kind }), h("td", {}, h("code", { text: fact.name })),
+      h("td", {}, ...pairs(fact, this.#activity(), false)))));
+    if (!facts.length) this.list.replaceChildren(h("tr", {}, h("td", { colspan: 3, text: "Nothing is on the graph yet." })));
+  }
+
   #drawDetails() {
-    const fact = this.model.get("facts").find((/** @type {Fact} */ each) => each.key === this.chosen);
-    if (!fact) {
-      this.chosen = "";
-      const some = this.model.get("facts").length > 0;
-      return this.details.replaceChildren(h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
-        "Nothing is on the graph yet. Start a node; it appears here by itself." }));
-    }
-    this.details.replaceChildren(h("span", { class: "ros-muted", text: fact.kind }), h("code", { class: "ros-name", text: fact.name }), ...pairs(fact));
+    const fact = this.model.get("facts").find((/** @type {import("./words.js").Fact} */ each) => each.key === this.chosen);
+    const some = this.model.get("facts").length > 0;
+    const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
+      ...pairs(fact, this.#activity(), this.live)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
+      "Nothing is on the graph yet. Start a node; it appears here by itself." })];
+    // Only what differs is written: a selection and a reader's place stay.
+    const said = parts.map((part) => part.textContent).join("\n");
+    if (said !== this.said) this.details.replaceChildren(...parts);
+    this.said = said;
   }
 
   #drawBanner() {
@@ -94,53 +109,50 @@ class GraphView {
     for (const each of [this.noise, this.own]) each.input.disabled = !this.live;
   }
 
+  #drawFolding() {
+    /** @type {{name: string, folded: boolean}[]} */
+    const spaces = this.model.get("spaces") ?? [];
+    setAttribute(this.folding, "hidden", !spaces.length);
+    const [fold, unfold] = /** @type {NodeListOf<HTMLButtonElement>} */ (this.folding.querySelectorAll("button"));
+    fold.disabled = !this.live || spaces.every((each) => each.folded);
+    unfold.disabled = !this.live || spaces.every((each) => !each.folded);
+  }
+
   /** @param {boolean} live */
   kernel(live) {
     this.live = live;
     this.#drawBanner();
     this.#drawBoxes();
+    this.#drawFolding();
+    this.#drawDetails();
+  }
+
+  /** A second has passed: what was said to be so long ago is longer ago. */
+  tick() {
+    if (this.chosen.startsWith("service ")) this.#drawDetails();
+  }
+
+  /** @returns {import("./words.js").Activity} */
+  #activity() {
+    return this.model.get("activity") ?? {}; // a panel that was saved by an older release has none
   }
 
   #toggle() {
     send(this.model, { kind: "choose", noise: this.noise.input.checked, show_own: this.own.input.checked });
   }
 
-  /** @param {EventTarget | null} target */
-  #choose(target) {
-    const key = /** @type {Element} */ (target).closest("[data-key]")?.getAttribute("data-key") ?? "";
+  /** @param {string} text @param {boolean} fold */
+  #fold(text, fold) {
+    return h("button", { type: "button", class: "ros-quiet", text, onclick: () => send(this.model, { kind: "fold", name: "", fold }) });
+  }
+
+  /** @param {string} key @param {boolean | null} folded whether it is a folded namespace or a frame; null: neither */
+  #choose(key, folded) {
     this.chosen = key;
-    this.#mark();
+    this.canvas.choose(key);
     this.#drawDetails();
+    if (folded !== null && this.live) send(this.model, { kind: "fold", name: key.slice("namespace ".length), fold: !folded });
   }
-
-  /** @param {KeyboardEvent} event */
-  #key(event) {
-    if (event.key !== "Enter" && event.key !== " ") return;
-    event.preventDefault();
-    this.#choose(event.target);
-  }
-
-  /** Show what is chosen and the lines that touch it. */
-  #mark() {
-    for (const shape of this.canvas.querySelectorAll("[data-key]")) {
-      const chosen = shape.getAttribute("data-key") === this.chosen;
-      shape.classList.toggle("ros-chosen", chosen);
-      shape.setAttribute("aria-pressed", String(chosen));
-    }
-    for (const edge of this.canvas.querySelectorAll(".ros-edge"))
-      edge.classList.toggle("ros-chosen", this.chosen !== "" && [edge.getAttribute("data-tail"), edge.getAttribute("data-head")].includes(this.chosen));
-  }
-
-  /** @param {string} key @returns {Element | undefined} */
-  #shape(key) {
-    return [...this.canvas.querySelectorAll("[data-key]")].find((shape) => shape.getAttribute("data-key") === key);
-  }
-}
-
-/** @param {Fact} fact */
-function pairs(fact) {
-  const shown = fact.lost ? [["state", "does not answer"], ...fact.facts] : fact.facts;
-  return shown.map(([label, value]) => h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value })));
 }
 
 /** @param {string} label @param {() => void} changed */

@@ -2,31 +2,43 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from course_pkg.errors import DrawingFailed
-from course_pkg.panels.graph.picture import Kind, Line, Picture, Shape
+from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
 CHARACTER = 7.3  # px; names are set in a fixed-width face of 12 px
-HEIGHT = 34.0
-ELBOW = {Kind.NODE: 40.0, Kind.TOPIC: 24.0, Kind.SERVICE: 44.0}  # px beside the name, by the shape around it
+HEIGHT = {
+    Kind.NODE: 34.0,
+    Kind.TOPIC: 42.0,
+    Kind.SERVICE: 34.0,
+    Kind.SPACE: 46.0,
+}  # px; some have a second line
+ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}  # px beside the name
+NOTE = 11 / 12  # the size of what stands below a name, to that of the name
+ROOM = 12  # letters below a topic's name
 LONGEST = 36
 PER_INCH = 72.0
+WIDE, TALL = 1000.0, 1400.0  # px of a page
 
 Point = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A shape with its centre and size (px)."""
+    """A shape with its centre and size (px), its name as it fits, and the second line, if it has one."""
 
     shape: Shape
     label: str
     centre: Point
     width: float
     height: float
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -38,6 +50,17 @@ class Routed:
 
 
 @dataclass(frozen=True)
+class Framed:
+    """A frame with its top left corner and size (px)."""
+
+    frame: Frame
+    label: str
+    corner: Point
+    width: float
+    height: float
+
+
+@dataclass(frozen=True)
 class Layout:
     """A picture with coordinates (px), the origin at the top left."""
 
@@ -45,12 +68,30 @@ class Layout:
     height: float = 0.0
     shapes: tuple[Placed, ...] = ()
     lines: tuple[Routed, ...] = ()
+    frames: tuple[Framed, ...] = ()
 
 
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
-    """Ask graphviz; raises DrawingFailed when it is missing, fails, or takes longer than `timeout` s."""
+    """Ask graphviz; raises DrawingFailed when it is missing, fails, or takes longer than `timeout` s.
+
+    The way of the data is from left to right; or from top to bottom where that makes the drawing so much
+    smaller that it can be read on a page.
+    """
     if not picture.shapes:
         return Layout()
+    lying = _drawn(picture, "LR", timeout)
+    if lying.width <= WIDE:
+        return lying
+    standing = _drawn(picture, "TB", timeout)
+    return standing if _scale(standing) > 1.1 * _scale(lying) else lying
+
+
+def _scale(layout: Layout) -> float:
+    """Return by how much a layout has to be made smaller to fit on a page."""
+    return min(1.0, WIDE / layout.width, TALL / layout.height)
+
+
+def _drawn(picture: Picture, direction: str, timeout: float) -> Layout:
     dot = shutil.which("dot")
     if not dot:
         raise DrawingFailed(
@@ -58,56 +99,95 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
         )
     try:
         done = subprocess.run(
-            [dot, "-Tplain"],
-            input=_script(picture),
+            [dot, "-Tjson0"],
+            input=_script(picture, direction),
             capture_output=True,
             text=True,
             timeout=timeout,
             check=True,
         )
+        return _parsed(json.loads(done.stdout), picture)
     except subprocess.TimeoutExpired as error:
         raise DrawingFailed(f"graphviz took over {timeout:g} s, so the graph is shown as a list.") from error
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (OSError, subprocess.CalledProcessError, ValueError, LookupError) as error:
         detail = getattr(error, "stderr", None) or error
         raise DrawingFailed(f"graphviz failed ({detail}), so the graph is shown as a list.") from error
-    return parsed(done.stdout, picture)
 
 
-def parsed(plain: str, picture: Picture) -> Layout:
-    """Return the layout from graphviz' `plain` format: inches from the bottom left."""
+def _parsed(drawn: dict[str, Any], picture: Picture) -> Layout:
+    """Return the layout from graphviz' JSON: points of 1/72 inch, which are our px, from the bottom left."""
+    _, _, width, height = _numbers(drawn["bb"])
     shapes: list[Placed] = []
-    lines: list[Routed] = []
-    width = height = 0.0
-    for row in (text.split() for text in plain.splitlines()):
-        if row[0] == "graph":
-            width, height = (float(each) * PER_INCH for each in row[2:4])
-        elif row[0] == "node":
-            shape = picture.shapes[int(row[1])]
-            x, y, wide, high = (float(each) * PER_INCH for each in row[2:6])
-            shapes.append(Placed(shape, _label(shape.name), (x, height - y), wide, high))
-        elif row[0] == "edge":
-            ends = (picture.shapes[int(row[1])].key, picture.shapes[int(row[2])].key)
-            numbers = [float(each) * PER_INCH for each in row[4 : 4 + 2 * int(row[3])]]
-            points = tuple((x, height - y) for x, y in zip(numbers[::2], numbers[1::2], strict=True))
-            lines.append(
-                Routed(next(each for each in picture.lines if (each.tail, each.head) == ends), points)
-            )
-    return Layout(width, height, tuple(shapes), tuple(lines))
+    frames: list[Framed] = []
+    for each in drawn.get("objects", ()):
+        if "pos" in each:
+            shape = picture.shapes[int(each["name"])]
+            (x, y), (wide, high) = _numbers(each["pos"]), _size(shape)
+            shapes.append(Placed(shape, _label(shape.name), (x, height - y), wide, high, _note(shape)))
+        elif "bb" in each:
+            frame = picture.frames[int(each["name"].removeprefix("cluster_"))]
+            left, bottom, right, top = _numbers(each["bb"])
+            corner = (left, height - top)
+            frames.append(Framed(frame, _label(frame.name), corner, right - left, top - bottom))
+    lines = [
+        Routed(picture.lines[int(each["id"])], _points(each["pos"], height))
+        for each in drawn.get("edges", ())
+    ]
+    return Layout(width, height, tuple(shapes), tuple(lines), tuple(frames))
 
 
-def _script(picture: Picture) -> str:
+def _points(text: str, height: float) -> tuple[Point, ...]:
+    pairs = (_numbers(each) for each in text.split())
+    return tuple((x, height - y) for x, y in pairs)
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(each) for each in text.split(",")]
+
+
+def _script(picture: Picture, direction: str) -> str:
     numbers = {shape.key: number for number, shape in enumerate(picture.shapes)}
+    apart = "nodesep=0.22; ranksep=0.5" if direction == "LR" else "nodesep=0.16; ranksep=0.35"
     rows = [
         "digraph {",
-        'rankdir=LR; nodesep=0.22; ranksep=0.55; node [fixedsize=true, label=""]; edge [dir=none]',
+        f'rankdir={direction}; {apart}; node [fixedsize=true, label=""]; edge [dir=none]',
+        "fontname=monospace; fontsize=12; labeljust=l",
     ]
     for shape in picture.shapes:
         kind = "ellipse" if shape.kind is Kind.NODE else "box"
-        width = len(_label(shape.name)) * CHARACTER + ELBOW[shape.kind]
-        size = f"width={width / PER_INCH:.3f}, height={HEIGHT / PER_INCH:.3f}"
-        rows.append(f"{numbers[shape.key]} [shape={kind}, {size}]")
-    rows += [f"{numbers[line.tail]} -> {numbers[line.head]}" for line in picture.lines]
+        width, height = (each / PER_INCH for each in _size(shape))
+        rows.append(f"{numbers[shape.key]} [shape={kind}, width={width:.3f}, height={height:.3f}]")
+    rows += [*_clusters(picture.frames, numbers)]
+    rows += [
+        f"{numbers[line.tail]} -> {numbers[line.head]} [id={number}]"
+        for number, line in enumerate(picture.lines)
+    ]
     return "\n".join([*rows, "}"])
+
+
+def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[str]:
+    """Yield the frames, one within the other; sorted by name, an inner one follows its outer one."""
+    around: list[str] = []
+    for number, frame in enumerate(frames):
+        while around and not frame.name.startswith(around[-1]):
+            yield "}" * bool(around.pop())
+        around.append(frame.name)
+        label = "x" * len(_label(frame.name))
+        members = " ".join(str(numbers[key]) for key in sorted(frame.members))
+        yield f'subgraph cluster_{number} {{ label="{label}"; {members}'
+    yield "}" * len(around)
+
+
+def _size(shape: Shape) -> tuple[float, float]:
+    """Return width and height (px) of a shape, by what is written in it."""
+    note = ROOM if shape.kind is Kind.TOPIC else len(_note(shape))
+    letters = max(len(_label(shape.name)), note * NOTE)
+    return letters * CHARACTER + ELBOW[shape.kind], HEIGHT[shape.kind]
+
+
+def _note(shape: Shape) -> str:
+    """Return what stands below the name: of a folded namespace, what is in it."""
+    return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 
 
 def _label(name: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -22,11 +22,12 @@ class Kind(str, Enum):
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
+    SPACE = "namespace"  # folded into one box
 
 
 @dataclass(frozen=True)
 class Shape:
-    """One node, topic or service; `facts` are the label and value pairs that its details show."""
+    """One node, topic, service or folded namespace; `facts` are the label and value pairs that its details show."""
 
     kind: Kind
     name: str
@@ -49,11 +50,25 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Frame:
+    """A namespace that is not folded, such as "/turtle1/"; `members` are the keys of all shapes in it."""
+
+    name: str
+    members: frozenset[str]
+
+    @property
+    def key(self) -> str:
+        """The same key that the namespace has as one box."""
+        return f"{Kind.SPACE.value} {self.name}"
+
+
+@dataclass(frozen=True)
 class Picture:
-    """All shapes and lines, in an order that depends on names only."""
+    """All shapes, lines and frames, in an order that depends on names only; an outer frame comes first."""
 
     shapes: tuple[Shape, ...] = ()
     lines: tuple[Line, ...] = ()
+    frames: tuple[Frame, ...] = ()
 
 
 def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()) -> Picture:
@@ -94,9 +109,22 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
         Shape(Kind.NODE, key.split(" ", 1)[1], reachable=False) for key in sorted(_ends(lines) - known)
     ]
     return Picture(
-        tuple(sorted(shapes, key=lambda each: each.key)),
+        tuple(sorted((_with_deeds(each, lines) for each in shapes), key=lambda each: each.key)),
         tuple(sorted(lines, key=lambda each: (each.tail, each.head))),
     )
+
+
+def _with_deeds(shape: Shape, lines: Iterable[Line]) -> Shape:
+    """Return a node with what it publishes, subscribes and serves among its facts; others as they are."""
+    if shape.kind is not Kind.NODE:
+        return shape
+    deeds = _deeds(shape.key, lines)
+    facts = [
+        (verb, ", ".join(key.split(" ", 1)[1] for done, key in deeds if done == verb))
+        for verb in ("publishes", "subscribes", "serves")
+        if any(done == verb for done, _ in deeds)
+    ]
+    return replace(shape, facts=(*facts, *shape.facts))
 
 
 def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:

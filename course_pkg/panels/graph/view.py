@@ -5,29 +5,34 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, ClassVar
 
-from traitlets import Bool, List, Unicode
+from traitlets import Bool, Dict, List, Unicode
 
-from course_pkg.graph import Node, Snapshot, look
+from course_pkg.graph import Activity, Node, Snapshot, listen, look, this_node
+from course_pkg.panels.assets import sheet
 from course_pkg.panels.follower import Follower
 from course_pkg.panels.graph.model import GraphModel
+from course_pkg.panels.panel import HERE as PANELS
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
+CALM = 2.0  # s between two looks at what the nodes have counted
 
 
 class GraphPanel(Panel):
     """A picture of the graph: nodes, the topics between them, and the services they serve.
 
-    It follows the graph while a page shows it, or stays as it is now with `live=False`. `noise` shows what
-    every graph has, too: /rosout and the logger services. With the kernel's own `node`, that one can be
-    hidden.
+    It follows the graph while a page shows it, or stays as it is now with `live=False`: with how often
+    topics carry messages, and who called a service lately. `noise` shows what every graph has, too: /rosout
+    and the logger services. The kernel's own `node`, by default what join() made of it, can be hidden.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
     style_sheet: ClassVar[Path] = HERE / "graph.css"
 
     drawing = Unicode(help="the picture as SVG").tag(sync=True)
-    facts: List[Any] = List(help="each shape in words").tag(sync=True)
+    facts: List[Any] = List(help="each shape and namespace in words").tag(sync=True)
+    spaces: List[Any] = List(help="the namespaces, and whether they are folded").tag(sync=True)
+    activity = Dict(help="rates of topics, callers of services").tag(sync=True)
     trouble = Unicode(help="why there is no picture, or why it is old").tag(sync=True)
     live = Bool(help="whether the picture follows the graph").tag(sync=True)
     noise = Bool(help="whether /rosout and the logger services are shown").tag(sync=True)
@@ -36,30 +41,51 @@ class GraphPanel(Panel):
 
     def __init__(self, *, live: bool = True, noise: bool = False, node: Node | None = None) -> None:
         super().__init__()
-        own = node.name if node else ""
+        ours = node or this_node()
+        own = ours.name if ours else ""
         self._model = GraphModel(self.publish, noise=noise, own=own, turn=self.turn)
         self._follower: Follower[Snapshot] = Follower(look, self._model.see, self._lost)
+        self._listener: Follower[Activity] = Follower(
+            self._listen, self._model.hear, self.complain, every=CALM
+        )
         self.publish(live=live, noise=noise, own=own, show_own=True)
         self._follower.once()
+        self._listener.once()
+
+    @property
+    def _css(self) -> str:
+        return sheet(PANELS / "look.css", HERE / "drawing.css", self.style_sheet)
+
+    def svg(self) -> str:
+        """Return the picture as it is now as an SVG file of its own, fit for a page and for print."""
+        return self._model.still()
 
     def shown(self) -> None:
         """Follow the graph."""
         if self.live:
             self._follower.start()
+            self._listener.start()
 
     def hidden(self) -> None:
         """Leave the graph alone."""
         self._follower.stop()
+        self._listener.stop()
 
     def received(self, kind: str, content: dict[str, Any]) -> None:
-        """Answer a click on one of the two boxes."""
+        """Answer a click: on one of the two boxes, or on a namespace."""
         if kind == "choose":
             chosen = {"noise": bool(content["noise"]), "show_own": bool(content["show_own"])}
             self.publish(**chosen)
             self._model.choose(**chosen)
+        elif kind == "fold":
+            self._model.fold(str(content["name"]), fold=bool(content["fold"]))
 
     def __repr__(self) -> str:
         return "GraphPanel()"
+
+    def _listen(self) -> Activity:
+        snapshot = self._model.snapshot
+        return listen(snapshot) if snapshot else Activity(0.0)
 
     def _lost(self, error: Exception) -> None:
         self._model.lose(str(error))
