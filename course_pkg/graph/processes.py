@@ -80,6 +80,19 @@ class NodeProcess:
                 raise self._failed(f"runs, and does not serve {full} after {timeout:g} s")
             time.sleep(LOOK)
 
+    def wait_for_output(self, words: str, timeout: float = 10.0) -> None:
+        """Return as soon as it has printed `words`.
+
+        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        """
+        deadline = time.monotonic() + timeout
+        while words not in self.output():
+            if not self.running and words not in self.output():
+                raise self._failed(f"ended with exit status {self.returncode}, and never printed {words!r}")
+            if time.monotonic() > deadline:
+                raise self._failed(f"runs, and has not printed {words!r} after {timeout:g} s")
+            time.sleep(LOOK)
+
     def wait(self, timeout: float = 10.0) -> int:
         """Return the exit status once it has ended by itself; raises NodeFailed after `timeout` s."""
         self._leash.wait(timeout)

@@ -65,6 +65,20 @@ def test_waiting_has_a_limit() -> None:
         assert process.running
 
 
+def test_waiting_for_words() -> None:
+    """A wait for what a program prints ends when it is printed, and fails when it cannot come any more."""
+    script = "import time; print('first'); time.sleep(60)"
+    with NodeProcess([sys.executable, "-c", script]) as process:
+        process.wait_for_output("first")
+        with pytest.raises(NodeFailed, match=r"has not printed 'second' after 0\.2 s"):
+            process.wait_for_output("second", timeout=0.2)
+    with (
+        NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process,
+        pytest.raises(NodeFailed, match=r"never printed 'second'\. .*\nno luck today"),
+    ):
+        process.wait_for_output("second")
+
+
 def test_waiting_is_for_this_process(kernel: Kernel) -> None:
     """A name that another node serves already does not count: the wait is for this process to serve it."""
     kernel.run("""
