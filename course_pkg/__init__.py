@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
+    from course_pkg.building import my_workspace
     from course_pkg.examiner import check, results
     from course_pkg.graph import join
     from course_pkg.panels import GraphPanel, Plot, ServicePanel, choose, predict, predictions, show_image
@@ -24,6 +25,7 @@ __all__ = [
     "check",
     "choose",
     "join",
+    "my_workspace",
     "predict",
     "predictions",
     "results",
@@ -33,6 +35,7 @@ __all__ = [
 __getattr__ = lazily(
     __name__,
     {
+        "building": "my_workspace",
         "examiner": "check results",
         "graph": "join",
         "panels": "GraphPanel Plot ServicePanel choose predict predictions show_image",

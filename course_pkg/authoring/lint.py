@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from course_pkg.authoring.blank import blank
+from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, check_of, code_cells, exercise_of, may_raise, points_of
 from course_pkg.errors import AuthoringError
 from course_pkg.examiner.parts import Part, chapters, parts_of
@@ -53,10 +53,17 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
         elif points is not None and points != parts[exercise].points:
             yield cell["id"], f"{points} points here, {parts[exercise].points} in the check: make them equal"
         try:
-            if blank(cell["source"]) == cell["source"]:
+            given = handed_out(exercise, cell["source"])
+            if given.strip() == cell["source"].strip():
                 yield cell["id"], "there is nothing in this exercise to take out"
+            elif given.startswith("%%") and _first(given) != _first(cell["source"]):
+                yield cell["id"], f"the check hands out a cell that begins with {_first(given)}"
         except AuthoringError as error:
             yield cell["id"], str(error)
+
+
+def _first(source: str) -> str:
+    return source.partition("\n")[0]
 
 
 def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:

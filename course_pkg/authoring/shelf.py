@@ -12,7 +12,7 @@ import nbformat
 from nbformat.v4.rwbase import rejoin_lines
 
 import course_pkg
-from course_pkg.authoring.blank import blank
+from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.authoring.lint import problems
 from course_pkg.authoring.tidy import strip, tidy
@@ -80,8 +80,8 @@ def derived(solution: Notebook) -> Notebook:
     notebook = copy.deepcopy(solution)
     strip(notebook)
     for cell in code_cells(notebook):
-        if exercise_of(cell):
-            cell["source"] = _blanked(cell["id"], cell["source"])
+        if exercise := exercise_of(cell):
+            cell["source"] = _blanked(cell["id"], exercise, cell["source"])
     return notebook
 
 
@@ -113,8 +113,8 @@ def _if_different(path: Path, text: str) -> Iterator[tuple[Path, str]]:
         yield path, text
 
 
-def _blanked(cell: str, source: str) -> str:
+def _blanked(cell: str, exercise: str, source: str) -> str:
     try:
-        return blank(source)
+        return handed_out(exercise, source)
     except AuthoringError as error:
         raise AuthoringError(f"cell {cell}: {error}") from error

@@ -34,12 +34,14 @@ def check(check_id: str, namespace: Mapping[str, Any] | None = None) -> Report:
     if threading.current_thread() is not threading.main_thread():
         return _undecided(check_id, "Call check() in a cell of its own, not from another thread.")
     printed = Printed()
-    names = _notebook() if namespace is None else namespace
+    hands = Hands(_notebook() if namespace is None else namespace)
     try:
         with redirect_stdout(printed), redirect_stderr(printed), _judge() as link:
-            report = _attend(link, check_id, Hands(names))
+            report = _attend(link, check_id, hands)
     except ExamError as error:
         return _undecided(check_id, str(error))
+    finally:
+        hands.close()
     return replace(report, printed=printed.text)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import signal
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 from course_pkg.errors import ExamError
 from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
+from course_pkg.examiner.folder import SLACK, Folder
 from course_pkg.examiner.hearing import Hearing
 from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
 from course_pkg.examiner.link import Link
@@ -29,8 +30,6 @@ from course_pkg.interfaces import message_type, service_type
 
 if TYPE_CHECKING:
     from course_pkg.examiner.parts import Part
-
-SLACK = 3.0  # s for the kernel to answer beyond what the work itself may take
 
 
 class Exam:
@@ -87,21 +86,24 @@ class Exam:
 
     # -- the student's servers, seen from the graph
 
-    def service(self, name: str, kind: str, *, hints: Hints = (), timeout: float = PATIENCE) -> Service:
+    def service(
+        self, name: str, kind: str | ServiceClass, *, hints: Hints = (), timeout: float = PATIENCE
+    ) -> Service:
         """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
 
-        Its rule: somebody serves it, is alive, and serves that type. `hints` recognise the words of a
-        failed call; ROS's own words are explained without them.
+        `kind` is a type's name, or a class. Its rule: somebody serves it, is alive, and serves that type.
+        `hints` recognise the words of a failed call; ROS's own words are explained without them.
         """
         self.doing = f"waiting for {name}"
         label = "the service" if self.draw.made(name) else name
-        rule = f"{label} is served as {kind}"
+        cls = self.service_class(kind) if isinstance(kind, str) else kind
+        rule = f"{label} is served as {cls._type}"
         seen = self._type_of(name, rule)
-        if seen != kind:
-            hint = f"Serve it with the type that the exercise names: {kind}."
-            self._ledger.fails(rule, expected=kind, seen=seen, hint=hint)
+        if seen != cls._type:
+            hint = f"Serve it with the type that the exercise names: {cls._type}."
+            self._ledger.fails(rule, expected=cls._type, seen=seen, hint=hint)
         self._ledger.passes(rule)
-        return Service(self._ledger, name, self.service_class(kind), label, hints, timeout)
+        return Service(self._ledger, name, cls, label, hints, timeout)
 
     def _type_of(self, name: str, rule: str) -> str:
         probe = self._node.probe(name)
@@ -203,16 +205,23 @@ class Exam:
                 f"The check could not prepare the kernel ({error.get('text')}): restart the kernel."
             )
 
-    def command(self, *argv: str, files: tuple[str, ...] = (), within: float = 10.0) -> Finished:
+    def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
         """Run a command beside the kernel, in a new folder that holds copies of the student's `files`.
 
         "python" stands for the kernel's own interpreter. It is ended after `within` s.
         """
-        self.doing = f"waiting for {' '.join(argv)}"
-        words = self.doing.removeprefix("waiting for ")
+        return self.folder(files=files).command(*argv, within=within)
+
+    def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
+        """Return a new folder beside the kernel with copies of the student's files and folders.
+
+        `texts` are files of the check's own, by path; they go over the copies.
+        """
+        return Folder(self._link, files, texts or {}, self._under_way)
+
+    def _under_way(self, words: str) -> None:
+        self.doing = f"waiting for {words}"
         self._ledger.asked = lambda: words
-        what = {"argv": list(argv), "files": list(files), "within": within}
-        return Finished(self._link.ask("run", timeout=within + SLACK, **what))
 
     def read(self, name: str) -> Plain:
         """Return the value of the student's variable `name`, as plain data."""

@@ -9,24 +9,20 @@ import difflib
 import inspect
 import io
 import logging
-import os
-import shutil
 import signal
-import subprocess
-import sys
-import tempfile
 import time
 import traceback
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from types import FunctionType
-from typing import IO, Any
+from typing import Any
 
+from course_pkg.building.workspace import workspace_root
+from course_pkg.examiner.bench import PRINTED, Bench
 from course_pkg.examiner.plain import Plain, Value, plain
 from course_pkg.examiner.stub import is_stub
 
-PRINTED = 65536  # characters kept of what is printed
 AGAIN = 0.2  # s between alarms, for code that swallows the first
 
 
@@ -57,6 +53,7 @@ class Hands:
     def __init__(self, namespace: Mapping[str, Any], folder: Path | None = None) -> None:
         self._namespace = namespace
         self._folder = folder or Path.cwd()
+        self._bench = Bench(self._file)
         self._held: dict[str, Any] = {}  # what `prepare` made, apart from the student's names
         self._answers: dict[str, Callable[..., dict[str, Any]]] = {
             "look": self._look,
@@ -64,7 +61,10 @@ class Hands:
             "source": self._source,
             "prepare": self._prepare,
             "call": self._call,
-            "run": self._run,
+            "folder": self._bench.folder,
+            "run": self._bench.run,
+            "start": self._bench.start,
+            "stop": self._bench.stop,
         }
 
     def answer(self, question: Mapping[str, Any]) -> dict[str, Any]:
@@ -76,6 +76,15 @@ class Hands:
             answer = {"wrong": f"{type(error).__name__}: {error}"}
         return {"answer": question.get("ask"), **answer}
 
+    def close(self) -> None:
+        """End what the judge had started here, and remove its folders."""
+        self._bench.close()
+
+    def _file(self, name: str) -> Path:
+        """Return where a file of the student's lies: here, or else in the student's workspace."""
+        here, there = self._folder / name, workspace_root() / name
+        return there if there.exists() and not here.exists() else here
+
     def _find(self, name: str) -> Value:
         """Return what stands under `name`, which may have dots in it."""
         first, *rest = name.split(".")
@@ -86,7 +95,7 @@ class Hands:
 
     def _look(self, name: str) -> dict[str, Any]:
         if name.startswith("file:"):
-            return {"kind": _kind_of_file(self._folder / name.removeprefix("file:")), "alike": []}
+            return _look_at_file(self._file(name.removeprefix("file:")))
         if name not in self._namespace:
             mine = [known for known in self._namespace if not known.startswith("_")]
             return {"kind": "missing", "alike": difflib.get_close_matches(name, mine, n=2)}
@@ -101,7 +110,7 @@ class Hands:
 
     def _source(self, name: str) -> dict[str, Any]:
         if name.startswith("file:"):
-            return {"text": (self._folder / name.removeprefix("file:")).read_text("utf-8")}
+            return {"text": self._file(name.removeprefix("file:")).read_bytes().decode("utf-8", "replace")}
         return {"text": inspect.getsource(self._find(name))}
 
     def _call(self, name: str, args: list[Any], kwargs: dict[str, Any], within: float) -> dict[str, Any]:
@@ -120,14 +129,6 @@ class Hands:
         """Run the judge's own `code`; the names that it makes can be arguments of later calls."""
         outcome = _outcome(lambda: exec(code, self._held), within)  # noqa: S102 -- the judge is trusted here
         return {"error": outcome.get("error")}
-
-    def _run(self, argv: list[str], files: list[str], within: float) -> dict[str, Any]:
-        """Run a command in a folder of its own that holds copies of the student's `files`."""
-        with tempfile.TemporaryDirectory(prefix="course-run-") as folder:
-            for name in files:
-                shutil.copy(self._folder / name, folder)
-            command = [sys.executable if argv[0] == "python" else argv[0], *argv[1:]]
-            return _finished(command, folder, within)
 
 
 @contextmanager
@@ -189,6 +190,13 @@ def _described(error: BaseException) -> dict[str, Any]:
     }
 
 
+def _look_at_file(path: Path) -> dict[str, Any]:
+    """Say what kind of file it is, or which there are in the same folder with names like it."""
+    kind = _kind_of_file(path)
+    beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
+    return {"kind": kind, "alike": difflib.get_close_matches(path.name, beside, n=2)}
+
+
 def _kind_of_file(path: Path) -> str:
     if not path.is_file():
         return "missing"
@@ -199,35 +207,3 @@ def _kind_of_file(path: Path) -> str:
         if line.strip() and not line.lstrip().startswith(("#", "<!--", "//"))
     ]
     return "stub" if [line.strip() for line in lines] == ["..."] else "file"
-
-
-def _finished(command: list[str], folder: str, timeout: float) -> dict[str, Any]:
-    started = time.monotonic()
-    with (
-        tempfile.TemporaryFile() as out,
-        tempfile.TemporaryFile() as err,
-        subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, start_new_session=True
-        ) as process,
-    ):
-        try:
-            status: int | None = process.wait(timeout)
-        except subprocess.TimeoutExpired:
-            status = None
-        finally:
-            _end_group(process.pid)
-        took = time.monotonic() - started
-        return {"status": status, "out": _text(out), "err": _text(err), "took": took}
-
-
-def _end_group(leader: int) -> None:
-    """End what the command left running in its own session."""
-    try:
-        os.killpg(leader, signal.SIGKILL)
-    except ProcessLookupError:
-        return
-
-
-def _text(stream: IO[bytes]) -> str:
-    stream.seek(0)
-    return stream.read(PRINTED).decode("utf-8", errors="replace")

@@ -98,7 +98,17 @@ def _not_attempted(part: Part, link: Link) -> str:
             alike = [str(other) for other in answer.get("alike", [])]
             found = f" There is {' and '.join(alike)}: is it spelt as the exercise asks?" if alike else ""
             return f"{shown} is not there: run the cell above first.{found}"
-    return ""
+    return _untouched(part, link)
+
+
+def _untouched(part: Part, link: Link) -> str:
+    """Return what to do, when a file that is to be repaired is still as it was handed out."""
+    first, _, text = part.start.partition("\n")
+    path = first.removeprefix("%%writefile").strip()
+    now = link.ask("source", timeout=5.0, name=f"file:{path}").get("text") if path else None
+    if now is None or str(now).strip() != text.strip():
+        return ""
+    return f"{path} is as it was handed out. Repair it in the cell above, run that cell, then this one."
 
 
 def _too_slow(part: Part, exam: Exam) -> Rule:

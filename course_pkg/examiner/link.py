@@ -16,7 +16,10 @@ What can be asked, and what is answered:
     source   name                         text
     prepare  code, within                 error (the judge's code: it makes arguments for calls)
     call     name, args, kwargs, within   value or error, printed, took
-    run      argv, files, within          status, out, err, took
+    folder   files, texts                 folder (its number: copies of files, over them the judge's texts)
+    run      argv, folder, within         status, out, err, took
+    start    argv, folder                 process (its number)
+    stop     process                      as run; status is None where it still ran
 
 A line that is too long, that is no JSON object, or that answers another question breaks the link;
 the judge counts that as a failure, never as a pass.

@@ -23,6 +23,8 @@ class Part:
 
     `needs` are the names that the student defines; while one of them is still `...` the part is not
     attempted, and while one is missing it cannot be examined. `deadline` (s) bounds the whole check.
+    `start` is the cell that a student begins with, where that is something to repair: a `%%writefile` cell,
+    whole. Otherwise it is empty, and the cell is the solution's with its answer taken out.
     """
 
     check: str
@@ -31,6 +33,7 @@ class Part:
     needs: tuple[str, ...]
     deadline: float
     examine: Callable[[Exam], None]
+    start: str = ""
 
     def __call__(self, exam: Exam) -> None:
         """Examine the student's work."""
@@ -38,12 +41,18 @@ class Part:
 
 
 def part(
-    check: str, *, points: int, goal: str, needs: Sequence[str] = (), deadline: float = 10.0
+    check: str,
+    *,
+    points: int,
+    goal: str,
+    needs: Sequence[str] = (),
+    deadline: float = 10.0,
+    start: str = "",
 ) -> Callable[[Callable[[Exam], None]], Part]:
     """Declare the decorated function to be the check of the part with the id `check`, such as "05.1"."""
 
     def declare(examine: Callable[[Exam], None]) -> Part:
-        return Part(check, points, goal, tuple(needs), deadline, examine)
+        return Part(check, points, goal, tuple(needs), deadline, examine, start)
 
     return declare
 
@@ -69,6 +78,13 @@ def every_part() -> Iterator[Part]:
     """Yield the parts of all chapters."""
     for chapter in chapters():
         yield from parts_of(chapter)
+
+
+def start_of(check: str) -> str:
+    """Return what a student begins the part `check` with, where its check says so; else an empty text."""
+    chapter = check.partition(".")[0]
+    parts = parts_of(chapter) if chapter in chapters() else []
+    return next((candidate.start for candidate in parts if candidate.check == check), "")
 
 
 def find(check: str) -> Part:

@@ -138,10 +138,18 @@ def _checked(job: dict[str, Any]) -> dict[str, Any]:
 def _run_cell(source: str, name: str, names: dict[str, Any]) -> str:
     """Run a cell as a kernel does: its source can be looked up, and its error is returned, not raised."""
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
+    if source.startswith("%%writefile "):
+        return _write_file(*source.removeprefix("%%writefile ").split("\n", 1))
     try:
         exec(compile(source, name, "exec"), names)  # noqa: S102 -- a cell
     except Exception as error:  # noqa: BLE001 -- whatever the cell raises
         return f"{type(error).__name__}: {error}"
+    return ""
+
+
+def _write_file(path: str, text: str) -> str:
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    Path(path).write_text(text, "utf-8")
     return ""
 
 

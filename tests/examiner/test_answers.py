@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from course_pkg.authoring.blank import blank
+from course_pkg.authoring.blank import handed_out
 from course_pkg.examiner.answers import Answer, every_answer
 from course_pkg.examiner.parts import Part, every_part
 from course_pkg.examiner.rehearsal import Rehearsal
@@ -39,7 +39,7 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, rehears
 def test_exercise_left_as_it_is_reads_not_attempted(part: Part, rehearsal: Rehearsal) -> None:
     """The blanked answer is no failure and no error: it has not been attempted."""
     right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
-    report = rehearsal.run(right, blank(right.source))
+    report = rehearsal.run(right, handed_out(part.check, right.source))
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
 
 

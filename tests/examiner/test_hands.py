@@ -102,10 +102,21 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
     assert kinds == ["stub", "file", "missing"]
 
 
-def test_a_command_runs_beside_the_kernel(tmp_path: Path) -> None:
-    """With the student's files, in a folder of its own, to the end of its time and no further."""
-    (tmp_path / "client.py").write_text("import sys; print(sys.argv[1:]); sys.exit(3)")
-    argv = ["python", "client.py", "-1", "2"]
-    answer = ask({}, tmp_path, do="run", argv=argv, files=["client.py"], within=10.0)
-    assert (answer["status"], answer["out"]) == (3, "['-1', '2']\n")
-    assert ask({}, tmp_path, do="run", argv=["sleep", "60"], files=[], within=0.1)["status"] is None
+def test_a_file_that_is_not_there_comes_with_one_that_is_like_it(tmp_path: Path) -> None:
+    """Upper and lower case in the name of a definition is a common slip."""
+    (tmp_path / "lamp.srv").write_text("---\n")
+    assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
+        "answer": 1,
+        "kind": "missing",
+        "alike": ["lamp.srv"],
+    }
+
+
+def test_a_file_is_looked_for_in_the_workspace_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a restart of the kernel nobody has changed to the workspace yet, and the work is still there."""
+    monkeypatch.setenv("COURSE_WORKSPACE", str(tmp_path / "ws"))
+    (tmp_path / "ws" / "src").mkdir(parents=True)
+    (tmp_path / "ws" / "src" / "Lamp.srv").write_text("bool on\n---\n")
+    (tmp_path / "elsewhere").mkdir()
+    answer = ask({}, tmp_path / "elsewhere", do="source", name="file:src/Lamp.srv")
+    assert answer["text"] == "bool on\n---\n"
