@@ -1,6 +1,6 @@
 """Any service or message type as plain values: its fields, texts, commands. Knows no master and no rospy."""
 
-from course_pkg.interfaces.commands import rospy_line, rosservice_line
+from course_pkg.interfaces.commands import publisher_lines, rospy_line, rosservice_line, rostopic_line
 from course_pkg.interfaces.fields import Constant, Field, Kind
 from course_pkg.interfaces.path import list_message_types, list_service_types
 from course_pkg.interfaces.schema import schema
@@ -24,8 +24,10 @@ __all__ = [
     "list_message_types",
     "list_service_types",
     "message_type",
+    "publisher_lines",
     "rospy_line",
     "rosservice_line",
+    "rostopic_line",
     "schema",
     "service_type",
 ]

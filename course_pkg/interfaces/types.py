@@ -65,6 +65,11 @@ class MessageType:
         return self.check(message)
 
     @property
+    def built(self) -> bool:
+        """Whether Python can import the class from its package; otherwise it was generated from the text."""
+        return not hasattr(self.cls, "_dependencies")
+
+    @property
     def _shape(self) -> str:
         names = ", ".join(each.name for each in self.fields)
         return f"the fields {names}" if names else "no fields"

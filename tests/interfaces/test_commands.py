@@ -7,12 +7,22 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from course_pkg.errors import FieldError
 from course_pkg.graph import PrivateMaster
-from course_pkg.interfaces import compile_service, rospy_line, rosservice_line, service_type
+from course_pkg.interfaces import (
+    compile_message,
+    compile_service,
+    message_type,
+    publisher_lines,
+    rospy_line,
+    rosservice_line,
+    rostopic_line,
+    service_type,
+)
 from tests.interfaces.drawing import AWKWARD
 from tests.kernel import Kernel
 
@@ -160,3 +170,93 @@ result = rospy.ServiceProxy("/again", Scalars)(d="ab").told
 result += rospy.ServiceProxy("/again", compiled)(d="cd").told
 """)
     assert told == "ababcdcd"
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "how", "expected"),
+    [
+        ("Float64", {"data": 1.5}, {}, "rostopic pub --once /x std_msgs/Float64 1.5"),
+        ("Float64", {"data": -1.5}, {"rate": 10.0}, "rostopic pub -r 10 /x std_msgs/Float64 -- -1.5"),
+        ("Float64", {"data": 1.0}, {"latch": True}, "rostopic pub /x std_msgs/Float64 1.0"),
+        ("Int8", {"data": 1}, {"rate": 0.5, "latch": True}, "rostopic pub -r 0.5 --latch /x std_msgs/Int8 1"),
+        ("String", {"data": ""}, {}, "rostopic pub --once /x std_msgs/String '\"\"'"),
+        ("String", {"data": "it's"}, {}, "rostopic pub --once /x std_msgs/String 'it'\"'\"'s'"),
+        ("Empty", {}, {}, "rostopic pub --once /x std_msgs/Empty"),
+        (
+            "Time",
+            {"data": {"secs": 1, "nsecs": 2}},
+            {},
+            "rostopic pub --once /x std_msgs/Time '{data: {secs: 1, nsecs: 2}}'",
+        ),
+    ],
+)
+def test_the_publishing_line_is_the_one_to_type(
+    kind: str, values: dict[str, object], how: dict[str, Any], expected: str
+) -> None:
+    """Options stand before the topic, and a negative number behind --."""
+    assert rostopic_line("/x", message_type(f"std_msgs/{kind}"), values, **how) == expected
+
+
+def test_a_publisher_is_written_as_a_person_would() -> None:
+    """Imports, the publisher with its options, and one message; or a loop with a rate."""
+    kind = message_type("std_msgs/Float64")
+    once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
+    assert once == (
+        "import rospy\n"
+        "from std_msgs.msg import Float64\n"
+        "\n"
+        'publisher = rospy.Publisher("/x", Float64, queue_size=1, latch=True)\n'
+        "publisher.publish(data=-1.0)"
+    )
+    often = publisher_lines("/x", kind, {"data": -1.0}, rate=10.0)
+    assert often.endswith(
+        "rate = rospy.Rate(10)\n"
+        "while not rospy.is_shutdown():\n"
+        "    publisher.publish(data=-1.0)\n"
+        "    rate.sleep()"
+    )
+
+
+def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
+    """The lines make the class, and parts that are built are imported."""
+    kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
+    lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
+    names: dict[str, object] = {}
+    exec(lines.partition("\npublisher")[0], names)  # noqa: S102 - that they run is what is tested
+    assert {"Spot", "Point"} <= set(names)
+    assert 'publisher.publish(at=Point(x=1.0, y=2.0, z=3.0), what="a")' in lines
+
+
+LISTENER = """
+import time
+from course_pkg.interfaces import message_type
+from course_pkg.graph import join
+node = join("listener")
+joints = node.subscribe("/joints", "sensor_msgs/JointState")
+words = node.subscribe("/words", "std_msgs/String")
+"""
+
+
+def test_lines_publish_to_a_living_subscriber(master: PrivateMaster) -> None:
+    """Shell lines and Python lines, run by bash and Python, bring the very values to a subscriber."""
+    assert master.running
+    joint, text = message_type("sensor_msgs/JointState"), message_type("std_msgs/String")
+    moved = {
+        **joint.default(),
+        "header": {"seq": 1, "stamp": {"secs": 1, "nsecs": 5}, "frame_id": "it's"},
+        "name": ["no", "", "a, b"],
+        "position": [-0.1, 1e20],
+    }
+    awkward = "it's 'yes': a:=b\n$HOME \U0001f422"
+    with Kernel() as kernel:
+        kernel.run(LISTENER)
+        shell(rostopic_line("/words", text, {"data": awkward}))
+        assert kernel.run("result = words.wait(1)[0].data") == awkward
+        shell(rostopic_line("/joints", joint, moved))
+        python = publisher_lines("/joints", joint, moved, latch=True)
+        start = python.replace("import rospy", "import rospy\nrospy.init_node('talker')", 1)
+        ends = "\nrospy.sleep(1)"
+        subprocess.run([sys.executable, "-c", start + ends], env=os.environ, timeout=60, check=True)
+        kernel.run("kind = message_type('sensor_msgs/JointState')")
+        heard = kernel.run("result = [kind.to_values(message) for message in joints.wait(2)]")
+        assert heard == [moved, moved]
