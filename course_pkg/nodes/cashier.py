@@ -18,7 +18,8 @@ from std_msgs.msg import UInt32
 
 from course_pkg.errors import CourseError
 from course_pkg.graph.calls import BoundedProxy
-from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.graph.program import undisturbed
+from course_pkg.graph.stepping import number_parameter, step_onto_graph, wait_until
 from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
@@ -38,6 +39,7 @@ class Cashier:
         self._learnt: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
+        rospy.on_shutdown(self._detect.cancel)  # or the end waits for the answer to a question that stands
 
     def handle_report(self, _: object) -> CashierReportResponse:
         """Say what has been done so far."""
@@ -55,10 +57,9 @@ class Cashier:
 
     def listen(self) -> None:
         """Hear whoever comes, until the node is shut down."""
-        subscriber = rospy.Subscriber("customers", UInt32, self.hear, tcp_nodelay=True)
-        deadline = time.monotonic() + CONNECTED
-        while not subscriber.get_num_connections() and time.monotonic() < deadline:
-            rospy.sleep(0.02)
+        with undisturbed():
+            subscriber = rospy.Subscriber("customers", UInt32, self.hear, tcp_nodelay=True)
+        wait_until(subscriber.get_num_connections, CONNECTED)
         self.offer_report()
         rospy.spin()
 
@@ -73,7 +74,8 @@ class Cashier:
 
     def offer_report(self) -> None:
         """Serve the report: from then on the cashier is at work."""
-        rospy.Service("~report", CashierReport, self.handle_report)
+        with undisturbed():
+            rospy.Service("~report", CashierReport, self.handle_report)
 
     def _ask(self, patience: float) -> bool:
         """Ask for the next customer; return whether there was an answer."""
@@ -108,7 +110,8 @@ def main() -> None:
         sys.exit(f"~design is {design!r}, and has to be one of {', '.join(DESIGNS)}.")
     rate = number_parameter("~rate", 2.0, 0.01, 1000.0)
     patience = number_parameter("~patience", 2.0, 0.1, 60.0)
-    cashier = Cashier()
+    with undisturbed():
+        cashier = Cashier()
     try:
         if design == "topic":
             cashier.listen()

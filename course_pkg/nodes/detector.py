@@ -15,8 +15,9 @@ import rospy
 from std_msgs.msg import UInt32, UInt32MultiArray
 
 from course_pkg.errors import FieldError
-from course_pkg.graph.stepping import step_onto_graph
-from course_pkg.shop.watch import Watch
+from course_pkg.graph.program import undisturbed
+from course_pkg.graph.stepping import step_onto_graph, wait_until
+from course_pkg.shop.watch import CameraSilent, Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerResponse
 
 LONGEST = 60.0  # s that a caller may wait
@@ -32,8 +33,10 @@ class Detector:
         self._places = threading.BoundedSemaphore(CALLERS)
         self._publisher = rospy.Publisher("customers", UInt32, queue_size=100)
         rospy.Subscriber("counter", UInt32MultiArray, self.handle_counter, tcp_nodelay=True)
-        self._watch.spoken.wait(SILENCE)  # or the first to ask is told of a silent camera
-        rospy.Service("detect_customer", DetectCustomer, self.handle_detect)
+
+    def knows(self) -> bool:
+        """Whether the camera has said anything yet."""
+        return self._watch.silent_for <= SILENCE
 
     def handle_counter(self, message: Any) -> None:  # noqa: ANN401 -- a class that genpy generates
         """Take in what the camera says, and publish who has come."""
@@ -47,15 +50,20 @@ class Detector:
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", words)
             raise rospy.ServiceException(str(wrong))
         with self._place():
-            customer = self._watch.wait(request.after, request.patience, SILENCE)
-        if customer is not None:
-            return DetectCustomerResponse(True, customer.number, customer.arrived)  # type: ignore[no-untyped-call]
-        if self._watch.silent_for > SILENCE:
-            # No customer and no picture are not the same, and only one of them is an answer.
-            raise rospy.ServiceException(
+            customer = self._wait(request.after, request.patience)
+        if customer is None:
+            return DetectCustomerResponse(detected=False)  # type: ignore[no-untyped-call]
+        return DetectCustomerResponse(True, customer.number, customer.arrived)  # type: ignore[no-untyped-call]
+
+    def _wait(self, after: int, patience: float) -> Customer | None:
+        """Wait for a customer; no customer and no camera are not the same, and only one is an answer."""
+        try:
+            return self._watch.wait(after, patience, SILENCE)
+        except CameraSilent:
+            words = (
                 f"the camera has said nothing for {SILENCE:g} s, so nobody can tell: does shop_camera run?"
             )
-        return DetectCustomerResponse(detected=False)  # type: ignore[no-untyped-call]
+            raise rospy.ServiceException(words) from None
 
     @contextmanager
     def _place(self) -> Iterator[None]:
@@ -72,6 +80,10 @@ def main() -> None:
     """Detect until the node is shut down."""
     if not step_onto_graph("detector"):
         return
-    Detector()
+    with undisturbed():
+        detector = Detector()
+    wait_until(detector.knows, SILENCE)  # or who asks first is told that the camera is silent
+    with undisturbed():
+        rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
     rospy.loginfo("Looking out for customers")
     rospy.spin()

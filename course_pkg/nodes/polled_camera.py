@@ -17,7 +17,8 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import UInt32MultiArray
 
 from course_pkg.errors import FieldError
-from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.graph.program import undisturbed
+from course_pkg.graph.stepping import number_parameter, step_onto_graph, wait_until
 from course_pkg.shop.drawing import shop_picture
 from course_pkg.shop.watch import Watch
 from course_pkg.srv import PolledImage, PolledImageResponse
@@ -34,7 +35,10 @@ class PolledCamera:
     def __init__(self) -> None:
         self._watch = Watch()
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
-        self._watch.spoken.wait(SILENCE / 2)  # or the first picture is of the other shop
+
+    def looks_at_the_shop(self) -> bool:
+        """Whether shop_camera tells who is there."""
+        return self._watch.silent_for < SILENCE
 
     def handle_request(self, request: Any) -> PolledImageResponse:  # noqa: ANN401 -- a class that catkin generates
         """Take a picture of the size asked for."""
@@ -55,7 +59,7 @@ class PolledCamera:
             clock.sleep()
 
     def _customers(self) -> int:
-        if self._watch.silent_for < SILENCE:
+        if self.looks_at_the_shop():
             return self._watch.count
         return random.Random(math.floor(time.time() / MOOD)).randint(0, 4)  # noqa: S311 -- no secret
 
@@ -80,8 +84,11 @@ def main() -> None:
     if not step_onto_graph("polled_camera"):
         return
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
-    camera = PolledCamera()
-    rospy.Service("request_image", PolledImage, camera.handle_request)
+    with undisturbed():
+        camera = PolledCamera()
+    wait_until(camera.looks_at_the_shop, SILENCE / 2)  # or the first picture is of the wrong shop
+    with undisturbed():
+        rospy.Service("request_image", PolledImage, camera.handle_request)
     rospy.loginfo("Ready to take pictures")
     try:
         camera.stream(rate) if rate else rospy.spin()

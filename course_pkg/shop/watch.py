@@ -10,6 +10,10 @@ from typing import Any, NamedTuple
 LOOK = 0.25  # s between looks at whether the camera is still there
 
 
+class CameraSilent(Exception):
+    """The camera has said nothing for so long that nobody can tell who is at the counter."""
+
+
 class Customer(NamedTuple):
     """A customer at the counter: a number, and when they were first seen, by the clock of the Watch."""
 
@@ -22,7 +26,6 @@ class Watch:
 
     def __init__(self, now: Callable[[], Any] = time.time) -> None:
         self.changed = threading.Condition()
-        self.spoken = threading.Event()  # the camera has said something, ever
         self._now = now
         self._there: tuple[Customer, ...] = ()
         self._told = -float("inf")  # when the camera last said anything, in s of time.monotonic()
@@ -51,7 +54,6 @@ class Watch:
                 fresh = {customer.number: customer for customer in came}
                 self._there = tuple(known.get(number) or fresh[number] for number in numbers)
                 self.changed.notify_all()
-            self.spoken.set()
             return came
 
     def next(self, after: int = 0) -> Customer | None:
@@ -61,7 +63,7 @@ class Watch:
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
         """Return the next customer as soon as there is one; None after `patience` s.
 
-        None also as soon as the camera has said nothing for `silence` s: what it said last is no news then.
+        Raises CameraSilent once the camera has said nothing for `silence` s: then nobody can tell.
         """
         deadline = time.monotonic() + patience
         with self.changed:
@@ -71,4 +73,4 @@ class Watch:
                 if customer or rest <= 0:
                     return customer
                 self.changed.wait(min(rest, LOOK))
-            return None
+        raise CameraSilent

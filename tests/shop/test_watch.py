@@ -6,7 +6,10 @@ import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import count
 
+import pytest
+
 from course_pkg.shop import Customer, Watch
+from course_pkg.shop.watch import CameraSilent
 from tests.support import eventually
 
 FOR_EVER = 60.0  # s: longer than any test
@@ -80,7 +83,9 @@ def test_a_wait_ends_with_its_patience() -> None:
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
     """Whoever waits for a camera that is gone waits for nothing, and what it said last is no news."""
     watch = Watch()
-    assert watch.wait(0, FOR_EVER, silence=5.0) is None  # it has never said anything
+    with pytest.raises(CameraSilent):
+        watch.wait(0, FOR_EVER, silence=5.0)  # it has never said anything
     watch.see([1])
     eventually(lambda: watch.silent_for > 0.05)
-    assert watch.wait(0, FOR_EVER, silence=0.05) is None
+    with pytest.raises(CameraSilent):
+        watch.wait(0, FOR_EVER, silence=0.05)

@@ -1,0 +1,98 @@
+"""The camera that takes a picture when it is asked to."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import rospy
+from course_pkg.srv import LetIn, PolledImage
+
+from course_pkg.graph import BoundedProxy, MasterClient, NodeProcess, PrivateMaster
+from course_pkg.shop import shop_picture
+from tests.nodes.terminals import terminal
+from tests.support import eventually
+
+pytestmark = pytest.mark.usefixtures("master")
+
+
+@pytest.fixture
+def camera() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg polled_camera`, and nobody else."""
+    with NodeProcess(["rosrun", "course_pkg", "polled_camera"]) as process:
+        process.wait_for_service("/request_image")
+        yield process
+
+
+def take(width: int = 0, height: int = 0) -> Any:  # noqa: ANN401 -- a class that catkin generates
+    """Take a picture."""
+    return BoundedProxy("/request_image", PolledImage)(width, height)
+
+
+@pytest.mark.usefixtures("camera")
+@pytest.mark.parametrize(
+    ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
+)
+def test_a_picture_is_what_it_says(asked: tuple[int, int], size: tuple[int, int]) -> None:
+    """Its size is the one asked for, 0 for the camera's own; the points are those of the shop."""
+    taken = take(*asked)
+    image = taken.image
+    assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")
+    assert image.data == shop_picture(*size, taken.customers)
+    assert abs(rospy.Time.from_sec(image.header.stamp.to_sec()).to_sec() - image.header.stamp.to_sec()) < 1
+
+
+@pytest.mark.usefixtures("camera")
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
+)
+def test_a_size_that_cannot_be_is_refused(asked: tuple[int, int], words: str) -> None:
+    """With what is right; and the next picture is taken."""
+    with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
+        take(*asked)
+    assert take().image.data
+
+
+@pytest.mark.usefixtures("camera")
+def test_it_shows_who_is_at_the_counter() -> None:
+    """While shop_camera runs it is its customers who are in the picture, and otherwise a shop of its own."""
+    with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
+        shop.wait_for_service("/let_in")
+        for customers in (0, 3, 5):
+            BoundedProxy("/let_in", LetIn)(after=[0.0] * (customers - take().customers), stay=600.0)
+            eventually(lambda wanted=customers: take().customers == wanted)
+    assert 0 <= take().customers <= 5
+
+
+def test_the_first_picture_is_of_the_shop_that_is_there() -> None:
+    """A camera that is started when customers are there does not begin with its own shop."""
+    with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
+        shop.wait_for_service("/let_in")
+        BoundedProxy("/let_in", LetIn)(after=[0.0] * 9, stay=600.0)
+        with NodeProcess(["rosrun", "course_pkg", "polled_camera"]) as camera:
+            camera.wait_for_service("/request_image")
+            assert take().customers == 9
+
+
+def test_it_can_stream() -> None:
+    """With _stream:= it publishes pictures of its own size, too, and goes on answering."""
+    with NodeProcess(["rosrun", "course_pkg", "polled_camera", "_stream:=30"]) as process:
+        process.wait_for_service("/request_image")
+        heard = terminal("rostopic", "echo", "-n", "2", "--noarr", "/image")
+        assert heard.stdout.count("width: 320") == 2
+        assert take().image.width == 320
+
+
+@pytest.mark.parametrize("settings", [[], ["_stream:=30"]])
+def test_it_ends_when_told(settings: list[str], master: PrivateMaster) -> None:
+    """Ctrl-C ends it, without a traceback and without a registration left."""
+    with NodeProcess(["rosrun", "course_pkg", "polled_camera", *settings]) as process:
+        process.wait_for_service("/request_image")
+        os.kill(process.pid, signal.SIGINT)
+        assert process.wait(5) == 0
+        assert "Traceback" not in process.output()
+    assert MasterClient(master.uri).system_state().nodes == ()
