@@ -21,6 +21,7 @@ from course_pkg.examiner.node import Node, held_back
 from course_pkg.examiner.outcome import Finished, Outcome
 from course_pkg.examiner.plain import Plain, ServiceClass, Value, plain
 from course_pkg.examiner.publishing import Publishing
+from course_pkg.examiner.puppet import Puppet
 from course_pkg.examiner.report import Rule
 from course_pkg.examiner.scripted import Absent, Script, ScriptedServer
 from course_pkg.examiner.show import shown
@@ -154,6 +155,10 @@ class Exam:
         """
         cls = message_type(kind).cls
         return self._open.enter_context(Publishing(topic, cls, messages, every, once))
+
+    def puppet(self, name: str, topic: str, kind: str, *, alive: bool = True) -> Puppet:
+        """Have the master list the node `name` as a publisher of `topic`, alive or killed; see puppet.py."""
+        return self._open.enter_context(Puppet(self._node, name, topic, kind, alive=alive))
 
     # -- the student's topics, heard from the graph
 

@@ -175,7 +175,7 @@ class Absent:
         if self._former:
             self._node.master.unregister_service(self._former.node, self._name, self._former.uri)
         if self._stale:
-            self._uri = f"rosrpc://localhost:{_closed_port()}"
+            self._uri = f"rosrpc://localhost:{closed_port()}"
             _register(self._node, self._name, self._uri)
         return self
 
@@ -198,7 +198,8 @@ def _restore(node: Node, name: str, former: Registration | None) -> None:
         node.master.register_service(former.node, name, former.uri, former.node_uri)
 
 
-def _closed_port() -> int:
+def closed_port() -> int:
+    """Return a port of this computer at which nobody listens."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port: int = listener.getsockname()[1]
         return port
