@@ -31,10 +31,10 @@ def serve_lab(notebook: str | None, *, port: int | None, ip: str, browser: bool)
     """Serve JupyterLab until Ctrl-C or SIGTERM; return 0, or the server's status if it ends by itself."""
     places = Places.of()
     page = _page(places.checkout, notebook)
-    options = {"ServerApp.root_dir": places.checkout, **_listening(ip, port), **_course_options(places, page)}
+    options = {"ServerApp.root_dir": places.checkout, **_listening(ip, port), **_course_options(page)}
     with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as scratch:
         ready, log = Path(scratch, "ready.json"), Path(scratch, "server.log")
-        options["CourseLab.ready_file"] = ready
+        options |= {"CourseLab.ready_file": ready, "CourseLab.workspaces_dir": Path(scratch, "workspaces")}
         with (
             log.open("wb") as output,
             master_coming_up() as master_is_up,
@@ -98,13 +98,12 @@ def _listening(ip: str, port: int | None) -> dict[str, object]:
     }
 
 
-def _course_options(places: Places, page: str) -> dict[str, object]:
+def _course_options(page: str) -> dict[str, object]:
     return {
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "CourseLab.first_notebook": page,
         "CourseLab.user_settings_dir": _user_settings(),
-        "CourseLab.workspaces_dir": places.cache / "jupyter" / "workspaces",
     }
 
 

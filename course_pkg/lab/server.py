@@ -32,6 +32,7 @@ from jupyter_server._version import version_info  # noqa: E402
 from jupyterlab_server import LabServerApp  # noqa: E402
 from traitlets import Unicode, default  # noqa: E402
 
+from course_pkg.lab.workspace import lay_out  # noqa: E402
 from course_pkg.provision.stamps import replace_text  # noqa: E402
 
 HERE = Path(__file__).parent
@@ -95,6 +96,7 @@ class CourseLab(LabServerApp):  # type: ignore[misc]  # of an untyped package
 
         In this order: while a kernel is being started, the server's list of kernels is an error 500.
         """
+        lay_out(self.workspaces_dir, self.first_notebook)
         if self.first_notebook:
             await serverapp.session_manager.create_session(
                 path=self.first_notebook,
@@ -104,8 +106,7 @@ class CourseLab(LabServerApp):  # type: ignore[misc]  # of an untyped package
             )
         if self.ready_file:
             page = f"lab/tree/{quote(self.first_notebook)}" if self.first_notebook else "lab"
-            # Tabs restored from the last time would each start a kernel again before this page is usable.
-            address = f"{serverapp.connection_url}{page}?token={self._token()}&reset"
+            address = f"{serverapp.connection_url}{page}?token={self._token()}"
             replace_text(Path(self.ready_file), json.dumps({"address": address}))
 
     def _token(self) -> str:

@@ -72,6 +72,19 @@ def test_the_address_leads_to_the_notebook_whose_kernel_is_up(served: Served, no
     assert eventually(served.kernels)
 
 
+def test_each_start_opens_that_notebook_and_nothing_else(served: Served, notebook: str) -> None:
+    """The notebook is in the workspace, so JupyterLab waits for no address; no tab of another start is."""
+    name = f"notebook:{Path(notebook).relative_to(ROOT)}"
+    with lab(str(ROOT / "notebooks" / "00_start_the_graph.ipynb")) as (process, address):
+        data = Served(process, address).get("/lab/api/workspaces/default")["data"]
+        assert (
+            data["layout-restorer:data"]["main"]["current"] == "notebook:notebooks/00_start_the_graph.ipynb"
+        )
+    data = served.get("/lab/api/workspaces/default")["data"]
+    assert data["layout-restorer:data"]["main"]["dock"]["widgets"] == [name]
+    assert [key for key in data if key.startswith("notebook:")] == [name]
+
+
 def test_nothing_listens_beyond_this_host(served: Served) -> None:
     """Server, kernel and master listen on 127.0.0.1 and nowhere else."""
     eventually(served.kernels)
