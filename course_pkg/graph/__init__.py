@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
-    from course_pkg.graph.activity import Activity, Carried, listen
+    from course_pkg.graph.activity import Activity, Carried, Listener, listen
     from course_pkg.graph.callers import ServiceCaller, service_callers
     from course_pkg.graph.calls import BoundedProxy
     from course_pkg.graph.events import Event
@@ -36,6 +36,7 @@ __all__ = [
     "Heard",
     "Island",
     "Leash",
+    "Listener",
     "MasterClient",
     "Node",
     "NodeProcess",
@@ -67,7 +68,7 @@ __all__ = [
 __getattr__ = lazily(
     __name__,
     {
-        "activity": "Activity Carried listen",
+        "activity": "Activity Carried Listener listen",
         "callers": "ServiceCaller service_callers",
         "calls": "BoundedProxy",
         "events": "Event",

@@ -7,7 +7,7 @@ and getBusInfo (http://wiki.ros.org/ROS/Slave_API); the course's nodes count who
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 from xml.parsers.expat import ExpatError
@@ -43,44 +43,82 @@ class Activity:
     callers: Mapping[str, tuple[ServiceCaller, ...]] = field(default_factory=dict)
 
 
+class Listener:
+    """Asks the nodes of a graph, again and again; what does not change it asks but once."""
+
+    def __init__(self) -> None:
+        self._peers: dict[str, dict[int, str]] = {}  # by the address of a node: connection -> subscriber
+
+    def listen(self, snapshot: Snapshot, timeout: float = PATIENCE) -> Activity:
+        """Ask all nodes of a snapshot that answer; takes at most `timeout` s, and twice that at first."""
+        awake = {node.name: node.uri for node in snapshot.nodes if node.reachable}
+        probes = {name: callers_probe(uri) for name, uri in awake.items()}
+        ask_all(list(probes.values()), timeout)
+        counts = {name: told for name, probe in probes.items() if (told := _counts(probe)) is not None}
+        self._meet(
+            {awake[name]: [each.connection for each in told] for name, told in counts.items()}, timeout
+        )
+        carried = [
+            Carried(each.topic, name, peer, each.connection, each.messages)
+            for name, told in counts.items()
+            for each in told
+            if (peer := self._peers[awake[name]].get(each.connection))
+        ]
+        callers = {service: who for probe in probes.values() for service, who in told_callers(probe).items()}
+        # Without knowing whom its connections lead to, what a node has counted tells nothing.
+        clear = {name for name, told in counts.items() if self._peers[awake[name]] or not told}
+        mute = frozenset(node.name for node in snapshot.nodes if node.name not in clear)
+        return Activity(time.monotonic(), tuple(sorted(carried)), mute, callers)
+
+    def _meet(self, connections: Mapping[str, Iterable[int]], timeout: float) -> None:
+        """Ask the nodes with connections that are new whom they lead to; forget nodes that are gone."""
+        self._peers = {uri: self._peers.get(uri, {}) for uri in connections}
+        new = [uri for uri, numbers in connections.items() if not self._peers[uri].keys() >= set(numbers)]
+        probes = {uri: rpc_probe(uri, "getBusInfo") for uri in new}
+        ask_all(list(probes.values()), timeout)
+        self._peers |= {uri: _peers(rpc_answer(probe) or ()) for uri, probe in probes.items()}
+
+
 def listen(snapshot: Snapshot, timeout: float = PATIENCE) -> Activity:
-    """Ask all nodes of a snapshot that answer; takes at most `timeout` s."""
-    awake = [node for node in snapshot.nodes if node.reachable]
-    stats = {node.name: callers_probe(node.uri) for node in awake}
-    info = {node.name: rpc_probe(node.uri, "getBusInfo") for node in awake}
-    ask_all([*stats.values(), *info.values()], timeout)
-    told = {name: _carried(name, stats[name], info[name]) for name in stats}
-    callers = {service: who for probe in stats.values() for service, who in told_callers(probe).items()}
-    carried = sorted(each for counts in told.values() for each in counts or ())
-    mute = frozenset(node.name for node in snapshot.nodes if told.get(node.name) is None)
-    return Activity(time.monotonic(), tuple(carried), mute, callers)
+    """Ask all nodes of a snapshot once; takes at most twice `timeout` s."""
+    return Listener().listen(snapshot, timeout)
 
 
-def _carried(node: str, stats: Probe, info: Probe) -> list[Carried] | None:
-    """Return what a node has sent over each connection, or None if it cannot tell."""
-    if not stats.answered:
+@dataclass(frozen=True)
+class _Count:
+    topic: str
+    connection: int
+    messages: int
+
+
+def _counts(probe: Probe) -> list[_Count] | None:
+    """Return what a node has sent over each connection, or None if it cannot tell.
+
+    Of a topic, rospy tells [name, bytes, connections], roscpp [name, connections]; of a connection, rospy
+    [id, bytes, messages, connected], roscpp [id, bytes, bytes of messages, messages, connected].
+    """
+    if not probe.answered:
         return None
     try:
-        peers = {each[0]: str(each[1]) for each in rpc_answer(info) if each[2] == "o"}
-        return list(_counts(node, _bare(stats)[0], peers))
+        return [
+            _Count(str(topic), int(number), int(messages))
+            for topic, *_, connections in _bare(probe)[0]
+            for number, *_, messages, _ in connections
+        ]
     except (ExpatError, Fault, LookupError, TypeError, ValueError):
         # rospy answers by a fault as soon as a connection has carried 2 GiB: XML-RPC has no greater number.
         return None
 
 
+def _peers(info: Iterable[Any]) -> dict[int, str]:
+    """Return to whom a node's connections lead, of those that lead out; a stranger's shape tells nothing."""
+    try:
+        return {each[0]: str(each[1]) for each in info if each[2] == "o"}
+    except (LookupError, TypeError):
+        return {}
+
+
 def _bare(probe: Probe) -> Any:  # noqa: ANN401 -- what a node answers
     """Return the value of an answer; roscpp's to getBusStats stands alone, without a code and words."""
-    value = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
+    value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
     return value[2] if value[0] == 1 else value
-
-
-def _counts(node: str, topics: list[Any], peers: Mapping[int, str]) -> Iterator[Carried]:
-    """Yield the connections of a node's publishers.
-
-    Of a topic, rospy tells [name, bytes, connections], roscpp [name, connections]; of a connection, rospy
-    [id, bytes, messages, connected], roscpp [id, bytes, bytes of messages, messages, connected].
-    """
-    for topic, *_, connections in topics:
-        for number, *_, messages, _ in connections:
-            if number in peers:
-                yield Carried(str(topic), node, peers[number], int(number), int(messages))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from course_pkg.panels.graph.folding import namespaces
 from course_pkg.panels.graph.picture import Kind, Picture, Shape
 from course_pkg.panels.graph.rates import Rates, words
 
@@ -17,17 +19,32 @@ SHOWN = 12  # connections of a topic, or callers of a service
 UNCONNECTED = "not connected: do both have the same type?"
 
 
+class _Ends:
+    """Who publishes and who subscribes to each topic of a picture, by its key."""
+
+    def __init__(self, picture: Picture) -> None:
+        self.publishers: dict[str, list[str]] = defaultdict(list)
+        self.subscribers: dict[str, list[str]] = defaultdict(list)
+        for line in picture.lines:
+            self.publishers[line.head].append(line.tail.partition(" ")[2])
+            self.subscribers[line.tail].append(line.head.partition(" ")[2])
+
+
 class Doings:
     """Turns what was counted at one time after the other into words."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
         self._rates = Rates()
+        self._carried: dict[str, list[Carried]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
         """Take in the counts of one time."""
         self.seen = activity
         self._rates.read(activity)
+        self._carried.clear()
+        for each in activity.carried:
+            self._carried[each.topic].append(each)
 
     def told(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> State:
         """Return what the page shows, by the key of the shape it belongs to.
@@ -37,32 +54,32 @@ class Doings:
         for that. `alive` are the nodes of the graph, also those that are not shown. `box` returns where a
         shape is drawn: as itself, or as the folded namespace that it is in.
         """
-        topics = {each.key: self._topic(each, picture) for each in picture.shapes if each.kind is Kind.TOPIC}
+        ends = _Ends(picture)
+        topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
         callers = {each.key: self._callers(each, alive) for each in self._telling(picture)}
         return {
             "notes": {key: note for key, (note, _) in topics.items()},
-            "details": {key: details for key, (_, details) in topics.items()},
+            "details": {key: details for key, (_, details) in topics.items()} | _spaces(picture, topics),
             "callers": callers,
             "calls": list(_calls(callers, box)) if callers else [],
         }
 
-    def _topic(self, topic: Shape, picture: Picture) -> tuple[str, list[Pair]]:
-        publishers = [line.tail.split(" ", 1)[1] for line in picture.lines if line.head == topic.key]
-        subscribers = [line.head.split(" ", 1)[1] for line in picture.lines if line.tail == topic.key]
+    def _topic(self, topic: Shape, ends: _Ends) -> tuple[str, list[Pair]]:
+        publishers, subscribers = ends.publishers[topic.key], ends.subscribers[topic.key]
         if not publishers:
             return "no publisher", [["rate", "no publisher, nothing comes"]]
         if not subscribers:
             return "no listener", [["rate", "no listener, nothing is sent"]]
         if self.seen is None:
             return "", []
-        carried = [each for each in self.seen.carried if each.topic == topic.name]
+        carried = self._carried[topic.name]
         details = [
             [f"{publisher} → {subscriber}", self._connection(publisher, subscriber, carried)]
             for publisher in publishers
             for subscriber in subscribers
         ]
         note = self._note(publishers, [each for each in carried if each.subscriber in subscribers])
-        return note, _shortened(details)
+        return note, _shortened(details, "connections")
 
     def _note(self, publishers: list[str], carried: list[Carried]) -> str:
         """Return the rate of a topic: what goes to the listener who gets most, of all publishers together."""
@@ -106,6 +123,17 @@ class Doings:
         ]
 
 
+def _spaces(picture: Picture, topics: Mapping[str, tuple[str, list[Pair]]]) -> dict[str, list[Pair]]:
+    """Return for each namespace what its topics carry."""
+    return {
+        f"{Kind.SPACE.value} {name}": _shortened(
+            [[key.split(" ", 1)[1], topics[key][0] or "…"] for key in sorted(members) if key in topics],
+            "topics",
+        )
+        for name, members in namespaces(picture).items()
+    }
+
+
 def _senders(carried: Iterable[Carried]) -> list[str]:
     return sorted({each.publisher for each in carried})
 
@@ -121,7 +149,7 @@ def _calls(callers: dict[str, list[State]], box: Callable[[str], str]) -> Iterat
         yield {"tail": tail, "head": head, "last": each["last"], "running": each["running"]}
 
 
-def _shortened(details: list[Pair]) -> list[Pair]:
+def _shortened(details: list[Pair], what: str) -> list[Pair]:
     if len(details) <= SHOWN:
         return details
-    return [*details[: SHOWN - 1], ["…", f"{len(details) - SHOWN + 1} more connections"]]
+    return [*details[: SHOWN - 1], ["…", f"{len(details) - SHOWN + 1} more {what}"]]

@@ -57,7 +57,8 @@ def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    facts += [(PLURALS[kind], ", ".join(names)) for kind, names in kinds.items() if names]
+    # Its topics are told with their rates.
+    facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))
     return Shape(Kind.SPACE, name, tuple(facts), not lost)

@@ -13,12 +13,7 @@ from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
 CHARACTER = 7.3  # px; names are set in a fixed-width face of 12 px
-HEIGHT = {
-    Kind.NODE: 34.0,
-    Kind.TOPIC: 42.0,
-    Kind.SERVICE: 34.0,
-    Kind.SPACE: 46.0,
-}  # px; some have a second line
+HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}  # px, of one line or two
 ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}  # px beside the name
 NOTE = 11 / 12  # the size of what stands below a name, to that of the name
 ROOM = 12  # letters below a topic's name

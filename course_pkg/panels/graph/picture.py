@@ -27,7 +27,7 @@ class Kind(str, Enum):
 
 @dataclass(frozen=True)
 class Shape:
-    """One node, topic, service or folded namespace; `facts` are the label and value pairs that its details show."""
+    """One node, topic, service or folded namespace; `facts` are pairs of label and value for its details."""
 
     kind: Kind
     name: str

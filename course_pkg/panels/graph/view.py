@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from traitlets import Bool, Dict, List, Unicode
 
-from course_pkg.graph import Activity, Node, Snapshot, listen, look, this_node
+from course_pkg.graph import Activity, Listener, Node, Snapshot, look, this_node
 from course_pkg.panels.assets import sheet
 from course_pkg.panels.follower import Follower
 from course_pkg.panels.graph.model import GraphModel
@@ -15,6 +15,7 @@ from course_pkg.panels.panel import HERE as PANELS
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
+SILENT = "silent"  # of a node that takes connections and does not answer
 CALM = 2.0  # s between two looks at what the nodes have counted
 
 
@@ -44,7 +45,8 @@ class GraphPanel(Panel):
         ours = node or this_node()
         own = ours.name if ours else ""
         self._model = GraphModel(self.publish, noise=noise, own=own, turn=self.turn)
-        self._follower: Follower[Snapshot] = Follower(look, self._model.see, self._lost)
+        self._follower: Follower[Snapshot] = Follower(self._look, self._model.see, self._lost)
+        self._ear = Listener()
         self._listener: Follower[Activity] = Follower(
             self._listen, self._model.hear, self.complain, every=CALM
         )
@@ -83,9 +85,16 @@ class GraphPanel(Panel):
     def __repr__(self) -> str:
         return "GraphPanel()"
 
+    def _look(self) -> Snapshot:
+        """Look at the graph, and twice where a node did not answer in time for once: the machine may be busy."""
+        before, now = self._model.snapshot, look()
+        awake = {node.name for node in before.nodes if node.reachable} if before else set()
+        late = any(node.reach == SILENT and node.name in awake for node in now.nodes)
+        return look() if late else now
+
     def _listen(self) -> Activity:
         snapshot = self._model.snapshot
-        return listen(snapshot) if snapshot else Activity(0.0)
+        return self._ear.listen(snapshot) if snapshot else Activity(0.0)
 
     def _lost(self, error: Exception) -> None:
         self._model.lose(str(error))
