@@ -43,7 +43,7 @@ class Switch:
     def handle_report(self, _: Request) -> Told:
         """Say where it stands: open or closed."""
         with self._turn:
-            rospy.logdebug("Asked where it stands: %s, after %d moves", self._where(), self._moves)
+            rospy.logdebug("Asked where it stands: %s; moves so far: %d", self._where(), self._moves)
             return True, self._where()
 
     def handle_reset(self, _: Request) -> list[Any]:

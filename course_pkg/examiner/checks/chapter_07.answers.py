@@ -39,6 +39,17 @@ def services_of(kind):
 def services_of(kind):
     return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]
 
+# %% 07.1 wrong: gives up at the one that is gone | hint: Catch it inside the loop, and go on
+def services_of(kind):
+    names = []
+    try:
+        for name in rosservice.get_service_list():
+            if rosservice.get_service_type(name) == kind:
+                names.append(name)
+    except rosservice.ROSServiceIOException:
+        pass
+    return names
+
 # %% 07.1 wrong: goes by the name of the service | hint: does not tell its type
 def services_of(kind):
     return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]
@@ -181,7 +192,7 @@ def handle_on_off(request):
         raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")
     return ["off", "on"][request.number]
 
-# %% 07.2 wrong: refuses 0 | hint: what the service is there for
+# %% 07.2 wrong: refuses 0 | hint: It was refused, and is allowed
 def handle_on_off(request):
     if not request.number or request.number != 1:
         raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")
@@ -349,6 +360,22 @@ def call_line(service, fields):
 def call_line(service, fields):
     return f"rosservice call {service} '{json.dumps(fields)}'"
 
+# %% 07.4 wrong: takes them for arguments of Python | hint: a=5 is a text
+def call_line(service, fields):
+    return f"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())
+
+# %% 07.4 wrong: takes them for remappings | hint: which drops it here
+def call_line(service, fields):
+    return f"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())
+
+# %% 07.4 wrong: as in a notebook | hint: belongs to the notebook
+def call_line(service, fields):
+    return f"!rosservice call {service} {shlex.quote(json.dumps(fields))}"
+
+# %% 07.4 wrong: quotes all of it | hint: Quote the fields
+def call_line(service, fields):
+    return shlex.quote(f"rosservice call {service} {json.dumps(fields)}")
+
 # %% 07.4 wrong: leaves the fields out | hint: Give it the fields
 def call_line(service, fields):
     return f"rosservice call {service}"
@@ -389,6 +416,13 @@ def call_any(service, fields):
     cls = rosservice.get_service_class_by_name(service)
     request = cls._request_class()
     genpy.message.fill_message_args(request, fields)
+    return rospy.ServiceProxy(service, cls)(request)
+
+# %% 07.5 wrong: fills the class of the service | hint: with two halves
+def call_any(service, fields):
+    cls = rosservice.get_service_class_by_name(service)
+    request = cls()
+    genpy.message.fill_message_args(request, [fields])
     return rospy.ServiceProxy(service, cls)(request)
 
 # %% 07.5 wrong: calls by keywords | hint: however deep

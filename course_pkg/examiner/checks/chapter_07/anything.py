@@ -14,6 +14,7 @@ SLIPS = {
     says("'str' object has no attribute '_request_class'"): (
         "That is the name of the type, a text. get_service_class_by_name returns the class itself."
     ),
+    says("must be a Message"): "The class is of the service, with two halves. Fill its _request_class().",
     says("KeyError: 0"): "fill_message_args takes a list, for there may be several values: [fields].",
     says("md5sums do not match"): "It is of another type. Ask which, each time: get_service_class_by_name.",
 }

@@ -12,6 +12,10 @@ DEAD = (
     "One service is listed and its server is gone, so nobody can be asked for its type. Catch "
     "rosservice.ROSServiceIOException around the question, inside the loop, and go on."
 )
+NONE = "None was found. Compare with the whole text that get_service_type returns, package/Type."
+SOME = "Only some of them were found. Go through all names, and return after the loop."
+GONE = "The error about the one that is gone ended the search. Catch it inside the loop, and go on."
+LATE = "One has come since the function was called before. Ask the graph each time."
 SLIPS = {
     says("ROSServiceIOException"): DEAD,
     says("Unable to load type"): "Not every type is built here, and its name is enough: get_service_type.",
@@ -37,13 +41,13 @@ def find_by_type(exam: Exam) -> None:
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
         made = compile_service(decoy, "---\nint32 found").cls
         exam.serve(f"/{word}/{exam.draw.word()}", made, lambda _: {})
-    _found(exam, kind)
-    late = f"/{exam.draw.word()}/late"
-    exam.serve(late, kind, lambda _: {})
-    _found(exam, kind, late)
+    _found(exam, kind, SOME)
+    exam.serve(f"/{exam.draw.word()}/late", kind, lambda _: {})
+    _found(exam, kind, LATE)
     exam.absent(f"/{word}/dead", stale=True)
-    _found(exam, kind)
-    _found(exam, other)
+    exam.serve(f"/{exam.draw.word()}/last", kind, lambda _: {})
+    _found(exam, kind, GONE)
+    _found(exam, other, SOME)
     exam.expect(
         "an empty list for a type that nobody serves",
         expected=[],
@@ -52,8 +56,8 @@ def find_by_type(exam: Exam) -> None:
     )
 
 
-def _found(exam: Exam, kind: str, late: str = "") -> None:
-    """Hold that the function returns what is on the graph; `late` has come since it was called before."""
+def _found(exam: Exam, kind: str, incomplete: str) -> None:
+    """Hold that the function returns what is on the graph; `incomplete` is the hint when some are missing."""
     names = exam.run("services_of", kind, hints=SLIPS).value
     _is_a_list_of_names(exam, names)
     there = {service.name: service.type for service in exam.look().services}
@@ -71,7 +75,7 @@ def _found(exam: Exam, kind: str, late: str = "") -> None:
         not missing,
         expected=f"a list with {', '.join(missing)} in it",
         seen=names,
-        hints=_missing(missing == [late], not right.isdisjoint(names)),
+        hints=NONE if right.isdisjoint(names) else incomplete,
     )
     exam.expect(
         "each is found once", expected=len(right), seen=len(names), hints="A name stands there twice."
@@ -104,11 +108,3 @@ def _beside(types: set[str | None], kind: str) -> str:
     if any(its and its.endswith(f"_pkg/{kind.partition('/')[2]}") for its in types):
         return "That type has the same name, and is from another package. Compare the whole text."
     return "Those are of another type. What a service is called does not tell its type: ask it."
-
-
-def _missing(only_the_late: bool, some: bool) -> str:
-    if only_the_late:
-        return "One has come since the function was called before. Ask the graph each time."
-    if some:
-        return "Only some of them were found. Go through all names, and return after the loop."
-    return "None was found. Compare with the whole text that get_service_type returns, package/Type."

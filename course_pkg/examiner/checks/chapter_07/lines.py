@@ -17,6 +17,13 @@ TYPES = (
     "reads it back as it was."
 )
 COMPLAINTS = {
+    says(
+        r"call \S+ \w+:="
+    ): "An argument with := in it is for ROS, which drops it here. Write the fields as a dict.",
+    says(r"call \S+ \w+="): "To YAML, a=5 is a text. A dict is written {a: 5}.",
+    says("^!"): "The ! belongs to the notebook. A terminal does without.",
+    says("syntax error"): "In a terminal, blanks stand between the words, and no brackets around them.",
+    says("no such file"): "The whole line became one word. Quote the fields, and nothing else.",
     says(r"\{.*no such option"): SPLIT,
     says(
         "no such option"

@@ -23,7 +23,9 @@ def on_or_off(exam: Exam) -> None:
     on_off = exam.service(
         "/my_on_off",
         "course_pkg/ServiceExample",
-        hints={OWN_WORDS: "0 and 1 are what the service is there for. Refuse the others only."},
+        hints={
+            OWN_WORDS: "It was refused, and is allowed. Compare request.number with 0 and 1; refuse others."
+        },
     )
     for number in (*exam.draw.shuffled([0, 1]), 1, 0):
         exam.expect(
