@@ -1,0 +1,21 @@
+"""What chapter 07 says of the Tab key in a terminal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.lab.test_bashrc import shell
+
+SWITCH = (
+    "rosrun course_pkg switch >/dev/null 2>&1 & until rosservice list | grep -q /switch/reset; do :; done"
+)
+TAB = "\t"
+
+
+def test_tab_types_for_you(tmp_path: Path) -> None:
+    """Tab completes a service's name, and behind it writes a request of zeros."""
+    lines = [SWITCH, f"rosservice call /sw{TAB}rep{TAB}", f"rosservice call /switch/set {TAB}", "kill %1"]
+    seen = shell(tmp_path, "\n".join(lines))
+    assert 'message: "closed"' in seen  # of /switch/report
+    assert '/switch/set "data: false"' in seen
+    assert 'message: "already closed"' in seen
