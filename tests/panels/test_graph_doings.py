@@ -237,5 +237,6 @@ def test_a_still_picture_has_its_colours_its_rates_and_its_words_in_it() -> None
     assert ">10 Hz<" in drawn
     assert "@media print" in drawn
     assert 'role="img"' in drawn
-    assert "4 nodes, 3 topics, 2 services" in drawn
+    assert 'aria-label="The ROS graph: 4 nodes, 3 topics, 2 services"' in drawn
+    assert "/talker\n  publishes  /chatter  (std_msgs/String)" in drawn
     assert "tabindex" not in drawn

@@ -1,16 +1,17 @@
 /* The drawing on the page: its size, what is chosen, the words under topics, and the lines of calls. */
 import { freshId, h, say, setAttribute } from "../kit.js";
+import { callLine, place } from "./calls.js";
 
 const SMALLEST = 0.65; // of the drawing by itself: below that, names cannot be read
 const STEP = 1.25;
 const FADE = 30; // s that a call is to be seen
-const SVG = "http://www.w3.org/2000/svg";
 
 export class Canvas {
   /** @param {(key: string, folded: boolean | null) => void} picked hears what was clicked */
   constructor(picked) {
     this.picked = picked;
     this.zoom = 0; // 0: by itself
+    this.fresh = true; // nobody has scrolled it yet
     this.chosen = "";
     this.id = freshId("ros-canvas");
     this.el = h("div", { class: "ros-canvas", id: this.id, onclick: (/** @type {Event} */ event) => this.#pick(event.target),
@@ -30,6 +31,7 @@ export class Canvas {
     if (focused) /** @type {SVGElement | undefined} */ (this.#shape(focused))?.focus({ preventScroll: true });
     this.#fit();
     this.choose(this.chosen);
+    if (drawing && this.fresh) requestAnimationFrame(() => this.#centre());
   }
 
   /** Show what is chosen, and the lines that touch it. @param {string} key */
@@ -61,11 +63,14 @@ export class Canvas {
   /** Lines from callers to services, which fade; Graphviz has no part in them, so nothing else moves.
    * @param {{tail: string, head: string, last: number, running: number}[]} calls */
   #drawCalls(calls) {
-    const layer = this.el.querySelector(".ros-calls");
-    layer?.replaceChildren(...calls.flatMap(({ tail, head, last, running }) => {
-      const age = running ? 0 : Math.max(0, Date.now() / 1000 - last);
-      const [from, to] = [this.#shape(tail), this.#shape(head)].map((shape) => shape && middle(shape));
-      return from && to && age < FADE ? [callLine(from, to, age, running > 0)] : [];
+    const shapes = [...this.el.querySelectorAll(".ros-shape")];
+    const found = (/** @type {string} */ key) => shapes.find((shape) => shape.getAttribute("data-key") === key);
+    const fresh = calls.map((each) => ({ ...each, age: each.running ? 0 : Math.max(0, Date.now() / 1000 - each.last) }))
+      .filter(({ tail, head, age }) => age < FADE && found(tail) && found(head));
+    const places = new Map(fresh.length ? shapes.map((shape) => [shape.getAttribute("data-key"), place(shape)]) : []);
+    this.el.querySelector(".ros-calls")?.replaceChildren(...fresh.map(({ tail, head, running, age }) => {
+      const others = [...places].filter(([key]) => key !== tail && key !== head).map(([, each]) => each);
+      return callLine(places.get(tail), places.get(head), others, age, running > 0);
     }));
   }
 
@@ -87,6 +92,15 @@ export class Canvas {
   #resize(scale) {
     this.zoom = Math.min(2, Math.max(0.2, scale));
     this.#fit();
+  }
+
+  /** Begin where something is: a drawing from left to right in the middle of its left side, one downwards at its top. */
+  #centre() {
+    const [down, across] = [this.el.scrollHeight - this.el.clientHeight, this.el.scrollWidth - this.el.clientWidth];
+    if (!this.el.clientWidth) return; // not on the page yet
+    this.fresh = false;
+    if (this.#natural().width > this.#natural().height) this.el.scrollTop = down / 2;
+    else this.el.scrollLeft = across / 2;
   }
 
   #whole() {
@@ -126,40 +140,4 @@ export class Canvas {
   #shape(key) {
     return [...this.#shapes()].find((shape) => shape.getAttribute("data-key") === key);
   }
-}
-
-/** @typedef {{x: number, y: number, wide: number, high: number}} Place */
-
-/** The middle and half the size of a shape. @param {Element} shape @returns {Place} */
-function middle(shape) {
-  const outline = /** @type {SVGGraphicsElement} */ (shape.querySelector("ellipse, rect:last-of-type, polygon"));
-  const { x, y, width, height } = outline.getBBox();
-  return { x: x + width / 2, y: y + height / 2, wide: width / 2, high: height / 2 };
-}
-
-/** @param {Place} from @param {Place} to @param {number} age in s @param {boolean} waits */
-function callLine(from, to, age, waits) {
-  const [dx, dy] = [to.x - from.x, to.y - from.y];
-  const length = Math.hypot(dx, dy) || 1;
-  const bend = Math.min(48, 0.2 * length) / length; // beside the straight way, where other lines may run
-  const top = { x: (from.x + to.x) / 2 - bend * dy, y: (from.y + to.y) / 2 + bend * dx };
-  const [start, end] = [border(from, top), border(to, top)];
-  const angle = Math.atan2(end.y - top.y, end.x - top.x) + Math.PI;
-  const sides = [angle - 0.45, angle + 0.45].map((side) => `${end.x + 9 * Math.cos(side)},${end.y + 9 * Math.sin(side)}`);
-  const line = document.createElementNS(SVG, "g");
-  line.setAttribute("class", waits ? "ros-asked ros-waits" : "ros-asked");
-  if (!waits) line.style.animationDelay = `${-age}s`;
-  for (const [tag, name, value] of [["path", "d", `M${start.x},${start.y} Q${top.x},${top.y} ${end.x},${end.y}`],
-    ["polygon", "points", `${end.x},${end.y} ${sides.join(" ")}`]]) {
-    line.append(document.createElementNS(SVG, tag));
-    line.lastElementChild?.setAttribute(name, value);
-  }
-  return line;
-}
-
-/** Where the way from the middle of a shape to a point leaves it. @param {Place} place @param {{x: number, y: number}} point */
-function border(place, point) {
-  const [dx, dy] = [point.x - place.x, point.y - place.y];
-  const part = Math.min(1, 1 / Math.max(Math.abs(dx) / place.wide, Math.abs(dy) / place.high, 1e-6));
-  return { x: place.x + part * dx, y: place.y + part * dy };
 }

@@ -51,7 +51,7 @@ class _Drawing:
                 "width": width,
                 "height": height,
                 "role": "img" if self._still else "group",
-                "aria-label": f"{title}: {description}" if self._still else title,
+                "aria-label": title,
             },
         )
         SubElement(root, "title").text = title

@@ -42,7 +42,7 @@ class GraphView {
     this.own = box("this notebook's node", () => this.#toggle());
     this.list = h("tbody", {});
     const legend = h("ul", { class: "ros-legend", "aria-label": "Shapes" }, sample("node", "node"), sample("topic", "topic: a stream, one way"),
-      sample("service", "service: a question and its answer"));
+      sample("service", "service: a question and its answer"), sample("asked", "a call lately; dashed: still waits"));
     this.folding = h("div", { class: "ros-boxes", role: "group", "aria-label": "Namespaces", hidden: true },
       h("span", { class: "ros-muted", text: "Namespaces" }), this.#fold("Fold all", true), this.#fold("Unfold all", false));
     this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas.tools, this.canvas.el, this.details,
@@ -166,7 +166,7 @@ function box(label, changed) {
 function sample(kind, text) {
   const item = h("li", {});
   const shapes = { node: '<ellipse cx="14" cy="9" rx="13" ry="7"/>', topic: '<rect x="1" y="2" width="26" height="14" rx="2"/>',
-    service: '<polygon points="1,9 7,2 21,2 27,9 21,16 7,16"/>' };
+    service: '<polygon points="1,9 7,2 21,2 27,9 21,16 7,16"/>', asked: '<path d="M2,9 H18"/><polygon points="27,9 18,5 18,13"/>' };
   item.innerHTML = `<svg width="28" height="18" aria-hidden="true"><g class="ros-shape ros-${kind}">${shapes[/** @type {keyof shapes} */ (kind)]}</g></svg>`;
   item.append(text);
   return item;

@@ -12,7 +12,7 @@ from course_pkg.panels.graph.drawing import svg
 from course_pkg.panels.graph.facts import Describe, facts, fields_of
 from course_pkg.panels.graph.folding import folded, namespaces
 from course_pkg.panels.graph.layout import Layout, laid_out
-from course_pkg.panels.graph.picture import Kind, Picture, picture
+from course_pkg.panels.graph.picture import Kind, Picture, graph_text, picture
 
 if TYPE_CHECKING:
     from course_pkg.graph import Activity, Snapshot
@@ -87,8 +87,10 @@ class GraphModel:
 
     def still(self) -> str:
         """Return the drawing as a file of its own, with its style and the latest rates."""
+        title = f"The ROS graph: {_counts(self._shown or Picture())}"
+        words = graph_text(self.snapshot, noise=self.noise) if self.snapshot else ""
         notes = self._activity.get("notes", {})
-        return svg(self._layout, description=_description(self._shown or Picture()), notes=notes, still=True)
+        return svg(self._layout, title=title, description=words, notes=notes, still=True)
 
     def _draw(self) -> None:
         """Draw what is shown, if it is another than before.
@@ -106,7 +108,8 @@ class GraphModel:
         layout, trouble, drawing = Layout(), "", ""
         try:
             layout = self._arrange(shown)
-            drawing = svg(layout, description=_description(shown)) if shown.shapes else ""
+            words = f"{_counts(shown)}. The list after the drawing says the same in words."
+            drawing = svg(layout, description=words) if shown.shapes else ""
         except DrawingFailed as error:
             trouble = str(error)
         said = facts(whole, self._describe)
@@ -141,11 +144,11 @@ def _spaces(shown: Picture) -> list[State]:
     return [{"name": name, "folded": name in boxes} for name in sorted(frames | boxes)]
 
 
-def _description(shown: Picture) -> str:
+def _counts(shown: Picture) -> str:
     counts = {kind: sum(each.kind is kind for each in shown.shapes) for kind in Kind}
     parts = [
         f"{count} {kind.value}{'' if count == 1 else 's'}"
         for kind, count in counts.items()
         if count or kind is not Kind.SPACE
     ]
-    return ", ".join(parts) + ". The list after the drawing says the same in words."
+    return ", ".join(parts)

@@ -86,7 +86,7 @@ class GraphPanel(Panel):
         return "GraphPanel()"
 
     def _look(self) -> Snapshot:
-        """Look at the graph, and twice where a node did not answer in time for once: the machine may be busy."""
+        """Look at the graph; again where a node did not answer in time for once: the machine may be busy."""
         before, now = self._model.snapshot, look()
         awake = {node.name for node in before.nodes if node.reachable} if before else set()
         late = any(node.reach == SILENT and node.name in awake for node in now.nodes)

@@ -6,25 +6,34 @@ import { h } from "../kit.js";
 /** @typedef {{notes?: Record<string, string>, details?: Record<string, [string, string][]>,
  *   callers?: Record<string, Caller[]>, calls?: {tail: string, head: string, last: number, running: number}[]}} Activity */
 
-/** Each fact of a shape, and what happens there. @param {Fact} fact @param {Activity} activity @param {boolean} live
- * @returns {HTMLElement[]} */
+/** Each fact of a shape, and what happens there. @param {Fact} fact @param {Activity} activity
+ * @param {boolean} live whether it is said how long ago something was @returns {HTMLElement[]} */
 export function pairs(fact, activity, live) {
-  const shown = [...(fact.lost ? [["state", "does not answer"]] : []), ...fact.facts, ...(activity.details?.[fact.key] ?? [])];
-  const said = shown.map(([label, value]) => pair(label, value));
-  if (fact.kind === "service" && activity.callers) said.push(...callers(activity.callers[fact.key], live));
-  return said;
+  const lost = fact.lost && fact.kind !== "namespace" ? [["state", "does not answer"]] : [];
+  const told = [...lost, ...fact.facts.filter(([label]) => label !== "address"), ...(activity.details?.[fact.key] ?? [])];
+  const address = fact.facts.filter(([label]) => label === "address");
+  const said = [...told.map(([label, value]) => pair(label, value)), ...asked(fact, activity, live)];
+  return [...said, ...address.map(([label, value]) => pair(label, value))];
 }
 
-/** @param {string} label @param {string} value */
-function pair(label, value) {
-  return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }));
+/** @param {string} label @param {string} value @param {string} [more] */
+function pair(label, value, more = "") {
+  return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }), more);
 }
 
-/** Who called a service lately. @param {Caller[] | undefined} told @param {boolean} live */
+/** Who called a service lately, and which services a node called. @param {Fact} fact @param {Activity} activity @param {boolean} live */
+function asked(fact, activity, live) {
+  if (fact.kind === "service" && activity.callers) return callers(activity.callers[fact.key], live);
+  if (fact.kind !== "node") return [];
+  return Object.entries(activity.callers ?? {}).flatMap(([service, told]) => told.filter((each) => each.node === fact.name)
+    .map((each) => pair("called", service.slice("service ".length), ` ${calls(each, live)}`)));
+}
+
+/** @param {Caller[] | undefined} told @param {boolean} live */
 function callers(told, live) {
-  if (!told) return [pair("called by", "its server does not tell who calls")];
-  if (!told.length) return [pair("called by", "nobody yet")];
-  return told.map((each) => pair("called by", `${each.node}${each.gone ? ", which is gone," : ""} ${calls(each, live)}`));
+  if (!told) return [pair("called by", "", "somebody or nobody: its server does not tell who calls")];
+  if (!told.length) return [pair("called by", "", "nobody yet")];
+  return told.map((each) => pair("called by", each.node, `${each.gone ? " (gone)" : ""} ${calls(each, live)}`));
 }
 
 /** @param {Caller} caller @param {boolean} live */
