@@ -7,6 +7,7 @@ few of its methods are replaced; a rospy that is built differently is left alone
 
 from __future__ import annotations
 
+import time
 from contextlib import suppress
 from types import TracebackType
 from typing import Any
@@ -16,9 +17,9 @@ from rospy.impl import tcpros_service
 from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_service import ServiceImpl, ServiceProxy
 
-from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, MASTER, REQUEST, RESPONSE, WAIT
+from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, REQUEST, RESPONSE, WAIT
 from course_pkg.graph.taps import Method, Tap, Transport, connection_name
-from course_pkg.graph.trace import Mark, Wire, recorder
+from course_pkg.graph.trace import Mark, recorder
 
 BLIND = "service calls: this rospy makes and answers them otherwise"
 NO_ANSWER = "ended without an answer"
@@ -48,30 +49,7 @@ def service_transport(protocol: Any, name: str) -> TCPROSTransport:  # noqa: ANN
 
 
 class RecordedCall:
-    """A call that is made on this thread: the block whose parts are recorded as belonging together."""
-
-    __slots__ = ("number", "service", "settled")
-
-    def __init__(self, service: str) -> None:
-        self.service = service
-        self.number = next(recorder().numbers)
-        self.settled = False  # whether it is on record how it ended
-
-    def __enter__(self) -> RecordedCall:
-        recorder().here.call = self
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        recorder().here.call = None
-        if error is not None and not self.settled:
-            words = f"{type(error).__name__}: {error}"
-            recorder().moment(ERROR, self.service, call=self.number, note=words)
-
-
-class RecordedLookup:
-    """The block in which the master is asked for the address of a service."""
+    """The block in which this thread makes a call."""
 
     __slots__ = ("_mark", "_service")
 
@@ -79,12 +57,34 @@ class RecordedLookup:
         self._service = service
 
     def __enter__(self) -> None:
-        self._mark = recorder().begin(LOOKUP, self._service, peer=MASTER, call=_number())
+        self._mark = recorder().begin_call(self._service)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if error is not None and not self._mark.settled:
+            self._mark.settle(ERROR, f"{type(error).__name__}: {error}", answered=False)
+        recorder().here.call = None
         recorder().end(self._mark)
+
+
+class RecordedPart:
+    """The block in which this thread does one part of the call that it makes."""
+
+    __slots__ = ("_kind", "_part")
+
+    def __init__(self, kind: str) -> None:
+        self._kind = kind
+
+    def __enter__(self) -> None:
+        call = recorder().here.call
+        self._part = None if call is None else call.begin(self._kind)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._part is not None:
+            self._part[2] = time.monotonic()
 
 
 class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
@@ -105,45 +105,34 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
         """Connect and exchange headers, at the client."""
-        mark = recorder().begin(CONNECT, self.name, call=_number())
-        try:
+        with RecordedPart(CONNECT):
             super().connect(dest_addr, dest_port, endpoint_id, timeout)
-            self.connection = connection_name(self.local_endpoint, dest_port)
-            mark.peer = self.callerid_pub
-        finally:
-            recorder().end(mark)
+        self.connection = connection_name(self.local_endpoint, dest_port)
 
     def send_message(self, msg: Any, seq: int) -> None:  # noqa: ANN401
         """Send a request at the client, or a response at the server."""
-        if self.serving:
+        call = None if self.serving else recorder().here.call
+        if call is None:
             super().send_message(msg, seq)
             return
         self.exchanges += 1
-        mark = recorder().begin(
-            REQUEST, self.name, peer=self.callerid_pub, call=_number(), wires=self.wires()
-        )
-        try:
+        call.peer = self.callerid_pub
+        call.wire = (self.connection, self.exchanges, self.callerid_pub)
+        with RecordedPart(REQUEST):
             super().send_message(msg, seq)
-        finally:
-            recorder().end(mark)
 
     def receive_once(self) -> Any:  # noqa: ANN401
         """Wait for a request at the server, or for a response at the client."""
-        if self.serving:
+        call = None if self.serving else recorder().here.call
+        if call is None:
             return super().receive_once()
-        wires, peer = self.wires(), self.callerid_pub  # neither is there when the transport has been closed
-        mark = recorder().begin(WAIT, self.name, peer=peer, call=_number(), wires=wires)
         try:
-            responses = super().receive_once()
+            with RecordedPart(WAIT):
+                responses = super().receive_once()
         except rospy.ServiceException as error:  # the server answered, in words
-            recorder().end(mark)
-            _settle(ERROR, mark, str(error))
+            call.settle(ERROR, str(error))
             raise
-        except BaseException:
-            recorder().end(mark)
-            raise
-        recorder().end(mark)
-        _settle(RESPONSE, mark)
+        call.settle(RESPONSE)
         return responses
 
     def write_data(self, data: bytes) -> Any:  # noqa: ANN401
@@ -151,10 +140,6 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
         if self.handled is not None:
             recorder().end(self.handled, _refusal(data))
         return super().write_data(data)
-
-    def wires(self) -> list[Wire]:
-        """Return how the exchange under way is known on both ends."""
-        return [(self.connection, self.exchanges, self.callerid_pub)] if self.connection else []
 
 
 def _calling(bare: Method) -> Method:
@@ -167,7 +152,7 @@ def _calling(bare: Method) -> Method:
 
 def _looking_up(bare: Method) -> Method:
     def _get_service_uri(self: ServiceProxy, request: Any) -> Any:  # noqa: ANN401
-        with RecordedLookup(self.resolved_name):
+        with RecordedPart(LOOKUP):
             return bare(self, request)
 
     return _get_service_uri
@@ -181,7 +166,8 @@ def _handling(bare: Method) -> Method:
         transport.exchanges += 1
         caller = str(transport.endpoint_id)
         recorder().tally.begun(self.resolved_name, caller)
-        mark = recorder().begin(HANDLER, self.resolved_name, peer=caller, wires=transport.wires())
+        wires = [(transport.connection, transport.exchanges, caller)] if transport.connection else []
+        mark = recorder().begin(HANDLER, self.resolved_name, caller, wires)
         transport.handled = mark
         try:
             bare(self, transport, request)
@@ -196,20 +182,6 @@ def _handling(bare: Method) -> Method:
 def _fits(transport: Any) -> bool:  # noqa: ANN401
     """Say whether rospy's own transport is what the recorded one stands on."""
     return isinstance(transport, type) and issubclass(transport, Transport)
-
-
-def _settle(kind: str, waited: Mark, note: str = "") -> None:
-    """Take down that the server has answered the call of this thread."""
-    recorder().moment(kind, waited.name, peer=waited.peer, call=waited.call, wires=waited.wires, note=note)
-    call = recorder().here.call
-    if call is not None:
-        call.settled = True
-
-
-def _number() -> int:
-    """Return the number of the call that this thread makes, or 0."""
-    call = recorder().here.call
-    return 0 if call is None else int(call.number)
 
 
 def _refusal(data: bytes) -> str:

@@ -144,7 +144,7 @@ def _publishing(bare: Method) -> Method:
     def publish(self: _PublisherImpl, message: Any, connection_override: Any = None) -> Any:  # noqa: ANN401
         if self.resolved_name == LEFT_OUT:
             return bare(self, message, connection_override)
-        mark = recorder().begin(PUBLISH, self.resolved_name)
+        mark = recorder().begin(PUBLISH, self.resolved_name, "", [])
         mark.asked = len(self.connections) if connection_override is None else 1
         if type(self.buff) is BytesIO:
             self.buff = StampingBuffer()
@@ -187,7 +187,7 @@ def _calling_back(bare: Method) -> Method:
         batch = recorder().here.batch  # None for a latched message that a later callback gets
         wires = batch.wires(msg) if batch is not None else []
         peer = wires[0][2] if wires else ""
-        mark = recorder().begin(CALLBACK, self.resolved_name, peer=peer, wires=wires)
+        mark = recorder().begin(CALLBACK, self.resolved_name, peer, wires)
         try:
             bare(self, msg, cb, cb_args)
         finally:

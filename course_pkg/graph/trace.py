@@ -16,56 +16,132 @@ from functools import cache
 from itertools import count
 from typing import Any
 
+from course_pkg.graph.events import ERROR, LOOKUP, MASTER, REQUEST, RESPONSE, WAIT
 from course_pkg.graph.tally import Tally
 
 SIZE = 20_000  # marks; some 6 MB when full
 LEFT = 50  # records of nodes that have ended
 LONGEST = 300  # characters of what is kept of an error's words
 
+EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that go over the connection
+
 Wire = tuple[str, int, str]  # a connection, the number of the message on it, and who is at its other end
+Thread = tuple[str, int]  # its name, and its number while it lives
 
 
 class Mark:
-    """One thing that happened: `end` is None while it lasts, and `call` ties the parts of one call.
+    """One thing that happened: `end` is None while it lasts.
 
     `wires` says where it went over the network or came from, `asked` over how many connections it was to go.
     """
 
-    __slots__ = ("asked", "call", "end", "kind", "name", "note", "peer", "start", "thread", "wires")
+    __slots__ = ("asked", "end", "kind", "name", "note", "peer", "start", "thread", "wires")
 
-    def __init__(self, kind: str, name: str, peer: str, call: int, wires: list[Wire]) -> None:
+    def __init__(self, kind: str, name: str, peer: str, wires: list[Wire], thread: Thread) -> None:
         self.kind = kind
         self.name = name
         self.peer = peer
-        self.call = call
         self.wires = wires
+        self.thread = thread
         self.asked = 0
         self.note = ""
-        self.thread = threading.current_thread()
         self.end: float | None = None
         self.start = time.monotonic()
 
-    def as_dict(self) -> dict[str, Any]:
+    def told(self) -> list[dict[str, Any]]:
         """Return it as plain data, fit for JSON."""
+        return [
+            {
+                "kind": self.kind,
+                "name": self.name,
+                "start": self.start,
+                "end": self.end,
+                "peer": self.peer,
+                "call": 0,
+                "wires": list(self.wires),
+                "asked": self.asked,
+                "note": self.note,
+                "thread": list(self.thread),
+            }
+        ]
+
+
+class CallMark:
+    """A call with all its parts, each [kind, start, end or None]; one mark, since calls have to stay quick.
+
+    `settled` is how it ended, RESPONSE or ERROR, and `wire` is where its request went.
+    """
+
+    __slots__ = (
+        "answered",
+        "end",
+        "name",
+        "note",
+        "number",
+        "parts",
+        "peer",
+        "settled",
+        "start",
+        "thread",
+        "wire",
+    )
+
+    def __init__(self, name: str, number: int, thread: Thread) -> None:
+        self.name = name
+        self.number = number
+        self.thread = thread
+        self.parts: list[list[Any]] = []
+        self.peer = ""
+        self.note = ""
+        self.settled = ""
+        self.answered = False
+        self.wire: Wire | None = None
+        self.end: float | None = None
+        self.start = time.monotonic()
+
+    def begin(self, kind: str) -> list[Any]:
+        """Take down that a part begins, and return it; set its third place when it is over."""
+        part = [kind, time.monotonic(), None]
+        self.parts.append(part)
+        return part
+
+    def settle(self, kind: str, note: str = "", *, answered: bool = True) -> None:
+        """Take down how the call ended, and when; an error may be the server's answer or not."""
+        now = time.monotonic()
+        self.parts.append([kind, now, now])
+        self.settled = kind
+        self.answered = answered
+        self.note = note[:LONGEST]
+
+    def told(self) -> list[dict[str, Any]]:
+        """Return its parts as plain data, fit for JSON."""
+        return [self._told(*part) for part in list(self.parts)]
+
+    def _told(self, kind: str, start: float, end: float | None) -> dict[str, Any]:
+        unanswered = kind == ERROR and not self.answered
         return {
-            "kind": self.kind,
+            "kind": kind,
             "name": self.name,
-            "start": self.start,
-            "end": self.end,
-            "peer": self.peer,
-            "call": self.call,
-            "wires": list(self.wires),
-            "asked": self.asked,
-            "note": self.note,
-            "thread": [self.thread.name, self.thread.ident or 0],
+            "start": start,
+            "end": end,
+            "peer": MASTER if kind == LOOKUP else "" if unanswered else self.peer,
+            "call": self.number,
+            "wires": [self.wire] if self.wire is not None and kind in EXCHANGED else [],
+            "asked": 0,
+            "note": self.note if kind == self.settled else "",
+            "thread": list(self.thread),
         }
 
 
 class _Here(threading.local):
     """What a thread is at: the call that it makes, the messages that it hands to callbacks."""
 
-    call: Any = None
+    call: CallMark | None = None
     batch: Any = None
+
+    def __init__(self) -> None:
+        thread = threading.current_thread()  # which is not kept itself: a server has one for each call
+        self.thread: Thread = (thread.name, thread.ident or 0)
 
 
 class Recorder:
@@ -81,18 +157,23 @@ class Recorder:
         self.recordings = 0  # that are being made in this process
         self.left: deque[tuple[str, dict[str, Any]]] = deque(maxlen=LEFT)  # by nodes that ended meanwhile
         self.numbers = count(1)
-        self._over: deque[Mark] = deque(maxlen=size)
-        self._lasting: set[Mark] = set()
+        self._over: deque[Mark | CallMark] = deque(maxlen=size)
+        self._lasting: set[Mark | CallMark] = set()
 
-    def begin(
-        self, kind: str, name: str, *, peer: str = "", call: int = 0, wires: list[Wire] | None = None
-    ) -> Mark:
+    def begin(self, kind: str, name: str, peer: str, wires: list[Wire]) -> Mark:
         """Take down that something begins."""
-        mark = Mark(kind, name, peer, call, [] if wires is None else wires)
+        mark = Mark(kind, name, peer, wires, self.here.thread)
         self._lasting.add(mark)
         return mark
 
-    def end(self, mark: Mark, note: str = "") -> None:
+    def begin_call(self, name: str) -> CallMark:
+        """Take down that this thread begins a call."""
+        call = CallMark(name, next(self.numbers), self.here.thread)
+        self._lasting.add(call)
+        self.here.call = call
+        return call
+
+    def end(self, mark: Mark | CallMark, note: str = "") -> None:
         """Take down that it is over; a second end changes nothing."""
         if mark.end is None:
             mark.end = time.monotonic()
@@ -101,22 +182,6 @@ class Recorder:
             self._over.append(mark)  # first: whoever looks meanwhile finds it in both, and not in neither
             self._lasting.discard(mark)
 
-    def moment(
-        self,
-        kind: str,
-        name: str,
-        *,
-        peer: str = "",
-        call: int = 0,
-        wires: list[Wire] | None = None,
-        note: str = "",
-    ) -> None:
-        """Take down something that has no length."""
-        mark = Mark(kind, name, peer, call, [] if wires is None else wires)
-        mark.end = mark.start
-        mark.note = note[:LONGEST]
-        self._over.append(mark)
-
     def since(self, start: float) -> dict[str, Any]:
         """Return what was going on at `start` (of time.monotonic()) or later, as plain data.
 
@@ -124,13 +189,13 @@ class Recorder:
         out of the ring.
         """
         marks = {id(mark): mark for mark in (*self._lasting.copy(), *self._over.copy())}
-        shown = [mark.as_dict() for mark in marks.values() if mark.end is None or mark.end >= start]
+        late = [mark for mark in marks.values() if mark.end is None or mark.end >= start]
         return {
             "clock": time.monotonic(),
             "process": os.getpid(),
             "complete_from": self._complete_from(),
             "blind": sorted(self.blind),
-            "marks": shown,
+            "marks": [told for mark in late for told in mark.told()],
         }
 
     def _complete_from(self) -> float:
