@@ -13,7 +13,16 @@ if TYPE_CHECKING:
     from course_pkg.building import my_workspace
     from course_pkg.examiner import check, results
     from course_pkg.graph import join
-    from course_pkg.panels import GraphPanel, Plot, ServicePanel, choose, predict, predictions, show_image
+    from course_pkg.panels import (
+        GraphPanel,
+        Plot,
+        ServicePanel,
+        TopicPanel,
+        choose,
+        predict,
+        predictions,
+        show_image,
+    )
 
 # catkin generates `course_pkg.srv` into another folder; without this, the checkout hides it.
 __path__ = extend_path(__path__, __name__)
@@ -22,6 +31,7 @@ __all__ = [
     "GraphPanel",
     "Plot",
     "ServicePanel",
+    "TopicPanel",
     "check",
     "choose",
     "join",
@@ -38,7 +48,7 @@ __getattr__ = lazily(
         "building": "my_workspace",
         "examiner": "check results",
         "graph": "join",
-        "panels": "GraphPanel Plot ServicePanel choose predict predictions show_image",
+        "panels": "GraphPanel Plot ServicePanel TopicPanel choose predict predictions show_image",
     },
 )
 

@@ -33,6 +33,7 @@ CourseError
 │   ├── PredictionsBroken: the file of predictions cannot be read
 │   ├── NotASeries: what a plot was given cannot be drawn
 │   ├── NotAChoice: a case expects what is no option, or stands there twice
+│   ├── NotATopic: this cannot be the name of a topic
 │   └── NotAnImage: what should be shown is no picture, or not one that can be shown
 └── (each subpackage adds its branch below, and to this picture)
 
@@ -236,6 +237,10 @@ class NotASeries(PanelError):
 
 class NotAChoice(PanelError):
     """A case of choose() expects what is no option, or stands there twice."""
+
+
+class NotATopic(PanelError):
+    """This cannot be the name of a topic."""
 
 
 class NotAnImage(PanelError, TypeError):

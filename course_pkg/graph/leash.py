@@ -25,7 +25,7 @@ class Leash:
 
     `command` may be empty: then there is nothing to hold, and only the last will is carried out when this
     process is gone. The last will: `remove`, a folder to delete; `forget`, a (master's URI, node's name,
-    node's URI) whose registrations to withdraw.
+    node's URI) whose registrations to withdraw. `inherit` are descriptors that the command gets.
     """
 
     def __init__(
@@ -36,6 +36,7 @@ class Leash:
         env: Mapping[str, str] | None = None,
         remove: Path | None = None,
         forget: tuple[str, str, str] | None = None,
+        inherit: Sequence[int] = (),
     ) -> None:
         self._owner = os.getpid()
         reader, writer = os.pipe()
@@ -46,7 +47,7 @@ class Leash:
                 stdout=output,
                 stderr=output,
                 env=env,
-                pass_fds=[writer],
+                pass_fds=[writer, *inherit],
                 start_new_session=True,  # an interrupt of the kernel goes to its process group
             )
         finally:

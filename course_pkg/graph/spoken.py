@@ -47,6 +47,11 @@ class Spoken:
             self.unheard += alone
 
     @property
+    def advertised(self) -> bool:
+        """Whether it can publish."""
+        return self._publisher is not None
+
+    @property
     def deliveries(self) -> tuple[Delivery, ...]:
         """What was sent to each subscriber that is connected, what waits, and what was dropped."""
         return self._deliveries[-1].of_now()

@@ -15,11 +15,13 @@ if TYPE_CHECKING:
     from course_pkg.panels.plot.view import Plot
     from course_pkg.panels.prediction.view import predict, predictions
     from course_pkg.panels.service.view import ServicePanel
+    from course_pkg.panels.topic.view import TopicPanel
 
 __all__ = [
     "GraphPanel",
     "Plot",
     "ServicePanel",
+    "TopicPanel",
     "choose",
     "graph_text",
     "predict",
@@ -37,5 +39,6 @@ __getattr__ = lazily(
         "plot.view": "Plot",
         "prediction.view": "predict predictions",
         "service.view": "ServicePanel",
+        "topic.view": "TopicPanel",
     },
 )

@@ -13,7 +13,7 @@ const HEIGHT = 264; // px
 const TOP = 28; // room for the name of the upward axis
 const BOTTOM = 44; // and below for marks and the name of the other
 const LETTER = 6.8; // px, about the width of a digit of 12 px
-const FEW = 40; // points up to which a line has markers
+const APART = 8; // px between points on average, from which a line has markers
 const CROWD = 300; // dots beyond which their edges would hide one another
 
 export class Chart {
@@ -33,9 +33,18 @@ export class Chart {
 
   /** @param {Drawing} data */
   show(data) {
+    this.#follow(data.series);
     this.data = data;
     this.#drawLegend();
     this.#draw();
+  }
+
+  /** Stay at the same moment when other points come in. @param {Series[]} series */
+  #follow(series) {
+    const before = this.at && this.data?.series[this.at.series]?.points[this.at.index];
+    if (!this.at || !before) return;
+    const xs = (series[this.at.series]?.points ?? []).map(([x]) => Math.abs(x - before[0]));
+    this.at = xs.length ? { ...this.at, index: xs.indexOf(Math.min(...xs)) } : null;
   }
 
   #drawLegend() {
@@ -75,7 +84,8 @@ export class Chart {
     const places = points.map((point) => this.toPage(point));
     if (kind === "dots") return [markers(places, index, places.length > CROWD)];
     const line = s("polyline", { class: `${name} ros-series-line`, "stroke-dasharray": dash, points: places.map((each) => each.join(",")).join(" ") });
-    return places.length <= FEW ? [line, markers(places, index)] : [line];
+    const room = places.length ? Math.abs(places[places.length - 1][0] - places[0][0]) : 0;
+    return room >= APART * (places.length - 1) ? [line, markers(places, index)] : [line];
   }
 
   #drawEmpty() {

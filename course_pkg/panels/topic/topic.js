@@ -1,0 +1,309 @@
+/* The topic panel: who is there, publish, hear, draw. All that it shows comes from the model's traits. */
+import { FieldsForm } from "../forms/fields.js";
+import { command, valueTable } from "../forms/parts.js";
+import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
+import { Chart } from "../plot/chart.js";
+
+const SETTLE = 120; // ms without a keystroke before what is typed is sent
+const AGEING = 250; // ms between two looks at the clock
+const SPAN = 20; // s that a curve shows
+
+/** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
+function render({ model, el }) {
+  const ending = new AbortController();
+  const view = new TopicView(model, ending.signal);
+  el.append(view.el);
+  return () => ending.abort();
+}
+
+class TopicView {
+  /** @param {import("../kit.js").Model} model @param {AbortSignal} signal */
+  constructor(model, signal) {
+    this.model = model;
+    this.live = true;
+    this.refused = model.get("check").refused ?? 0;
+    /** @type {Map<number, number>} when each message came, by the page's clock (ms) */
+    this.came = new Map();
+    this.fields = new FieldsForm(() => this.#edited(), "This message has no fields: that it comes is all it says.");
+    this.chart = new Chart();
+    this.#build();
+    const draw = { about: this.#drawAbout, trouble: this.#drawBanner, notice: this.#drawBanner, draft: () => this.fields.fill(model.get("draft")),
+      settings: this.#drawSettings, check: this.#drawCheck, around: this.#drawAround, spoken: this.#drawSpoken, heard: this.#drawHeard,
+      echo: this.#drawEcho, latest: this.#drawLatest, curve: this.#drawCurve };
+    for (const [trait, part] of Object.entries(draw)) {
+      model.on(`change:${trait}`, () => part.call(this));
+      if (trait !== "draft") part.call(this);
+    }
+    const ageing = setInterval(() => this.#age(), AGEING);
+    signal.addEventListener("abort", () => { clearTimeout(this.settling); clearInterval(ageing); this.chart.end(); });
+    kernelLink(model, signal, (live) => this.#kernel(live));
+  }
+
+  #build() {
+    this.banner = h("div", { class: "ros-banner", role: "status", hidden: true });
+    this.about = h("p", { class: "ros-about ros-muted" });
+    this.who = h("div", { class: "ros-who" });
+    this.warnings = h("ul", { class: "ros-warnings", role: "status", hidden: true });
+    this.problem = h("p", { class: "ros-empty", role: "status", hidden: true });
+    this.body = h("div", { class: "ros-body" }, this.#publishing(), this.#hearing());
+    this.el = h("section", { class: "ros-panel ros-topic-panel", "aria-label": "Topic panel", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#key(event) },
+      this.banner, h("div", { class: "ros-head" }, h("h3", {}, "Topic ", h("code", { text: this.model.get("about").topic })), this.about, this.who),
+      this.warnings, this.problem, this.body, this.#drawing(), this.#byHand());
+  }
+
+  #publishing() {
+    this.rate = setting("Rate", "Hz", "decimal", () => this.#edited());
+    this.queue = setting("Queue size", "messages", "numeric", () => this.#edited());
+    const id = freshId("ros-latch");
+    this.latch = /** @type {HTMLInputElement} */ (h("input", { id, type: "checkbox", onchange: () => this.#edited() }));
+    this.once = h("button", { type: "submit", class: "ros-main", text: "Publish" });
+    this.often = h("button", { type: "button", text: "Publish at a rate", onclick: () => this.#repeat() });
+    this.burst = h("button", { type: "button", onclick: () => this.#act("burst") });
+    this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Withdraw the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
+    this.wrong = h("p", { class: "ros-note ros-wrong" });
+    this.words = h("p", { class: "ros-words", role: "status", "aria-live": "polite" });
+    this.counts = h("div", { class: "ros-counts" });
+    return h("form", { novalidate: true, class: "ros-publishing", "aria-label": "Publish", onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault();
+      this.#act("publish");
+    } }, h("h4", { text: "Publish" }), this.fields.el,
+    h("div", { class: "ros-settings" }, this.rate.el, this.queue.el, h("label", { class: "ros-latch", for: id }, this.latch, "Latch: keep the last message for who comes later")),
+    h("div", { class: "ros-actions" }, this.once, this.often, this.burst, this.wrong), this.words, this.counts, this.withdraw);
+  }
+
+  #hearing() {
+    this.figures = h("p", { class: "ros-figures" });
+    this.agedText = h("span", { class: "ros-muted" });
+    this.latest = h("div", { class: "ros-latest" });
+    this.echo = h("ol", { class: "ros-echo", "aria-label": "The last messages" });
+    return h("section", { class: "ros-hearing", "aria-label": "Heard" }, h("div", { class: "ros-heading" }, h("h4", { text: "Heard" }), this.agedText),
+      this.figures, this.latest, this.echo);
+  }
+
+  #drawing() {
+    const id = freshId("ros-path");
+    this.path = /** @type {HTMLSelectElement} */ (h("select", { id, onchange: () => this.#edited() }));
+    this.left = h("span", { class: "ros-muted" });
+    this.plot = h("section", { class: "ros-drawing", "aria-label": "Plot" },
+      h("div", { class: "ros-heading" }, h("label", { for: id, text: "Draw" }), this.path, this.left), this.chart.el);
+    return this.plot;
+  }
+
+  #byHand() {
+    const pre = (/** @type {string} */ label) => h("pre", { tabindex: "0", "aria-label": label });
+    [this.onceLine, this.oftenLine, this.python] = [pre("Command that publishes once"), pre("Command that publishes at a rate"), pre("Python lines")];
+    this.stale = h("span", { class: "ros-muted" });
+    this.listening = (this.model.get("about").listen ?? []).map((/** @type {string} */ line) => {
+      const shown = pre(line.split(" ").slice(0, 2).join(" "));
+      say(shown, line);
+      return command(line.split(" ")[1], shown, "the command");
+    });
+    this.publishLines = h("div", {}, command("once", this.onceLine, "the command"), command("at a rate", this.oftenLine, "the command"), command("Python", this.python, "the Python lines"));
+    return h("details", { class: "ros-commands" }, h("summary", { text: "The same by hand" }), this.stale, this.publishLines, ...this.listening);
+  }
+
+  #drawAbout() {
+    const { message, numbers = [], problem, burst } = this.model.get("about");
+    setAttribute(this.problem, "hidden", Boolean(message));
+    say(this.problem, problem ?? "");
+    for (const part of [this.body, this.publishLines]) setAttribute(part, "hidden", !message);
+    setAttribute(this.plot, "hidden", !numbers.length);
+    say(this.burst, `${burst} at once`);
+    if (!message || same([message.name, message.md5], this.shown)) return;
+    this.shown = [message.name, message.md5];
+    this.about.replaceChildren(h("code", { text: message.name }), h("span", { text: ` MD5 ${message.md5.slice(0, 8)}…`, title: message.md5 }));
+    this.fields.show(message.fields, message.constants, this.model.get("draft"));
+    this.path.replaceChildren(...numbers.map((/** @type {string} */ path) => h("option", { value: path, text: path })));
+    this.#drawSettings();
+  }
+
+  #drawSettings() {
+    const { rate = "", queue = "", latch = false, path = "" } = this.model.get("settings");
+    for (const [control, text] of [[this.rate.input, rate], [this.queue.input, queue]]) if (control.value !== text) control.value = text;
+    this.latch.checked = latch;
+    this.path.value = path;
+  }
+
+  #drawCheck() {
+    const { errors = {}, refused = 0, once, often, python } = this.model.get("check");
+    const anew = refused > this.refused;
+    this.refused = Math.max(refused, this.refused);
+    this.fields.mark(errors, refused > 0);
+    for (const [control, name] of [[this.rate.input, "@rate"], [this.queue.input, "@queue"]])
+      setAttribute(control, "aria-invalid", errors[name] ? "true" : null);
+    say(this.wrong, [errors["@rate"], errors["@queue"]].filter(Boolean).join(" "));
+    if (once !== undefined) [[this.onceLine, once], [this.oftenLine, often], [this.python, python]].forEach(([pre, line]) => say(pre, line));
+    say(this.stale, Object.keys(errors).length ? "of the last message without a mistake" : "");
+    if (anew) this.#refuse(errors);
+  }
+
+  /** @param {Record<string, string>} errors */
+  #refuse(errors) {
+    const count = Object.keys(errors).length;
+    say(this.words, `Not published: ${count === 1 ? "one field needs" : `${count} fields need`} a correction.`);
+    const settings = [this.rate.input, this.queue.input].find((input) => input.ariaInvalid);
+    if (settings && !this.fields.el.querySelector("[aria-invalid]")) settings.focus();
+    else this.fields.focus();
+  }
+
+  #drawAround() {
+    const { publishers = [], subscribers = [], own = "", warnings = [] } = this.model.get("around");
+    const said = [names(publishers, own, "nobody"), names(subscribers, own, "nobody")];
+    if (!same(said, this.saidWho)) {
+      this.saidWho = said;
+      this.who.replaceChildren(...["Published by", "Subscribed by"].flatMap((label, index) => [h("span", { class: "ros-muted", text: label }), h("span", { text: said[index] })]));
+    }
+    setAttribute(this.warnings, "hidden", !warnings.length);
+    if (same(warnings, this.warned)) return;
+    this.warned = warnings;
+    this.warnings.replaceChildren(...warnings.map((/** @type {string} */ text) => h("li", { text })));
+  }
+
+  #drawSpoken() {
+    const spoken = this.model.get("spoken");
+    say(this.words, spoken.problem || spoken.words || "Nothing is published yet. The first message makes the publisher.");
+    this.words.classList.toggle("ros-failed", Boolean(spoken.problem));
+    say(this.often, spoken.rate ? "Stop" : "Publish at a rate");
+    setAttribute(this.withdraw, "hidden", !spoken.advertised);
+    const facts = [spoken.published, spoken.unheard, spoken.sent, spoken.dropped, spoken.deliveries];
+    if (same(facts, this.counted)) return;
+    this.counted = facts;
+    this.counts.replaceChildren(...(spoken.published ? [figures(spoken), deliveries(spoken)] : []));
+  }
+
+  #drawHeard() {
+    const { count = 0, pace = {} } = this.model.get("heard");
+    const regular = pace.rate ? ` at ${number(pace.rate)} Hz, with a jitter of ${number(1000 * pace.jitter)} ms` : "";
+    say(this.figures, count ? `${count.toLocaleString("en")} ${count === 1 ? "message" : "messages"}${regular}.` : this.live ? "Nothing heard yet." : "Nothing was heard.");
+    this.figures.title = pace.gaps ? `over the last ${pace.gaps + 1} messages; the longest gap was ${number(1000 * pace.longest)} ms` : "";
+  }
+
+  #drawEcho() {
+    /** @type {{number: number, ago: number, peer: string, line: string, understood: boolean}[]} */
+    const entries = this.model.get("echo");
+    const now = performance.now();
+    this.came = new Map(entries.map(({ number: each, ago }) => [each, this.came.get(each) ?? now - 1000 * ago]));
+    this.lines = entries.map((entry) => ({ entry, age: h("span", { class: "ros-muted ros-age" }) }));
+    this.echo.replaceChildren(...this.lines.map(({ entry, age }) => h("li", { class: entry.understood ? "" : "ros-strange", title: `from ${entry.peer}` },
+      h("span", { class: "ros-muted", text: `#${entry.number}` }), h("code", { text: entry.line }), age)));
+    this.#age();
+  }
+
+  #age() {
+    const now = performance.now();
+    const age = (/** @type {number} */ each) => (now - (this.came.get(each) ?? now)) / 1000;
+    const [first] = this.lines ?? [];
+    say(this.agedText, first && this.live ? `the latest ${seconds(age(first.entry.number))} ago` : "");
+    for (const line of this.lines ?? []) say(line.age, this.live ? seconds(age(line.entry.number)) : "");
+  }
+
+  #drawLatest() {
+    const rows = this.model.get("latest");
+    // One field alone stands in the list already.
+    this.latest.replaceChildren(...(rows.length > 1 ? [valueTable(rows, "")] : []));
+  }
+
+  #drawCurve() {
+    const { points = [], count = 0, left_out: left = 0 } = JSON.parse(this.model.get("curve") || "{}");
+    const last = points.at(-1)?.[0] ?? SPAN;
+    say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or not there` : "");
+    this.chart.show({ kind: "line", log: false, x: "time since the panel listens (s)", y: this.path.value, title: "", empty: "Nothing heard yet.",
+      series: [{ label: "", points, count }], window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
+  }
+
+  #drawBanner() {
+    const [notice, trouble] = [this.model.get("notice"), this.model.get("trouble")];
+    const text = notice ? `The panel itself failed: ${notice}` : !this.live ? "No kernel answers: this is what the panel saw last. Run the notebook to publish and to hear." : trouble;
+    say(this.banner, text);
+    this.banner.classList.toggle("ros-bad", Boolean(notice || (this.live && trouble)));
+    setAttribute(this.banner, "hidden", !text);
+  }
+
+  /** @param {boolean} live */
+  #kernel(live) {
+    this.live = live;
+    this.#drawBanner();
+    this.#drawHeard();
+    this.#age();
+    for (const button of [this.once, this.often, this.burst, this.withdraw]) setAttribute(button, "aria-disabled", live ? null : "true");
+  }
+
+  #edited() {
+    clearTimeout(this.settling);
+    this.settling = setTimeout(() => this.#save(), SETTLE);
+  }
+
+  #save() {
+    clearTimeout(this.settling);
+    this.model.set("draft", structuredClone(this.fields.draft));
+    this.model.set("settings", this.#settings());
+    this.model.save_changes();
+  }
+
+  #settings() {
+    return { rate: this.rate.input.value, queue: this.queue.input.value, latch: this.latch.checked, path: this.path.value };
+  }
+
+  /** @param {string} action */
+  #act(action) {
+    clearTimeout(this.settling);
+    this.#send({ kind: "act", action, draft: this.fields.draft, settings: this.#settings() });
+  }
+
+  #repeat() {
+    if (this.model.get("spoken").rate) this.#send({ kind: "stop" });
+    else this.#act("repeat");
+  }
+
+  /** @param {object} content */
+  #send(content) {
+    if (this.live) send(this.model, content);
+  }
+
+  /** JupyterLab keeps the browser from submitting a form by Enter. @param {KeyboardEvent} event */
+  #key(event) {
+    if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
+    event.preventDefault();
+    this.#act("publish");
+  }
+}
+
+/** @param {string} label @param {string} unit @param {string} mode @param {() => void} edited */
+function setting(label, unit, mode, edited) {
+  const id = freshId("ros-setting");
+  const input = /** @type {HTMLInputElement} */ (h("input", { id, type: "text", class: "ros-text", inputmode: mode, autocomplete: "off", oninput: edited }));
+  return { input, el: h("span", { class: "ros-setting" }, h("label", { for: id, text: label }), input, h("span", { class: "ros-muted", text: unit })) };
+}
+
+/** @param {{node: string, type: string}[]} nodes @param {string} own @param {string} nobody */
+function names(nodes, own, nobody) {
+  const shown = nodes.map(({ node, type }) => (node === own ? `this panel, as ${own}` : type ? node : `${node} (does not answer)`));
+  return shown.length ? shown.join(", ") : nobody;
+}
+
+/** @param {any} spoken */
+function figures({ published, unheard, sent, dropped }) {
+  const facts = { Published: published, "To nobody": unheard, Sent: sent, Dropped: dropped };
+  return h("div", { class: "ros-facts" }, ...Object.entries(facts).map(([label, count]) => h("p", {}, h("span", { class: "ros-muted", text: label }), h("b", { text: count.toLocaleString("en") }))));
+}
+
+/** @param {any} spoken */
+function deliveries({ deliveries: rows, own, queue }) {
+  if (!rows.length) return "";
+  const head = ["Subscriber", "sent", "waiting", "dropped"].map((text) => h("th", { scope: "col", text }));
+  return h("div", { class: "ros-scroll" }, h("table", { class: "ros-deliveries" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows.map((/** @type {any} */ each) => h("tr", {},
+    h("th", { scope: "row", text: each.peer === own ? "this panel" : each.peer }), ...["sent", "waiting", "dropped"].map((part) => h("td", { text: each[part].toLocaleString("en") })))))),
+  h("p", { class: "ros-muted", text: `Sent means written to the connection. Where more than ${queue || "any number of"} wait, the oldest is dropped.` }));
+}
+
+/** @param {number} value */
+function number(value) {
+  return value >= 100 ? value.toFixed(0) : value >= 1 ? value.toFixed(1) : value.toFixed(2);
+}
+
+/** @param {number} age */
+function seconds(age) {
+  return age < 10 ? `${age.toFixed(1)} s` : age < 120 ? `${age.toFixed(0)} s` : `${(age / 60).toFixed(0)} min`;
+}
+
+export default { render };

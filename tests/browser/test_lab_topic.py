@@ -1,0 +1,146 @@
+"""The topic panel in a real JupyterLab: publish, hear, draw, and say what becomes of messages."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.jupyter import Lab, panel, picture, running_lab, running_notebook
+
+JOIN = """
+from course_pkg import TopicPanel, join
+import rospy
+from std_msgs.msg import Float64, String
+
+node = join("topic_test")
+"""
+PANEL = 'TopicPanel("/speed", "std_msgs/Float64")'
+
+# A function of the page: what in an element has too little contrast.
+FAINT = Path(__file__).with_name("contrast.js").read_text()
+
+
+def listening(page: Page) -> Locator:
+    """Find the panel, once its node listens."""
+    found = panel(page, "Topic panel")
+    expect(found.locator(".ros-who")).to_contain_text("this panel", timeout=20_000)
+    return found
+
+
+def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, page: Page) -> None:
+    """A message published before anybody is connected goes to nobody; the next is heard, listed and drawn."""
+    with running_notebook(page, lab, "first", JOIN, PANEL):
+        topic = listening(page)
+        topic.get_by_label("data").fill("1.5")
+        topic.get_by_role("button", name="Publish", exact=True).click()
+        expect(topic.get_by_text("Message 1 went to nobody: no subscriber was connected")).to_be_visible()
+        expect(topic.locator(".ros-deliveries")).to_contain_text("this panel")
+        expect(topic.get_by_text("Nothing heard yet.").first).to_be_visible()
+        topic.get_by_label("data").fill("-2.5")
+        page.keyboard.press("Enter")
+        expect(topic.get_by_text("Message 2 went to this panel.")).to_be_visible()
+        expect(topic.get_by_label("The last messages")).to_contain_text("data -2.5")
+        topic.get_by_text("The same by hand").click()
+        line = topic.get_by_label("Command that publishes once")
+        expect(line).to_have_text("rostopic pub --once /speed std_msgs/Float64 -- -2.5")
+        picture(topic, "topic-panel-first")
+
+
+def test_a_latched_message_arrives(lab: Lab, page: Page) -> None:
+    """With latch the first message waits for its subscriber, and the panel says so."""
+    with running_notebook(page, lab, "latched", JOIN, PANEL):
+        topic = listening(page)
+        topic.get_by_label("Latch").check()
+        topic.get_by_role("button", name="Publish", exact=True).click()
+        expect(topic.get_by_text("Message 1 was kept, and went to this panel")).to_be_visible()
+        expect(topic.get_by_label("The last messages")).to_contain_text("data 0.0")
+        topic.get_by_role("button", name="Withdraw the publisher").click()
+        expect(topic.get_by_text("The publisher is withdrawn.")).to_be_visible()
+
+
+def test_a_rate_runs_until_it_is_stopped(lab: Lab, page: Page) -> None:
+    """Publishing at 50 Hz is heard at about 50 Hz, drawn, and ends with a click."""
+    with running_notebook(page, lab, "rate", JOIN, PANEL):
+        topic = listening(page)
+        topic.get_by_label("Rate", exact=True).fill("50")
+        topic.get_by_role("button", name="Publish at a rate").click()
+        expect(topic.get_by_text(re.compile(r"Publishing at 50 Hz, really [45]\d"))).to_be_visible(
+            timeout=10_000
+        )
+        expect(topic.locator(".ros-figures")).to_contain_text(re.compile(r"at [45]\d\.\d Hz"))
+        expect(topic.locator("polyline")).to_be_attached()
+        picture(topic, "topic-panel-rate")
+        topic.get_by_role("button", name="Stop").click()
+        expect(topic.get_by_role("button", name="Publish at a rate")).to_be_visible()
+        topic.get_by_role("button", name="1000 at once").click()
+        expect(topic.locator(".ros-facts")).to_contain_text(re.compile(r"Published1,\d\d\d"), timeout=10_000)
+        picture(topic, "topic-panel-burst")
+
+
+def test_what_is_wrong_is_said_at_its_field(lab: Lab, page: Page) -> None:
+    """Nothing is published while a field or a setting is wrong; the keyboard goes to the first."""
+    with running_notebook(page, lab, "wrong", JOIN, PANEL):
+        topic = listening(page)
+        topic.get_by_label("data").fill("fast")
+        topic.get_by_label("Rate", exact=True).fill("500")
+        topic.get_by_label("Queue size").fill("some")
+        topic.get_by_role("button", name="Publish at a rate").click()
+        expect(topic.get_by_text("Not published: 3 fields need a correction.")).to_be_visible()
+        expect(topic.get_by_label("data")).to_be_focused()
+        expect(topic.get_by_text("Give a rate from 0.1 to 100 Hz.")).to_be_visible()
+        picture(topic, "topic-panel-wrong")
+        assert topic.evaluate(FAINT) == []
+
+
+def test_a_type_that_differs_is_said_in_words(lab: Lab, page: Page) -> None:
+    """A publisher and a subscriber of another type are named with theirs; rospy keeps silent about both."""
+    others = """
+        talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
+        talker.publish("fast")
+        heard = node.subscribe("/speed", String)
+    """
+    with running_notebook(page, lab, "types", JOIN, others.replace("        ", ""), PANEL):
+        topic = listening(page)
+        warnings = topic.locator(".ros-warnings")
+        expect(warnings).to_contain_text(
+            "/topic_test publishes std_msgs/String (MD5 992ce8a1…)", timeout=15_000
+        )
+        expect(warnings).to_contain_text("/topic_test subscribes to std_msgs/String")
+        expect(topic.get_by_label("The last messages")).to_contain_text(
+            "another type: std_msgs/String, 8 bytes"
+        )
+        assert topic.evaluate(FAINT) == []
+        picture(topic, "topic-panel-types")
+
+
+def test_a_topic_that_is_not_there_yet_comes(lab: Lab, page: Page) -> None:
+    """Without a type the panel waits for a publisher, and takes its type."""
+    later = "import threading\nthreading.Timer(4, lambda: globals().update(t=rospy.Publisher('/later', Float64, queue_size=1))).start()"
+    with running_notebook(page, lab, "later", JOIN, 'TopicPanel("/later")', later):
+        topic = panel(page, "Topic panel")
+        expect(topic.get_by_text("Nobody publishes /later yet")).to_be_visible()
+        expect(topic.get_by_label("data")).to_be_visible(timeout=15_000)
+        expect(topic.locator(".ros-about")).to_contain_text("std_msgs/Float64")
+
+
+def test_dark_and_narrow(tmp_path: Path, page: Page) -> None:
+    """Every text can be read in the dark theme, and nothing overflows at 560 px; a message with many fields fits."""
+    panels = 'TopicPanel("/joints", "sensor_msgs/JointState")'
+    with running_lab(tmp_path, theme="Dark") as lab, running_notebook(page, lab, "dark", JOIN, panels):
+        page.set_viewport_size({"width": 760, "height": 1600})
+        topic = listening(page)
+        topic.get_by_role("button", name="Add an element to position").click()
+        page.keyboard.press("Control+a")
+        page.keyboard.type("0.5")
+        topic.get_by_label("Latch").check()
+        topic.get_by_role("button", name="Publish", exact=True).click()
+        expect(topic.get_by_label("The last messages")).to_contain_text("position [0.5]")
+        topic.get_by_label("Draw").select_option("position[0]")
+        topic.get_by_label("Rate", exact=True).fill("20")
+        topic.get_by_role("button", name="Publish at a rate").click()
+        expect(topic.locator("polyline")).to_be_attached(timeout=10_000)
+        assert topic.evaluate(FAINT) == []
+        assert topic.evaluate("element => element.scrollWidth <= element.clientWidth + 1")
+        picture(topic, "topic-panel-dark-narrow")
