@@ -1,0 +1,109 @@
+"""03.2: everybody who is told of on a topic is greeted, once and in order."""
+
+from __future__ import annotations
+
+from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner.hearing import Hearing
+from course_pkg.examiner.plain import Plain
+
+NUMBER = "std_msgs/UInt32"
+GREETING = 0.2  # s that say_good_day() takes
+LOST = (
+    "They came while another one was being greeted, and were dropped. A subscriber's queue_size says how "
+    "many may wait in line; leave it out, and all of them may."
+)
+
+
+@part(
+    "03.2",
+    points=2,
+    goal="Greet every customer of whom a topic tells, once, in the order in which they come.",
+    needs=["start_greeting"],
+    deadline=30.0,
+)
+def greet_everyone(exam: Exam) -> None:
+    """Tell of five nearly at once, two of them twice; then, after a pause, of two more and an old one."""
+    customers, greetings = (f"/{exam.draw.word()}" for _ in range(2))
+    numbers = sorted(exam.draw.integers(7, 10, 9000))
+    first, later = numbers[:5], numbers[5:]
+    hearing = exam.hear(greetings, NUMBER)
+    exam.run("start_greeting", customers, greetings, within=5.0, hints=_NO_RETURN).value  # noqa: B018
+    hearing.published(
+        hints={
+            says("nobody"): "Make the publisher in start_greeting(), before anybody comes: one that is made "
+            "for the first greeting is not connected yet, and the greeting is lost."
+        }
+    )
+    sent = _told(exam, customers, [*first[:2], first[0], *first[2:], first[2]])
+    _greeted(exam, hearing, first)
+    exam.hold(
+        "a greeting is told of when it has been said",
+        hearing.arrivals[0].at - sent > 0.75 * GREETING,
+        expected=f"a message about {GREETING:g} s after the customer, as long as say_good_day() takes",
+        seen="a message at once",
+        hints="Call say_good_day(number) first, and publish the number after it.",
+    )
+    _told(exam, customers, [later[0], first[3], later[1]])
+    _greeted(exam, hearing, numbers)
+
+
+def _told(exam: Exam, topic: str, numbers: list[int]) -> float:
+    """Tell of customers on the topic, 50 a second; return when the first was told (s, time.monotonic())."""
+    speaking = exam.publish(topic, NUMBER, [{"data": number} for number in numbers], every=0.02, once=True)
+    exam.hold(
+        "somebody listens to the topic that was named",
+        speaking.heard(3.0),
+        expected=f"a subscriber of {topic}",
+        seen="nobody who listens",
+        hints="Subscribe to the name in `customers`, and leave the subscription open at the end.",
+    )
+    speaking.finish(5.0)
+    speaking.stop()
+    return speaking.sent[0]
+
+
+def _greeted(exam: Exam, hearing: Hearing, numbers: list[int]) -> None:
+    """Hold that all these have been greeted by now, once and in order."""
+    hearing.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
+    hearing.during(2 * GREETING + 0.2)  # a second greeting of somebody would come about now
+    seen: list[Plain] = [each.fields["data"] for each in hearing.arrivals]
+    exam.hold(
+        "only customers are greeted",
+        set(seen) <= set(numbers),
+        expected=f"numbers such as {numbers[:3]}",
+        seen=seen,
+        hints="Publish the number that the message brought, its field data, as it came.",
+    )
+    exam.hold(
+        "nobody is left out",
+        set(seen) == set(numbers),
+        expected=f"greetings for {numbers}",
+        seen=seen,
+        hints=[
+            ([], "No greeting came at all. Does the callback run to its end? An error in it stays with it."),
+            (lambda found: len(found) == 1, f"One greeting came, and then no more. {LOST}"),
+            (lambda found: numbers[0] not in found, "The first was lost. " + LOST),
+            (says(""), LOST),
+        ],
+    )
+    exam.hold(
+        "nobody is greeted twice",
+        len(seen) == len(set(seen)),
+        expected=f"each of {numbers} once",
+        seen=seen,
+        hints="The detector may tell of a customer again. Remember who has been greeted, in a set.",
+    )
+    exam.expect(
+        "they are greeted in the order in which they come",
+        expected=numbers,
+        seen=seen,
+        hints="Greet them one after the other, as they are told of, the first one first.",
+    )
+
+
+_NO_RETURN = {
+    says(
+        "^TimesUp"
+    ): "start_greeting() has to return, so that the cell goes on: subscribe with a callback, which "
+    "rospy calls on a thread of its own for each message.",
+}
