@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
+import secrets
 import signal
+import socket
 import sys
 import tempfile
 import time
@@ -18,7 +19,8 @@ from typing import BinaryIO, NoReturn
 from course_pkg.errors import CourseError, SetupError
 from course_pkg.graph.leash import Leash
 from course_pkg.lab.master import master_coming_up
-from course_pkg.lab.ports import free_port
+from course_pkg.lab.ports import listening
+from course_pkg.lab.task import VARIABLE, Task
 from course_pkg.provision import Places
 
 PORTS = (*range(8888, 8938), 0)  # as Jupyter does: its own port, one of the next, or any
@@ -30,20 +32,30 @@ KEPT_LINES = 12
 def serve_lab(notebook: str | None, *, port: int | None, ip: str, browser: bool) -> int:
     """Serve JupyterLab until Ctrl-C or SIGTERM; return 0, or the server's status if it ends by itself."""
     places = Places.of()
-    page = _page(places.checkout, notebook)
-    options = {"ServerApp.root_dir": places.checkout, **_listening(ip, port), **_course_options(page)}
-    with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as scratch:
-        ready, log = Path(scratch, "ready.json"), Path(scratch, "server.log")
-        options |= {"CourseLab.ready_file": ready, "CourseLab.workspaces_dir": Path(scratch, "workspaces")}
+    first = _page(places.checkout, notebook)
+    with (
+        _stopping_on_signals(),
+        tempfile.TemporaryDirectory(prefix="course-lab-") as scratch,
+        listening(ip, PORTS if port is None else [port]) as listener,
+    ):
+        task = Task(
+            socket=listener.fileno(),
+            token=os.environ.get("JUPYTER_TOKEN") or secrets.token_hex(24),
+            notebook=first,
+            page=str(places.cache / "jupyter" / "page.json"),
+            ready=str(Path(scratch, "ready")),
+        )
+        log = Path(scratch, "server.log")
         with (
             log.open("wb") as output,
             master_coming_up() as master_is_up,
-            _server(places, options, output) as server,
+            _server(places, task, _options(places, listener, ip, scratch), output) as server,
         ):
-            address = _await(server, ready, log)
-            master_is_up()
-            _announce(address, places.checkout, browser)
             try:
+                _announce(_address(listener, ip, task), places.checkout, browser)
+                listener.close()  # the server has it
+                _await(server, Path(task.ready), log)
+                master_is_up()
                 while not server.wait(3600):
                     pass
             except _Stop:
@@ -74,13 +86,14 @@ def _stopping_on_signals() -> Iterator[None]:
 
 
 @contextmanager
-def _server(places: Places, options: Mapping[str, object], output: BinaryIO) -> Iterator[Leash]:
+def _server(places: Places, task: Task, options: Mapping[str, object], output: BinaryIO) -> Iterator[Leash]:
     """Run the server, and end it with all its kernels and terminals, also when this process is killed."""
     arguments = [f"--{name}={value}" for name, value in options.items()]
     leash = Leash(
-        [str(places.python), "-m", "course_pkg.lab.server", *arguments],
+        [str(places.python), "-m", "course_pkg.lab", *arguments],
         output=output,
-        env={**os.environ, **_jupyter_folders(places)},
+        env={**os.environ, **_jupyter_folders(places), VARIABLE: task.as_text()},
+        inherit=[task.socket],
         remove=Path(output.name).parent,
     )
     try:
@@ -89,22 +102,22 @@ def _server(places: Places, options: Mapping[str, object], output: BinaryIO) -> 
         leash.end()
 
 
-def _listening(ip: str, port: int | None) -> dict[str, object]:
-    """Return where to listen; unless the user named the port, the server may go on to another one."""
+def _options(places: Places, listener: socket.socket, ip: str, scratch: str) -> dict[str, object]:
     return {
+        "ServerApp.root_dir": places.checkout,
         "ServerApp.ip": ip,
-        "ServerApp.port": free_port(ip, PORTS if port is None else [port]),
-        "ServerApp.port_retries": len(PORTS) if port is None else 0,
-    }
-
-
-def _course_options(page: str) -> dict[str, object]:
-    return {
+        "ServerApp.port": listener.getsockname()[1],
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
-        "CourseLab.first_notebook": page,
         "CourseLab.user_settings_dir": _user_settings(),
+        "CourseLab.workspaces_dir": Path(scratch, "workspaces"),
     }
+
+
+def _address(listener: socket.socket, ip: str, task: Task) -> str:
+    """Return the address of the page; one that stands for all of this host's is no address to go to."""
+    host = socket.gethostname() if ip in ("", "0.0.0.0", "::") else f"[{ip}]" if ":" in ip else ip  # noqa: S104
+    return f"http://{host}:{listener.getsockname()[1]}{task.path}?token={task.token}"
 
 
 def _jupyter_folders(places: Places) -> dict[str, str]:
@@ -140,17 +153,16 @@ def _page(checkout: Path, notebook: str | None) -> str:
     return str(path.relative_to(checkout))
 
 
-def _await(server: Leash, ready: Path, log: Path) -> str:
-    """Return the address once the server answers there."""
+def _await(server: Leash, ready: Path, log: Path) -> None:
+    """Wait until the server answers."""
     deadline = time.monotonic() + READY
-    while time.monotonic() < deadline:
-        if ready.exists():
-            return str(json.loads(ready.read_text())["address"])
+    while not ready.exists():
         if server.wait(LOOK):
             raise CourseError(
                 f"JupyterLab ended with status {server.returncode} as it started:\n{_tail(log)}"
             )
-    raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(log)}")
+        if time.monotonic() > deadline:
+            raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(log)}")
 
 
 def _announce(address: str, checkout: Path, browser: bool) -> None:

@@ -8,7 +8,6 @@ that waits for half a second without a change. What the workspace itself holds i
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 from jupyterlab_server.workspaces_handler import WorkspacesManager
 
@@ -26,7 +25,14 @@ def _opened(notebook: str) -> dict[str, object]:
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}
     return {
-        "layout-restorer:data": {"main": {"dock": dock, "current": tab}},
+        "layout-restorer:data": {
+            "main": {"dock": dock, "current": tab},
+            "left": {
+                "collapsed": False,
+                "visible": True,
+                "current": "filebrowser",
+                "widgets": ["filebrowser"],
+            },
+        },
         tab: {"data": {"path": notebook, "factory": "Notebook"}},
-        "file-browser-filebrowser:cwd": {"path": str(Path(notebook).parent)},
     }

@@ -6,7 +6,8 @@ import asyncio
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,6 +19,12 @@ from tornado.websocket import websocket_connect
 from course_pkg.lab import nodelay
 from course_pkg.lab.ports import free_port
 from tests.lab.commands import ROOT
+
+
+def completed(work: Coroutine[None, None, object]) -> object:
+    """Run `work` to its end, on a thread: a browser of another test may hold this one's loop."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, work).result()
 
 
 @contextmanager
@@ -72,7 +79,7 @@ def test_the_socket_option_is_set_by_the_extension_alone(
 ) -> None:
     """The stock server leaves a kernel's websocket to Nagle's algorithm; with the extension it does not."""
     with server(tmp_path, *extensions) as host:
-        assert asyncio.run(asyncio.wait_for(options_of_a_page(host), 60)) == seen
+        assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == seen
 
 
 def test_a_server_that_is_built_otherwise_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,5 +99,5 @@ def test_a_socket_that_takes_no_option_is_served_all_the_same() -> None:
         lines.append(f"opened {kernel}")
 
     log = SimpleNamespace(warning=lambda *_: lines.append("warned"))
-    asyncio.run(nodelay._undelayed(stock, log)(object(), "k"))  # type: ignore[arg-type]
+    completed(nodelay._undelayed(stock, log)(object(), "k"))  # type: ignore[arg-type]
     assert lines == ["warned", "opened k"]

@@ -17,7 +17,9 @@ from urllib.request import Request, urlopen
 import pytest
 
 from course_pkg.graph.ports import listening_ports
+from course_pkg.lab.page import Page
 from course_pkg.lab.ports import free_port
+from course_pkg.provision import Places
 from tests.lab.commands import ROOT, all_gone, below, lab, running
 from tests.support import eventually
 
@@ -28,14 +30,19 @@ class Served:
     def __init__(self, process: subprocess.Popen[str], address: str) -> None:
         self.process, self.address = process, address
         parts = urlsplit(address)
-        self.port = parts.port or 0
+        self.port, self.path = parts.port or 0, parts.path
+        self.token = parse_qs(parts.query)["token"][0]
         self._base = f"http://{parts.netloc}"
-        self._headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
+        self._headers = {"Authorization": f"token {self.token}"}
 
-    def get(self, path: str) -> Any:  # noqa: ANN401 -- JSON
+    def text(self, path: str) -> str:
         """Ask the server for `path`."""
         with urlopen(Request(self._base + path, headers=self._headers), timeout=20) as answer:  # noqa: S310
-            return json.load(answer)
+            return str(answer.read().decode())
+
+    def get(self, path: str) -> Any:  # noqa: ANN401 -- JSON
+        """Ask the server for `path`, which is JSON."""
+        return json.loads(self.text(path))
 
     def kernels(self) -> list[dict[str, Any]]:
         """Return the kernels that were started."""
@@ -83,6 +90,19 @@ def test_each_start_opens_that_notebook_and_nothing_else(served: Served, noteboo
     data = served.get("/lab/api/workspaces/default")["data"]
     assert data["layout-restorer:data"]["main"]["dock"]["widgets"] == [name]
     assert [key for key in data if key.startswith("notebook:")] == [name]
+
+
+def test_the_page_of_the_next_start_is_as_the_server_makes_it(served: Served) -> None:
+    """What is kept says the same as the server, with this start's token and notebook in it."""
+    kept = Places.of().cache / "jupyter" / "page.json"
+    token, notebook = served.token, served.path.removeprefix("/lab/tree/")
+    made = served.text(f"{served.path}?token={token}")
+
+    def given() -> str:
+        page = Page.read(kept)
+        return page.response(token, notebook).partition(b"\r\n\r\n")[2].decode() if page else ""
+
+    assert eventually(lambda: given() == made, timeout=20)
 
 
 def test_nothing_listens_beyond_this_host(served: Served) -> None:
@@ -168,7 +188,7 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
     with lab(notebook) as (process, address):
         eventually(Served(process, address).kernels)
         family = below(process)
-        [_watcher, server] = having(b"course_pkg.lab.server", family)
+        [_watcher, server] = having(b"-m\0course_pkg.lab\0", family)
         os.kill(server, signal.SIGKILL)
         process.communicate(timeout=20)
         assert process.returncode != 0
