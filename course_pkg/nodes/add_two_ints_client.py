@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 
@@ -16,21 +17,25 @@ USAGE = "usage: add_two_ints_client A B   (two whole numbers that an int64 holds
 
 def main() -> None:
     """Add the numbers of the command line; exit with 1 when nobody does, with 2 for a wrong line."""
-    numbers = read_numbers(rospy.myargv(sys.argv)[1:])
-    if numbers is None:
-        sys.exit(complain(USAGE, 2))
-    a, b = numbers
-    sys.exit(print_answer(lambda: f"{a} + {b} = {_sum(a, b)}"))
+    sys.exit(add("add_two_ints_client", AddTwoInts, int64, USAGE))
 
 
-def read_numbers(words: Sequence[str]) -> tuple[int, int] | None:
-    """Return a and b, or None when the words are not two numbers that an int64 holds."""
+def add(node: str, kind: Any, read: Callable[[str], float], usage: str) -> int:  # noqa: ANN401 -- a generated class
+    """Have the two numbers of the command line added by the node `node`, and return the exit status.
+
+    `kind` is what the client takes for the type of the service, and `read` makes a number of a word or
+    raises ValueError.
+    """
     try:
-        a, b = map(int, words)
+        a, b = map(read, rospy.myargv(sys.argv)[1:])
     except ValueError:
-        return None
-    return (a, b) if all(-LARGEST - 1 <= number <= LARGEST for number in (a, b)) else None
+        return complain(usage, 2)
+    return print_answer(lambda: f"{a} + {b} = {ask_once(node, 'add_two_ints', kind, a, b).sum}")
 
 
-def _sum(a: int, b: int) -> int:
-    return int(ask_once("add_two_ints_client", "add_two_ints", AddTwoInts, a, b).sum)
+def int64(word: str) -> int:
+    """Return the whole number that a word stands for; raises ValueError where an int64 cannot hold it."""
+    number = int(word)
+    if not -LARGEST - 1 <= number <= LARGEST:
+        raise ValueError(word)
+    return number
