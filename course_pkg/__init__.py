@@ -17,11 +17,14 @@ if TYPE_CHECKING:
         GraphPanel,
         Plot,
         ServicePanel,
+        Timeline,
         TopicPanel,
+        TypeBrowser,
         choose,
         predict,
         predictions,
         show_image,
+        timeline_text,
     )
 
 # catkin generates `course_pkg.srv` into another folder; without this, the checkout hides it.
@@ -31,7 +34,9 @@ __all__ = [
     "GraphPanel",
     "Plot",
     "ServicePanel",
+    "Timeline",
     "TopicPanel",
+    "TypeBrowser",
     "check",
     "choose",
     "join",
@@ -40,6 +45,7 @@ __all__ = [
     "predictions",
     "results",
     "show_image",
+    "timeline_text",
 ]
 
 __getattr__ = lazily(
@@ -48,7 +54,10 @@ __getattr__ = lazily(
         "building": "my_workspace",
         "examiner": "check results",
         "graph": "join",
-        "panels": "GraphPanel Plot ServicePanel TopicPanel choose predict predictions show_image",
+        "panels": (
+            "GraphPanel Plot ServicePanel Timeline TopicPanel TypeBrowser choose predict predictions "
+            "show_image timeline_text"
+        ),
     },
 )
 

@@ -15,18 +15,24 @@ if TYPE_CHECKING:
     from course_pkg.panels.plot.view import Plot
     from course_pkg.panels.prediction.view import predict, predictions
     from course_pkg.panels.service.view import ServicePanel
+    from course_pkg.panels.timeline.text import timeline_text
+    from course_pkg.panels.timeline.view import Timeline
     from course_pkg.panels.topic.view import TopicPanel
+    from course_pkg.panels.types.view import TypeBrowser
 
 __all__ = [
     "GraphPanel",
     "Plot",
     "ServicePanel",
+    "Timeline",
     "TopicPanel",
+    "TypeBrowser",
     "choose",
     "graph_text",
     "predict",
     "predictions",
     "show_image",
+    "timeline_text",
 ]
 
 __getattr__ = lazily(
@@ -39,6 +45,9 @@ __getattr__ = lazily(
         "plot.view": "Plot",
         "prediction.view": "predict predictions",
         "service.view": "ServicePanel",
+        "timeline.text": "timeline_text",
+        "timeline.view": "Timeline",
         "topic.view": "TopicPanel",
+        "types.view": "TypeBrowser",
     },
 )
