@@ -1,0 +1,1 @@
+"""The timeline panel: who did what when, and who waited for whom."""

@@ -1,0 +1,80 @@
+/* What a timeline consists of: events in typed columns, and where the lanes and rows lie. No page is needed. */
+
+/** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, words: string[],
+ *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */
+
+const HEAD = 22; // px of a lane's name
+const GAP = 12; // px between lanes
+const ROWS = [[16, 20], [40, 12], [Infinity, 8]]; // up to so many rows in all: px of each
+
+/** Time is in µs throughout. */
+export class Scene {
+  /** @param {Recorded} recorded */
+  constructor(recorded) {
+    const { columns } = recorded;
+    this.recorded = recorded;
+    this.length = recorded.length;
+    this.count = columns.start?.length ?? 0;
+    this.kinds = recorded.kinds;
+    this.words = recorded.words;
+    this.start = Float64Array.from(columns.start ?? []);
+    this.end = Float64Array.from(columns.end ?? [], (end) => (end < 0 ? recorded.length : end));
+    this.open = Array.from(columns.end ?? [], (end) => end < 0);
+    for (const name of ["kind", "lane", "row", "depth", "name", "peer", "key", "thread", "note"]) /** @type {any} */ (this)[name] = columns[name] ?? [];
+    /** @type {number[]} */
+    this.top = [];
+    this.#layOut();
+    this.#tie();
+  }
+
+  #layOut() {
+    const rows = this.recorded.lanes.reduce((sum, lane) => sum + lane.rows, 0);
+    this.row_height = ROWS.find(([most]) => rows <= most)?.[1] ?? 8;
+    let y = 4;
+    for (const lane of this.recorded.lanes) {
+      this.top.push(y);
+      y += HEAD + lane.rows * (this.row_height + 3) + GAP;
+    }
+    this.height = Math.max(y - GAP + 8, 40);
+  }
+
+  /** Find for each event its first arrow out and in, and for each exchange its events. */
+  #tie() {
+    /** @type {Map<number, number[]>} */
+    this.exchanges = new Map();
+    for (let each = 0; each < this.count; each++) {
+      const parts = this.exchanges.get(this.key[each]);
+      if (parts) parts.push(each);
+      else this.exchanges.set(this.key[each], [each]);
+    }
+    this.reached = new Set(this.recorded.arrows.flat());
+  }
+
+  /** @param {number} each */
+  kindOf(each) {
+    return this.kinds[this.kind[each]];
+  }
+
+  /** @param {number} each @param {"name" | "peer" | "key" | "thread" | "note"} column @returns {string} */
+  word(each, column) {
+    return this.words[this[column][each]];
+  }
+
+  /** @param {number} each */
+  nodeOf(each) {
+    return this.recorded.lanes[this.lane[each]].node;
+  }
+
+  /** The upper edge of an event, and how high it is, inset by how deep it lies within others. @param {number} each */
+  place(each) {
+    const inset = Math.min(this.depth[each] * 3, this.row_height / 2 - 2);
+    const y = this.top[this.lane[each]] + HEAD + this.row[each] * (this.row_height + 3);
+    return [y + inset, this.row_height - 2 * inset];
+  }
+
+  /** From when to when there is anything to see. */
+  extent() {
+    const room = Math.max(this.length * 0.02, 10);
+    return [-room, this.length + room];
+  }
+}

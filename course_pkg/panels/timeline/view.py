@@ -1,0 +1,35 @@
+"""The timeline as a widget: nothing but a recording on its way to the page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from traitlets import Dict
+
+from course_pkg.panels.panel import Panel
+from course_pkg.panels.timeline.model import state
+
+if TYPE_CHECKING:
+    from course_pkg.graph import Recording
+
+HERE = Path(__file__).parent
+
+
+class Timeline(Panel):
+    """A sequence diagram of what was really recorded: a lane for each node, time to the right.
+
+    Give it the recording of a block that has ended: `with node.record() as recording: …`.
+    """
+
+    front_end: ClassVar[Path] = HERE / "timeline.js"
+    style_sheet: ClassVar[Path] = HERE / "timeline.css"
+
+    recorded = Dict(help="what was recorded, in columns; see model.py").tag(sync=True)
+
+    def __init__(self, recording: Recording) -> None:
+        super().__init__()
+        self.publish(recorded=state(recording))
+
+    def __repr__(self) -> str:
+        return "Timeline()"
