@@ -1,8 +1,8 @@
 """The node `cashier`: greets every customer once, in one of three designs.
 
-`~design` is `poll` (ask `detect_customer` `~rate` times a second), `topic` (listen to `customers`), or
-`wait` (ask `detect_customer`, and let the question stand for `~patience` s). It publishes whom it greets on
-`greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
+`~design` is `poll` (ask `detect_customer` `~rate` times a second, and once more after each customer), `topic`
+(listen to `customers`), or `wait` (ask `detect_customer`, and let the question stand for `~patience` s). It
+publishes whom it greets on `greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
 """
 
 from __future__ import annotations
@@ -64,12 +64,18 @@ class Cashier:
         rospy.spin()
 
     def keep_asking(self, patience: float, pause: float) -> None:
-        """Ask again and again, at most once in `pause` s, until the node is shut down."""
+        """Ask until nobody is left, and again every `pause` s, until the node is shut down."""
         self.offer_report()
         due = time.monotonic()
         while not rospy.is_shutdown():
-            answered = self._ask(patience)
-            due = max(due + (pause if answered else max(pause, AGAIN)), time.monotonic())
+            try:
+                while self._ask(patience):  # there may be two
+                    pass
+                rest = pause
+            except (rospy.ServiceException, CourseError) as error:
+                rospy.logwarn_throttle(10, f"No answer, and asking on: {error}")
+                rest = max(pause, AGAIN)
+            due = max(due + rest, time.monotonic())
             rospy.sleep(due - time.monotonic())
 
     def offer_report(self) -> None:
@@ -78,16 +84,12 @@ class Cashier:
             rospy.Service("~report", CashierReport, self.handle_report)
 
     def _ask(self, patience: float) -> bool:
-        """Ask for the next customer; return whether there was an answer."""
+        """Ask for the next customer; return whether there was one. Raises what a call raises."""
         with self._turn:
             self._asked += 1
-        try:
-            answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
-        except (rospy.ServiceException, CourseError) as error:
-            rospy.logwarn_throttle(10, f"No answer, and asking on: {error}")
-            return False
+        answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
         self._learn(answer.number if answer.detected else 0)
-        return True
+        return bool(answer.detected)
 
     def _learn(self, number: int) -> None:
         """Take note that there was news, and greet the customer `number` if there is one not yet greeted."""

@@ -8,17 +8,30 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
+    from course_pkg.shop.cases import CASES, OPTIONS
     from course_pkg.shop.counter import Counter, Visit
     from course_pkg.shop.drawing import shop_picture
     from course_pkg.shop.findings import Findings, side_by_side
     from course_pkg.shop.trial import try_out
     from course_pkg.shop.watch import Customer, Watch
 
-__all__ = ["Counter", "Customer", "Findings", "Visit", "Watch", "shop_picture", "side_by_side", "try_out"]
+__all__ = [
+    "CASES",
+    "OPTIONS",
+    "Counter",
+    "Customer",
+    "Findings",
+    "Visit",
+    "Watch",
+    "shop_picture",
+    "side_by_side",
+    "try_out",
+]
 
 __getattr__ = lazily(
     __name__,
     {
+        "cases": "CASES OPTIONS",
         "counter": "Counter Visit",
         "drawing": "shop_picture",
         "findings": "Findings side_by_side",

@@ -94,13 +94,7 @@ def _row(trial: Findings, least: float) -> tuple[str, ...]:
     return (
         trial.design,
         "less than 0.1 s" if trial.median_delay < PROMPT else "longer",
-        _share(trial.lost, len(trial.customers)),
+        "some" if trial.lost else "nobody",
         "none" if not trial.asked else "hundreds" if trial.asked >= 100 else "a few",
         "much" if much else "little",
     )
-
-
-def _share(part: int, whole: int) -> str:
-    if not part:
-        return "nobody"
-    return "more than half" if 2 * part > whole else "some"

@@ -63,10 +63,10 @@ def test_a_table_of_what_is_certain() -> None:
         ]
     )
     assert table.splitlines() == [
-        "design  greets after     lost            calls     processor",
-        "rarely  longer           more than half  a few     little",
-        "often   less than 0.1 s  nobody          hundreds  much",
-        "topic   less than 0.1 s  some            none      little",
+        "design  greets after     lost    calls     processor",
+        "rarely  longer           some    a few     little",
+        "often   less than 0.1 s  nobody  hundreds  much",
+        "topic   less than 0.1 s  some    none      little",
     ]
 
 
