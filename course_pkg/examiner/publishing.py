@@ -7,9 +7,10 @@ import threading
 import time
 from collections.abc import Iterable
 
+import genpy
 import rospy
 
-from course_pkg.examiner.plain import Plain
+from course_pkg.examiner.plain import Message, Plain
 
 LOOK = 0.01  # s between looks at who listens
 
@@ -23,7 +24,7 @@ class Publishing:
 
     def __init__(self, topic: str, kind: type, messages: Iterable[Plain], every: float, once: bool) -> None:
         self.sent: list[float] = []
-        self._messages = [kind(**message) for message in messages]
+        self._messages = [_made(kind, fields) for fields in messages]
         self._every = every
         self._once = once
         self._over = threading.Event()
@@ -67,3 +68,10 @@ class Publishing:
     def _await_listener(self) -> None:
         while not self._over.is_set() and not self.heard(1.0):
             pass
+
+
+def _made(kind: type, fields: Plain) -> Message:
+    """Return a message with these fields, in which a message is a dict as well."""
+    message = kind()
+    genpy.message.fill_message_args(message, [dict(fields)])
+    return message

@@ -44,7 +44,7 @@ def main() -> None:
     if not step_onto_graph("robot"):
         return
     rate = rospy.Rate(number_parameter("~rate", RATE, 0.1, 1000.0))
-    publisher = rospy.Publisher("joint_states", JointState, queue_size=1, tcp_nodelay=True)
+    publisher = rospy.Publisher("joint_states", JointState, queue_size=10, tcp_nodelay=True)
     started = time.monotonic()
     while not rospy.is_shutdown():
         message = stance(time.monotonic() - started)

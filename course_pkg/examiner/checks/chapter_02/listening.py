@@ -1,0 +1,289 @@
+"""Subscribers: a mirror of every message, and a slow piece of work that keeps up."""
+
+import statistics
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.hearing import Arrival
+
+JOINTS = "sensor_msgs/JointState"
+KEEPER = """
+kept = []
+
+
+def begin(start, *args):
+    kept.append(start(*args))
+    return hasattr(kept[-1], "unregister")
+
+
+def end():
+    while kept:
+        subscriber = kept.pop()
+        if hasattr(subscriber, "unregister"):
+            subscriber.unregister()
+"""
+WITNESS = """
+import rospy
+from sensor_msgs.msg import JointState
+
+witnessed = []
+
+
+def listen_too(topic):
+    kept.append(rospy.Subscriber(topic, JointState, lambda message: witnessed.append(list(message.position))))
+"""
+WORK = """
+import threading
+import time
+
+
+class Work:
+    def __init__(self, pause):
+        self.pause, self.done, self.at_once, self.busy = pause, [], 0, 0
+        self.lock = threading.Lock()
+
+    def __call__(self, value):
+        with self.lock:
+            self.busy += 1
+            self.at_once = max(self.at_once, self.busy)
+            self.done.append([time.monotonic(), value])
+        time.sleep(self.pause)
+        with self.lock:
+            self.busy -= 1
+
+
+work = Work(PAUSE)
+"""
+PAUSE = 0.3  # s that the work takes
+NO_SUBSCRIBER = "Return the rospy.Subscriber, so that whoever started it can stop it."
+NEVER_RETURNS = "It has to return at once: messages are handled by the callback, on a thread of their own."
+
+
+@part(
+    "02.2",
+    points=2,
+    goal="Mirror every message of one topic on another, at once, with its signs turned.",
+    needs=["start_mirror"],
+    deadline=30.0,
+)
+def a_mirror(exam: Exam) -> None:
+    """Publish stances of a robot that nobody knows, and compare each with what comes out."""
+    source, target = (f"/{exam.draw.word()}" for _ in range(2))
+    hearing = exam.hear(target, JOINTS)
+    with _begun(exam, "start_mirror", source, target, worded="start_mirror(source, target)"):
+        hearing.published(
+            hints={
+                says(
+                    "nobody"
+                ): "Nobody publishes it when start_mirror() has returned. Make the publisher there, and "
+                "not in the callback: it would lose what it says first.",
+            }
+        )
+        exam.prepare(WITNESS)
+        exam.run("listen_too", source)
+        messages = _stances(exam, 40)
+        speaking = exam.publish(source, JOINTS, messages, every=0.025, once=True)
+        exam.hold(
+            "somebody listens to the source",
+            speaking.heard(3.0),
+            expected="a subscriber",
+            seen="nobody",
+            hints="Make a rospy.Subscriber for the source, of type JointState, and return it.",
+        )
+        speaking.finish(10.0)
+        _mirrors(exam, messages, hearing.wait(len(messages), within=1.5))
+        hearing.during(0.3)
+        exam.expect(
+            "one message for each",
+            expected=len(messages),
+            seen=hearing.count,
+            hints="There are more on the target than on the source. Publish once for each message.",
+        )
+        _promptly(exam, speaking.sent, hearing.arrivals)
+        exam.expect(
+            "the message itself is left as it is",
+            expected=[message["position"] for message in messages],
+            seen=exam.read("witnessed"),
+            near=1e-9,
+            hints="Another callback of this program got it with its signs turned. Make a new JointState.",
+        )
+
+
+def _stances(exam: Exam, count: int) -> list[dict[str, Any]]:
+    names = [exam.draw.word() for _ in range(4)]
+    return [
+        {
+            "header": {"stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)}},
+            "name": names,
+            "position": exam.draw.numbers(4, -3.0, 3.0),
+            "velocity": exam.draw.numbers(4, -3.0, 3.0),
+        }
+        for number in range(count)
+    ]
+
+
+@contextmanager
+def _begun(exam: Exam, start: str, *args: object, worded: str) -> Iterator[None]:
+    """Have the student's function start its subscriber, and end that after the block."""
+    exam.prepare(KEEPER)
+    try:
+        started = exam.run("begin", Its(start), *args, worded=worded, hints={says("TimesUp"): NEVER_RETURNS})
+        exam.expect("the subscriber is returned", expected=True, seen=started.value, hints=NO_SUBSCRIBER)
+        yield
+    finally:
+        exam.run("end")
+
+
+def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arrival]) -> None:
+    """Compare what came out with what went in, one by one, by the time in the header."""
+    stamps = [message["header"]["stamp"] for message in messages]
+    seen = [arrival.fields["header"]["stamp"] for arrival in heard]
+    exam.hold(
+        "the header stays, and with it the time of each stance",
+        bool(heard) and seen[0] in stamps,
+        expected="the stamps that were published",
+        seen=seen[:3] if heard else "nothing was heard",
+        hints={
+            says("nothing was heard"): "Nothing came out. Publish the image in the callback.",
+            says("'secs': 0, 'nsecs': 0"): "The time is 0, as in a header that is new. Hand the header on.",
+            says(""): "That is another time than the robot's. Hand the header on as it is.",
+        },
+    )
+    for arrival in heard:
+        message = messages[stamps.index(arrival.fields["header"]["stamp"])]
+        _is_image(exam, message, arrival.fields)
+    exam.expect(
+        "every message is mirrored, in order",
+        expected=[stamp["secs"] for stamp in stamps],
+        seen=[stamp["secs"] for stamp in seen],
+        hints=[
+            (lambda seen: len(seen) == 1, "Only one was mirrored. A callback is called for each message."),
+            (
+                lambda seen: seen[0] != stamps[0]["secs"] and len(seen) > len(stamps) / 2,
+                "The first are missing. Make the publisher before the subscriber, and not in the callback.",
+            ),
+            (
+                lambda seen: len(seen) < len(stamps) and len(set(seen)) == len(seen),
+                "Some were left out. Do nothing in the callback that takes time, and drop nothing.",
+            ),
+            (says(""), "Publish once for each message, in the callback."),
+        ],
+    )
+
+
+def _is_image(exam: Exam, message: dict[str, Any], image: dict[str, Any]) -> None:
+    exam.expect(
+        "the names stay",
+        expected=message["name"],
+        seen=image["name"],
+        hints={
+            (): "The names are missing. Hand them on.",
+            tuple(reversed(message["name"])): "The list was turned around. It is the signs that turn.",
+        },
+    )
+    for field in ("position", "velocity"):
+        values = message[field]
+        exam.expect(
+            f"every {field} has its sign turned",
+            expected=[-value for value in values],
+            seen=image[field],
+            near=1e-9,
+            hints={
+                tuple(values): f"The {field} came out as it went in. Turn the sign of each.",
+                (): f"The list is empty: {field} was left out.",
+                tuple(reversed(values)): "The list was turned around. It is the signs that turn.",
+                tuple(abs(value) for value in values): "A sign that turns makes plus of minus, too: -value.",
+            },
+        )
+
+
+def _promptly(exam: Exam, sent: Sequence[float], arrivals: Sequence[Arrival]) -> None:
+    delays = [arrival.at - at for at, arrival in zip(sent, arrivals, strict=False)]
+    exam.hold(
+        "without delay",
+        statistics.median(delays) < 0.15,
+        expected="the image a few milliseconds after the stance",
+        seen=f"half of them later than {statistics.median(delays):.2f} s",
+        hints="They come late. Publish in the callback, and let nothing in it wait.",
+    )
+
+
+@part(
+    "02.4",
+    points=2,
+    goal="Have slow work done on the newest value of a topic, one at a time.",
+    needs=["follow"],
+    deadline=30.0,
+)
+def only_the_newest(exam: Exam) -> None:
+    """Publish for three seconds, much faster than the work is done, and look at what was worked on."""
+    topic = f"/{exam.draw.word()}"
+    values = exam.draw.numbers(150, -900.0, 900.0)
+    exam.prepare(WORK.replace("PAUSE", str(PAUSE)))
+    with _begun(exam, "follow", topic, Its("work"), worded="follow(topic, work)"):
+        speaking = exam.publish(
+            topic, "std_msgs/Float64", [{"data": value} for value in values], every=0.02, once=True
+        )
+        exam.hold(
+            "somebody listens to the topic",
+            speaking.heard(3.0),
+            expected="a subscriber",
+            seen="nobody",
+            hints="Make a rospy.Subscriber for the topic, of type Float64, and return it.",
+        )
+        speaking.finish(10.0)
+        time.sleep(3 * PAUSE)  # for the work on the last values
+        done = exam.read("work.done")
+    _worked(exam, [value for _, value in done], values)
+    exam.expect(
+        "one at a time",
+        expected=1,
+        seen=exam.read("work.at_once"),
+        hints="The work ran several times at once. A thread for each message is one too many.",
+    )
+    sent = dict(zip(values, speaking.sent, strict=True))
+    oldest = max(at - sent[value] for at, value in done)
+    exam.hold(
+        "no value is long out of date when the work on it begins",
+        oldest < 2 * PAUSE,
+        expected="less than half a second from the robot to the work",
+        seen=f"up to {oldest:.1f} s",
+        hints="Too many may wait. With queue_size=1, only the newest does.",
+    )
+    exam.expect(
+        "the newest value is not missed",
+        expected=values[-1],
+        seen=done[-1][1],
+        hints="The last value was never worked on. Take the newest there is, and not every tenth or so.",
+    )
+
+
+def _worked(exam: Exam, seen: list[Any], values: list[float]) -> None:
+    exam.hold(
+        "the work is given values of the topic",
+        bool(seen) and set(map(str, seen)) <= set(map(str, values)),
+        expected="numbers that were published",
+        seen=seen[:3] or "the work was never called",
+        hints={
+            says("never"): "Call work in the callback.",
+            says("data"): "That is the whole message. The number is its data.",
+        },
+    )
+    exam.hold(
+        "it is called again and again",
+        len(seen) > 3,
+        expected="a call each time that the work is done",
+        seen=f"{len(seen)} calls",
+        hints="It was given one value and no more. A callback is called for each message.",
+    )
+    order = [values.index(value) for value in seen]
+    exam.hold(
+        "no value comes twice, and none before an earlier one",
+        order == sorted(set(order)),
+        expected="later values each time",
+        seen=seen,
+        hints="A value was worked on twice, or after a later one. Wait for a newer one before the next call.",
+    )

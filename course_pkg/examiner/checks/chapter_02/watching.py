@@ -1,0 +1,127 @@
+"""The watch that tells a stream that runs from one that has ended."""
+
+import time
+
+from course_pkg.examiner import Exam, Its, part, says
+
+KEEPER = """
+watches = []
+
+
+def begin(kind, topic):
+    watches[:] = [kind(topic)]
+
+
+def state():
+    return watches[0].state()
+
+
+def end():
+    for watch in watches:
+        for value in vars(watch).values():
+            if hasattr(value, "unregister"):
+                value.unregister()
+    watches.clear()
+"""
+WORDS = ("waiting", "running", "ended")
+LIMIT = 1.0  # s without a message
+
+
+@part(
+    "02.5",
+    points=2,
+    goal="Say of a stream whether it is waiting, running or ended, at once, whenever asked.",
+    needs=["Watch"],
+    deadline=40.0,
+)
+def watch_a_stream(exam: Exam) -> None:
+    """Ask before the first message, during a stream, in a pause, after its end, and when it runs again."""
+    topic = f"/{exam.draw.word()}"
+    exam.prepare(KEEPER)
+    try:
+        exam.run("begin", Its("Watch"), topic, worded="Watch(topic)", hints=_RETURNS).value  # noqa: B018
+        _says(exam, "before the first message it is waiting", "waiting", _BEFORE)
+        time.sleep(1.3)
+        _says(exam, "before the first message it is waiting", "waiting", _BEFORE)
+        _runs(exam, topic, "while messages come it is running")
+        _runs(exam, topic, "when they come again it is running again")
+    finally:
+        exam.run("end")
+
+
+def _runs(exam: Exam, topic: str, rule: str) -> None:
+    """Publish ten a second for a while, then be silent, and stay registered as one who could speak."""
+    speaking = exam.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
+    exam.hold(
+        "it listens to the topic",
+        speaking.heard(3.0),
+        expected="a subscriber",
+        seen="nobody",
+        hints="Make a rospy.Subscriber for the topic, of type UInt32, when the watch is made.",
+    )
+    time.sleep(0.5)
+    for _ in range(5):
+        _says(exam, rule, "running", _WHILE)
+        time.sleep(0.06)
+    time.sleep(1.0)
+    _says(exam, rule, "running", _WHILE)
+    speaking.stop()
+    time.sleep(0.5)
+    _says(exam, "a pause of half a second is no end", "running", _PAUSE)
+    time.sleep(speaking.sent[-1] + LIMIT + 0.4 - time.monotonic())
+    for _ in range(2):
+        _says(exam, "without a message for longer than a second it has ended", "ended", _END)
+
+
+def _says(exam: Exam, rule: str, word: str, hints: list[tuple[object, str]]) -> None:
+    asked = exam.run("state", worded="Watch(topic).state()", hints=_RETURNS)
+    exam.hold(
+        "the answer is one of the three words",
+        asked.value in WORDS,
+        expected="waiting, running or ended",
+        seen=asked.value,
+        hints={
+            None: "None was returned, as by a function that comes to its end without a return line.",
+            says("waiting|running|ended"): "Write the word as it stands in the exercise, in small letters.",
+            says(""): "Return one of the three words, as a text.",
+        },
+    )
+    exam.expect(rule, expected=word, seen=asked.value, hints=hints)
+    exam.hold(
+        "it answers at once",
+        asked.took < 0.4,
+        expected="an answer without waiting",
+        seen=f"an answer after {asked.took:.1f} s",
+        hints="Do not wait for a message when you are asked. Note when one comes, in the callback.",
+    )
+
+
+_RETURNS = {
+    says("TimesUp"): "It waits for a message. Listen with a callback that notes when one comes, and return.",
+    says(
+        "TypeError.*NoneType"
+    ): "Before the first message there is no time to compare with. Look for that first.",
+}
+_BEFORE: list[tuple[object, str]] = [
+    ("running", "No message has come yet: it is not running."),
+    ("ended", "Nothing can have ended that has not begun: before the first message it is waiting."),
+]
+_WHILE: list[tuple[object, str]] = [
+    ("waiting", "Messages come ten times a second. Note each in the callback."),
+    ("ended", "The last message is less than a second old. Note the time of each one that comes."),
+]
+_PAUSE: list[tuple[object, str]] = [
+    (
+        "ended",
+        "The last message came half a second ago. A stream has ended after a whole second without one.",
+    ),
+    ("waiting", "Messages have come. It is waiting only before the first."),
+]
+_END: list[tuple[object, str]] = [
+    (
+        "running",
+        "No message came for more than a second. The publisher is still registered, but silent: look at the "
+        "time of the last message.",
+    ),
+    ("waiting", "Messages have come. A stream that ran and does not any more has ended."),
+]
