@@ -109,6 +109,8 @@ def _options(places: Places, listener: socket.socket, ip: str, scratch: str) -> 
         "ServerApp.port": listener.getsockname()[1],
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
+        "ContentsManager.checkpoints_class": "course_pkg.lab.checkpoints.CachedCheckpoints",
+        "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
         "CourseLab.user_settings_dir": _user_settings(),
         "CourseLab.workspaces_dir": Path(scratch, "workspaces"),
     }

@@ -48,9 +48,9 @@ class Served:
         """Return the kernels that were started."""
         return list(self.get("/api/kernels"))
 
-    def open_terminal(self) -> None:
-        """Start a terminal."""
-        request = Request(self._base + "/api/terminals", data=b"", headers=self._headers)  # noqa: S310
+    def post(self, path: str) -> None:
+        """Have the server make something at `path`."""
+        request = Request(self._base + path, data=b"", headers=self._headers)  # noqa: S310
         urlopen(request, timeout=20).close()  # noqa: S310
 
 
@@ -129,9 +129,17 @@ def foreign_sockets(pids: list[int]) -> list[str]:
     return [local for local, inode in listening if inode in inodes and not local.startswith("0100007F:")]
 
 
+def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Served, notebook: str) -> None:
+    """Saving a notebook leaves no folder beside it; its checkpoint is there all the same."""
+    at = f"/api/contents/{Path(notebook).relative_to(ROOT)}/checkpoints"
+    served.post(at)
+    assert [found["id"] for found in served.get(at)] == ["checkpoint"]
+    assert not (Path(notebook).parent / ".ipynb_checkpoints").exists()
+
+
 def test_the_terminal_is_the_courses_shell(served: Served) -> None:
     """A terminal of JupyterLab runs bash with the course's settings."""
-    served.open_terminal()
+    served.post("/api/terminals")
     assert eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
 
 
