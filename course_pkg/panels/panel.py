@@ -64,6 +64,8 @@ class Panel(anywidget.AnyWidget):
 
     def close(self) -> None:
         """Take the panel off every page and end what it runs."""
+        if not hasattr(self, "turn"):
+            return  # its constructor refused what it was given, and ipywidgets closes what is thrown away
         with self.turn:
             if self._views:
                 self._views.clear()

@@ -117,7 +117,10 @@ def test_a_type_that_differs_is_said_in_words(lab: Lab, page: Page) -> None:
 
 def test_a_topic_that_is_not_there_yet_comes(lab: Lab, page: Page) -> None:
     """Without a type the panel waits for a publisher, and takes its type."""
-    later = "import threading\nthreading.Timer(4, lambda: globals().update(t=rospy.Publisher('/later', Float64, queue_size=1))).start()"
+    later = """
+import threading
+threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float64, queue_size=1))).start()
+"""
     with running_notebook(page, lab, "later", JOIN, 'TopicPanel("/later")', later):
         topic = panel(page, "Topic panel")
         expect(topic.get_by_text("Nobody publishes /later yet")).to_be_visible()
@@ -126,7 +129,7 @@ def test_a_topic_that_is_not_there_yet_comes(lab: Lab, page: Page) -> None:
 
 
 def test_dark_and_narrow(tmp_path: Path, page: Page) -> None:
-    """Every text can be read in the dark theme, and nothing overflows at 560 px; a message with many fields fits."""
+    """Every text can be read in the dark theme, and a message with many fields fits on a narrow page."""
     panels = 'TopicPanel("/joints", "sensor_msgs/JointState")'
     with running_lab(tmp_path, theme="Dark") as lab, running_notebook(page, lab, "dark", JOIN, panels):
         page.set_viewport_size({"width": 760, "height": 1600})

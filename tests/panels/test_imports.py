@@ -7,7 +7,16 @@ import sys
 
 import pytest
 
-MODELS = ["service.model", "graph.model", "choices.model", "graph.drawing", "plot.model", "prediction.model"]
+MODELS = [
+    "service.model",
+    "graph.model",
+    "choices.model",
+    "graph.drawing",
+    "plot.model",
+    "prediction.model",
+    "topic.model",
+    "types.model",
+]
 
 
 @pytest.mark.parametrize("model", MODELS)

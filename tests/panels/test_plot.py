@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import math
 import random
@@ -77,6 +78,13 @@ def test_what_cannot_be_drawn_is_refused_with_the_form_that_can(series: Any, kin
         drawing(series, kind=kind)
     assert stretch in str(caught.value)
     assert "Give" in str(caught.value)
+
+
+def test_a_plot_that_was_refused_leaves_no_trace() -> None:
+    """The half-made widget is thrown away without a word: the error in the cell is enough."""
+    with pytest.raises(NotASeries):
+        Plot({"topic": [1.0]})
+    gc.collect()
 
 
 def noise(count: int) -> list[tuple[float, float]]:

@@ -13,8 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import course_pkg
+from course_pkg.errors import GraphError
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.master import master_uri
+from course_pkg.graph.stale import remove_stale
 from course_pkg.graph.station.wire import Wire
 
 TAIL = 600  # characters of what it printed, in an error message
@@ -71,8 +73,11 @@ class TopicStation:
                     self._heard(self, report)
         except EOFError:
             if not self._ended.is_set():
+                words = f"The panel's node has ended. {self._tail()}"
                 self.end()
-                self._lost(self, f"The panel's node has ended. {self._tail()}")
+                with suppress(GraphError):  # killed, it could not sign off
+                    remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
+                self._lost(self, words)
 
     def _finish(self) -> None:
         if not self._leash.wait(GRACE):

@@ -3,6 +3,7 @@ import { FieldsForm } from "../forms/fields.js";
 import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
 import { Chart } from "../plot/chart.js";
+import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
 const SETTLE = 120; // ms without a keystroke before what is typed is sent
 const AGEING = 250; // ms between two looks at the clock
@@ -266,44 +267,6 @@ class TopicView {
     event.preventDefault();
     this.#act("publish");
   }
-}
-
-/** @param {string} label @param {string} unit @param {string} mode @param {() => void} edited */
-function setting(label, unit, mode, edited) {
-  const id = freshId("ros-setting");
-  const input = /** @type {HTMLInputElement} */ (h("input", { id, type: "text", class: "ros-text", inputmode: mode, autocomplete: "off", oninput: edited }));
-  return { input, el: h("span", { class: "ros-setting" }, h("label", { for: id, text: label }), input, h("span", { class: "ros-muted", text: unit })) };
-}
-
-/** @param {{node: string, type: string}[]} nodes @param {string} own @param {string} nobody */
-function names(nodes, own, nobody) {
-  const shown = nodes.map(({ node, type }) => (node === own ? `this panel, as ${own}` : type ? node : `${node} (does not answer)`));
-  return shown.length ? shown.join(", ") : nobody;
-}
-
-/** @param {any} spoken */
-function figures({ published, unheard, sent, dropped }) {
-  const facts = { Published: published, "To nobody": unheard, Sent: sent, Dropped: dropped };
-  return h("div", { class: "ros-facts" }, ...Object.entries(facts).map(([label, count]) => h("p", {}, h("span", { class: "ros-muted", text: label }), h("b", { text: count.toLocaleString("en") }))));
-}
-
-/** @param {any} spoken */
-function deliveries({ deliveries: rows, own, queue }) {
-  if (!rows.length) return "";
-  const head = ["Subscriber", "sent", "waiting", "dropped"].map((text) => h("th", { scope: "col", text }));
-  return h("div", { class: "ros-scroll" }, h("table", { class: "ros-deliveries" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows.map((/** @type {any} */ each) => h("tr", {},
-    h("th", { scope: "row", text: each.peer === own ? "this panel" : each.peer }), ...["sent", "waiting", "dropped"].map((part) => h("td", { text: each[part].toLocaleString("en") })))))),
-  h("p", { class: "ros-muted", text: `Sent means written to the connection. Where more than ${queue || "any number of"} wait, the oldest is dropped.` }));
-}
-
-/** @param {number} value */
-function number(value) {
-  return value >= 100 ? value.toFixed(0) : value >= 1 ? value.toFixed(1) : value.toFixed(2);
-}
-
-/** @param {number} age */
-function seconds(age) {
-  return age < 10 ? `${age.toFixed(1)} s` : age < 120 ? `${age.toFixed(0)} s` : `${(age / 60).toFixed(0)} min`;
 }
 
 export default { render };

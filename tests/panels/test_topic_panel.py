@@ -1,0 +1,161 @@
+"""The topic panel's widget on a real master, with no page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.errors import NotATopic, UnknownType
+from course_pkg.graph import MasterClient, PrivateMaster, look
+from course_pkg.panels import TopicPanel
+from tests.kernel import Kernel
+from tests.support import eventually
+
+SETTINGS = {"rate": "10", "queue": "10", "latch": False, "path": "data"}
+
+
+@pytest.fixture
+def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
+    """Show a panel of /speed, and close it."""
+    assert master.uri
+    panel = TopicPanel("/speed", "std_msgs/Float64")
+    panel.received("hello", {})
+    panel.shown()
+    eventually(lambda: panel.around.get("own"), timeout=20)
+    yield panel
+    panel.hidden()
+    panel.close()
+    eventually(lambda: not look(master.uri).nodes)
+
+
+def click(panel: TopicPanel, action: str, data: str, **settings: object) -> None:
+    """Click as the page does."""
+    content = {"action": action, "draft": {"data": data}, "settings": {**SETTINGS, **settings}}
+    panel.received("act", content)
+
+
+def sent_to(panel: TopicPanel) -> set[str]:
+    """Return the nodes to which something was sent."""
+    return {each["peer"] for each in panel.spoken.get("deliveries", ()) if each["sent"]}
+
+
+def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: PrivateMaster) -> None:
+    """Shown, it is a node that subscribes; shown once more, the same; hidden, it is gone."""
+    panel.shown()
+    topic = next(each for each in look(master.uri).topics if each.name == "/speed")
+    assert topic.subscribers == (panel.around["own"],)
+    assert topic.publishers == ()
+    panel.hidden()
+    eventually(lambda: not look(master.uri).nodes)
+
+
+def test_no_page_no_node(master: PrivateMaster) -> None:
+    """A panel that nobody looks at starts nothing, and yet has its form and its commands."""
+    panel = TopicPanel("/speed", "std_msgs/Float64")
+    assert panel.check["once"] == "rostopic pub --once /speed std_msgs/Float64 0.0"
+    assert panel.trouble == ""
+    assert look(master.uri).nodes == ()
+    panel.close()
+
+
+def test_a_click_publishes_for_real(panel: TopicPanel, kernel: Kernel) -> None:
+    """A subscriber in another node gets the number, and the panel counts that it was sent."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("listener")
+        heard = node.subscribe("/speed", "std_msgs/Float64")
+    """)
+    click(panel, "publish", "-1.5", latch=True)
+    assert kernel.run("result = heard.wait(1)[0].data") == -1.5
+    eventually(lambda: "/listener" in sent_to(panel))
+    assert eventually(lambda: panel.echo)[0]["line"] == "data -1.5"
+
+
+def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> None:
+    """A rate goes on only while somebody can see it and stop it."""
+    kernel.run("""
+        from course_pkg.graph import join
+        from tests.support import eventually
+        node = join("listener")
+        heard = node.subscribe("/speed", "std_msgs/Float64")
+    """)
+    click(panel, "repeat", "1", rate="50")
+    kernel.run("heard.wait(10)")
+    panel.hidden()
+    kernel.run("eventually(lambda: not heard._subscriber.get_num_connections())")
+    assert kernel.run("count = heard.count; node.call; result = heard.count - count") == 0
+
+
+def test_it_comes_back_with_what_was_typed(panel: TopicPanel) -> None:
+    """Shown again, the panel has another node, which knows the type and what is to be drawn."""
+    click(panel, "publish", "2.5")
+    first = panel.around["own"]
+    panel.hidden()
+    panel.shown()
+    eventually(lambda: panel.around.get("own") not in ("", first), timeout=20)
+    assert panel.echo == []
+    click(panel, "publish", "3.5", latch=True)
+    assert eventually(lambda: panel.echo)[0]["line"] == "data 3.5"
+    assert eventually(lambda: '"count": 1' in panel.curve)
+
+
+def test_another_type_is_said(panel: TopicPanel, kernel: Kernel) -> None:
+    """A real publisher of another type is named with its type."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("talker")
+        spoken = node.advertise("/speed", "std_msgs/String")
+    """)
+    warnings = eventually(lambda: panel.around["warnings"])
+    assert warnings[0].startswith("/talker publishes std_msgs/String (MD5 992ce8a1…)")
+
+
+def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
+    """A panel without a type has that of the publisher at once."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("talker")
+        spoken = node.advertise("/joints", "sensor_msgs/JointState")
+    """)
+    panel = TopicPanel("joints")
+    assert panel.about["message"]["name"] == "sensor_msgs/JointState"
+    assert panel.around["publishers"] == ({"node": "/talker", "type": "sensor_msgs/JointState"},)
+    panel.close()
+
+
+def test_the_text_is_the_same_in_every_run(panel: TopicPanel) -> None:
+    """text/plain holds the topic's name and nothing that changes."""
+    assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "TopicPanel('/speed')"
+
+
+def test_a_slip_in_the_cell_is_an_error_in_the_cell() -> None:
+    """A type that is not there, and a name that cannot be one."""
+    with pytest.raises(UnknownType, match="Flaot64"):
+        TopicPanel("/speed", "std_msgs/Flaot64")
+    with pytest.raises(NotATopic):
+        TopicPanel("/my speed", "std_msgs/Float64")
+
+
+def test_without_a_master_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The form is there, and a sentence says why nothing can be seen."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+    panel = TopicPanel("/speed", "std_msgs/Float64")
+    assert "No ROS master" in panel.trouble
+    panel.close()
+
+
+def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A panel that was shown before join() finds the master that join() has started."""
+    with PrivateMaster() as master:
+        monkeypatch.setenv("ROS_HOSTNAME", "localhost")
+        monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+        panel = TopicPanel("/speed", "std_msgs/Float64")
+        panel.shown()
+        eventually(lambda: panel.trouble)
+        monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+        eventually(lambda: panel.around.get("own"), timeout=20)
+        assert panel.trouble == ""
+        panel.hidden()
+        eventually(lambda: not MasterClient(master.uri).system_state().nodes)
+        panel.close()
