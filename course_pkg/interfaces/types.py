@@ -14,7 +14,7 @@ from course_pkg.errors import UnknownType
 from course_pkg.interfaces.compile import compiled_message, compiled_service, dependency
 from course_pkg.interfaces.definition import comments
 from course_pkg.interfaces.fields import Constant, Field, Kind, TextTree, Value, builtin_field
-from course_pkg.interfaces.path import built_class, definition_file, read_definition, unknown
+from course_pkg.interfaces.path import Half, built_class, definition_file, read_definition, unknown
 from course_pkg.interfaces.text import read_fields, show
 from course_pkg.interfaces.values import build, check_fields, default
 
@@ -124,6 +124,20 @@ def message_type(type_or_name: Any) -> MessageType:  # noqa: ANN401 - a name or 
     if file := definition_file(name, "msg"):
         return _message(compiled_message(name, read_definition(file), str(file)))
     raise unknown(name, "msg")
+
+
+def type_in_file(name: str, half: Half) -> ServiceType | MessageType:
+    """Return a type as its .srv or .msg file says it now, whatever was built from it before.
+
+    Raises UnknownType, and BrokenDefinition for a text that is not what ROS accepts.
+    """
+    file = definition_file(name, half)
+    if file is None:
+        raise unknown(name, half)
+    text = read_definition(file)
+    if half == "srv":
+        return _service(compiled_service(name, text, str(file)))
+    return _message(compiled_message(name, text, str(file)))
 
 
 def compile_service(name: str, text: str) -> ServiceType:

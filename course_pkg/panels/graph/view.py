@@ -8,10 +8,8 @@ from typing import Any, ClassVar
 from traitlets import Bool, Dict, List, Unicode
 
 from course_pkg.graph import Activity, Listener, Node, Snapshot, look, this_node
-from course_pkg.panels.assets import sheet
 from course_pkg.panels.follower import Follower
 from course_pkg.panels.graph.model import GraphModel
-from course_pkg.panels.panel import HERE as PANELS
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
@@ -28,6 +26,7 @@ class GraphPanel(Panel):
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
+    shared_sheets: ClassVar[tuple[Path, ...]] = (HERE / "drawing.css",)
     style_sheet: ClassVar[Path] = HERE / "graph.css"
 
     drawing = Unicode(help="the picture as SVG").tag(sync=True)
@@ -53,10 +52,6 @@ class GraphPanel(Panel):
         self.publish(live=live, noise=noise, own=own, show_own=True)
         self._follower.once()
         self._listener.once()
-
-    @property
-    def _css(self) -> str:
-        return sheet(PANELS / "look.css", HERE / "drawing.css", self.style_sheet)
 
     def svg(self) -> str:
         """Return the picture as it is now as an SVG file of its own, fit for a page and for print."""

@@ -1,0 +1,94 @@
+"""The type browser as a widget."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any, ClassVar
+
+from traitlets import Dict, List, Unicode
+
+from course_pkg.graph import Snapshot, look
+from course_pkg.panels.follower import Follower
+from course_pkg.panels.panel import Panel
+from course_pkg.panels.types.model import Catalogue, TypeModel, catalogue
+
+HERE = Path(__file__).parent
+CALM = 3.0  # s between two looks at the files
+SHARE = 50  # a look at a thousand packages takes long: it is to cost no more than a 50th of the time
+
+Sight = tuple[Catalogue, int]
+
+
+class TypeBrowser(Panel):
+    """All service and message types of this machine: what they are made of, and who offers them now.
+
+    `name` is the type to begin with, such as "std_srvs/SetBool". While a page shows it, the browser follows
+    the files and the graph.
+    """
+
+    front_end: ClassVar[Path] = HERE / "types.js"
+    shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css",)
+    style_sheet: ClassVar[Path] = HERE / "types.css"
+
+    packages: List[Any] = List(help="the packages with their types, by half").tag(sync=True)
+    described = Dict(help="the type that is open").tag(sync=True)
+    offers = Dict(help="who has which type on the graph now").tag(sync=True)
+    trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
+
+    def __init__(self, name: str | None = None) -> None:
+        super().__init__()
+        self._name = name
+        self._known: Catalogue = ((), ())
+        self._not_before = 0.0  # s of time.monotonic()
+        self._model = TypeModel(self.publish, turn=self.turn)
+        self._graph: Follower[Snapshot] = Follower(look, self._saw, self._lost)
+        self._files: Follower[Sight] = Follower(self._list, self._know, self.complain, every=CALM)
+        with self.turn, self.hold_sync():
+            self._files.once()
+            if name is not None:
+                self._model.open(name)
+            self._graph.once()
+
+    def shown(self) -> None:
+        """Follow the files and the graph."""
+        self._files.start()
+        self._graph.start()
+
+    def hidden(self) -> None:
+        """Leave both alone."""
+        self._files.stop()
+        self._graph.stop()
+
+    def received(self, kind: str, content: dict[str, Any]) -> None:
+        """Answer a click on a type."""
+        if kind == "open":
+            self._model.open(str(content["name"]), "msg" if content["half"] == "msg" else "srv")
+
+    def __repr__(self) -> str:
+        return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
+
+    def _list(self) -> Sight:
+        """Look at which types there are, and when the file of the open one was written."""
+        began = time.monotonic()
+        if began >= self._not_before:
+            self._known = catalogue()
+            self._not_before = began + SHARE * (time.monotonic() - began)
+        return self._known, _written(self._model.file)
+
+    def _know(self, sight: Sight) -> None:
+        self._model.know(sight[0])
+
+    def _saw(self, snapshot: Snapshot) -> None:
+        self.publish(trouble="")
+        self._model.see(snapshot)
+
+    def _lost(self, error: Exception) -> None:
+        self.publish(trouble=str(error), offers={})
+
+
+def _written(file: str) -> int:
+    try:
+        return Path(file).stat().st_mtime_ns if file else 0
+    except OSError:
+        return 0

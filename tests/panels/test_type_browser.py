@@ -1,0 +1,217 @@
+"""The type browser: which types there are, what one is made of, and who offers it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from course_pkg.graph import NodeProcess, NodeSeen, PrivateMaster, ServiceSeen, Snapshot, TopicSeen
+from course_pkg.panels import TypeBrowser
+from course_pkg.panels.types.description import CHANGED, NO_FILE, UNBUILT, described
+from course_pkg.panels.types.model import TypeModel, catalogue, offers, packages
+from tests.interfaces.conftest import build, package
+from tests.support import eventually
+
+
+class Wall:
+    """A model and what it said, by keyword."""
+
+    def __init__(self) -> None:
+        self.said: list[dict[str, Any]] = []
+        self.model = TypeModel(lambda **parts: self.said.append(parts))
+
+    def last(self, name: str) -> Any:  # noqa: ANN401 - a trait
+        """Find the latest of one kind."""
+        return next(each[name] for each in reversed(self.said) if name in each)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder for packages, on both paths."""
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
+    monkeypatch.syspath_prepend(str(tmp_path / "python"))
+    return tmp_path
+
+
+def test_a_service_is_told_with_fields_comments_and_lines() -> None:
+    """What a student asks of a type stands there: fields, MD5, text, and lines that work as they are."""
+    told = described("std_srvs/SetBool", "srv")
+    request, response = told["parts"]
+    assert [(each["type"], each["name"]) for each in request["fields"]] == [("bool", "data")]
+    assert request["fields"][0]["help"] == "e.g. for hardware enabling / disabling"
+    assert [each["name"] for each in response["fields"]] == ["success", "message"]
+    assert told["md5"] == "09fb03525b03e7ea1fd3992bafd87e16"
+    assert "---\n" in told["text"]
+    assert told["file"].endswith("std_srvs/srv/SetBool.srv")
+    assert [each["text"] for each in told["lines"]] == [
+        "rossrv show std_srvs/SetBool",
+        "rossrv md5 std_srvs/SetBool",
+        "from std_srvs.srv import SetBool",
+    ]
+    assert (told["problem"], told["warning"]) == ("", "")
+
+
+def test_messages_within_are_a_tree_and_constants_are_told() -> None:
+    """A message in a message, or in an array, has its own fields below it; a time has its two halves."""
+    [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
+    header = fields["fields"][0]
+    assert (header["type"], [each["name"] for each in header["fields"]]) == (
+        "std_msgs/Header",
+        ["seq", "stamp", "frame_id"],
+    )
+    assert [each["name"] for each in header["fields"][1]["fields"]] == ["secs", "nsecs"]
+    assert {"name": "ERROR", "type": "byte", "value": "8"} in fields["constants"]
+    [points] = described("geometry_msgs/Polygon", "msg")["parts"]
+    assert [each["name"] for each in points["fields"][0]["fields"]] == ["x", "y", "z"]
+
+
+def test_a_broken_file_is_told_with_file_and_line(folder: Path) -> None:
+    """A text that ROS refuses is a sentence that says where, and the text is there to be read."""
+    package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
+    told = described("bad_pkg/Slip", "srv")
+    assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
+    assert told["text"].startswith("float64 ok")
+    assert told["parts"] == []
+
+
+def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
+    """It can be looked at, and not be imported."""
+    package(folder, "raw_types_pkg", New_srv="int8 x\n---\n")
+    told = described("raw_types_pkg/New", "srv")
+    assert told["warning"] == UNBUILT
+    assert told["parts"][0]["fields"][0]["name"] == "x"
+
+
+def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
+    """What programs use is shown, and that the file says otherwise; a comment alone changes nothing."""
+    root = package(folder, "made_pkg", Made_srv="int8 x\n---\n", Whole_msg="int8 y\n")
+    build(root, folder / "python")
+    file = root / "srv" / "Made.srv"
+    assert described("made_pkg/Made", "srv")["warning"] == ""
+    file.write_text("int8 x  # how far\n---\n")
+    assert described("made_pkg/Made", "srv")["warning"] == ""
+    file.write_text("int16 x\n---\n")
+    told = described("made_pkg/Made", "srv")
+    assert told["warning"] == CHANGED
+    assert told["parts"][0]["fields"][0]["type"] == "int8"
+    assert told["text"].startswith("int16")
+    file.write_text("int16 x;\n---\n")
+    assert f"{file}, line 1" in described("made_pkg/Made", "srv")["warning"]
+    file.unlink()
+    assert described("made_pkg/Made", "srv")["warning"] == NO_FILE
+
+
+@pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
+def test_a_type_that_is_not_there(name: str) -> None:
+    """An unknown name is a sentence with advice, never an error in the page."""
+    told = described(name, "srv")
+    assert name in told["problem"]
+    assert (told["parts"], told["md5"]) == ([], "")
+
+
+def test_packages_are_those_with_types() -> None:
+    """Each has its services and its messages, all in order."""
+    found = packages((("b_pkg/One", "b_pkg/Two"), ("a_pkg/Three", "b_pkg/One")))
+    assert found == [
+        {"name": "a_pkg", "srv": [], "msg": ["Three"]},
+        {"name": "b_pkg", "srv": ["One", "Two"], "msg": ["One"]},
+    ]
+
+
+def test_everything_on_the_path_can_be_opened() -> None:
+    """Of all types of this machine none is a problem."""
+    services, messages = catalogue()
+    assert {"std_srvs/SetBool", "course_pkg/geometry"} <= set(services)
+    assert "std_msgs/String" in messages
+    assert [name for name in services if described(name, "srv")["problem"]] == []
+
+
+def test_a_type_that_vanishes_is_told(folder: Path) -> None:
+    """When the files change, so does what is shown, without anybody picking it anew."""
+    wall = Wall()
+    root = package(folder, "short_pkg", Lived_srv="int8 x\n---\n")
+    wall.model.know(catalogue())
+    wall.model.open("short_pkg/Lived")
+    assert wall.last("described")["problem"] == ""
+    (root / "srv" / "Lived.srv").unlink()
+    wall.model.know(catalogue())
+    assert "short_pkg/Lived" in wall.last("described")["problem"]
+    assert all(each["srv"] != ["Lived"] for each in wall.last("packages"))
+
+
+def test_the_same_is_not_told_twice() -> None:
+    """Looking at files that did not change says nothing."""
+    wall = Wall()
+    wall.model.know(catalogue())
+    wall.model.open("std_srvs/Empty")
+    told = len(wall.said)
+    wall.model.know(catalogue())
+    assert len(wall.said) == told
+
+
+def test_a_name_of_both_halves_is_the_service() -> None:
+    """A service and a message may have one name; what is asked for by name is the service."""
+    wall = Wall()
+    wall.model.know((("std_srvs/Empty",), ("std_msgs/Empty", "std_srvs/Empty")))
+    wall.model.open("std_srvs/Empty")
+    assert wall.last("described")["half"] == "srv"
+    wall.model.open("std_msgs/Empty")
+    assert wall.last("described")["half"] == "msg"
+
+
+def test_who_offers_a_type_now() -> None:
+    """Of a service type its services and their nodes, of a message type its topics and both their ends."""
+    seen = Snapshot(
+        "http://localhost:11311",
+        (NodeSeen("/a", "x", "answered"),),
+        (TopicSeen("/t", "std_msgs/String", ("/a",), ("/b", "/c")), TopicSeen("/untyped", "", (), ("/b",))),
+        (
+            ServiceSeen("/s", "std_srvs/Empty", "/a", "x", "answered"),
+            ServiceSeen("/mute", "", "/d", "x", "silent"),
+        ),
+    )
+    assert offers(seen) == {
+        "srv": {"std_srvs/Empty": [{"name": "/s", "served by": ["/a"]}]},
+        "msg": {"std_msgs/String": [{"name": "/t", "published by": ["/a"], "subscribed by": ["/b", "/c"]}]},
+    }
+
+
+@pytest.fixture
+def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
+    """A browser on a real master, shown by a page."""
+    assert master.uri
+    browser = TypeBrowser("course_pkg/geometry")
+    browser._dispatch(browser, {"kind": "hello", "view": "a"}, [])
+    yield browser
+    browser.close()
+
+
+def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) -> None:
+    """A server that starts and a file that is written appear by themselves while a page shows the browser."""
+    with NodeProcess.rosrun("course_pkg", "server"):
+        who = eventually(lambda: browser.offers.get("srv", {}).get("course_pkg/geometry"), timeout=20)
+    assert who == [{"name": "/getGeometry", "served by": ["/SERVER_NODE"]}]
+    package(folder, "late_types_pkg", Late_srv="int8 x\n---\n")
+    eventually(lambda: any(each["name"] == "late_types_pkg" for each in browser.packages), timeout=20)
+    browser._dispatch(browser, {"kind": "open", "name": "late_types_pkg/Late", "half": "srv"}, [])
+    (folder / "late_types_pkg" / "srv" / "Late.srv").write_text("int8 y\n---\n")
+    eventually(lambda: browser.described["parts"][0]["fields"][0]["name"] == "y", timeout=20)
+    assert browser.notice == ""
+
+
+def test_the_repr_is_stable(browser: TypeBrowser) -> None:
+    """It says what the cell said, whatever is clicked later."""
+    browser._dispatch(browser, {"kind": "open", "name": "std_srvs/Empty", "half": "srv"}, [])
+    assert browser.described["name"] == "std_srvs/Empty"
+    assert (repr(browser), repr(TypeBrowser())) == ("TypeBrowser('course_pkg/geometry')", "TypeBrowser()")
+
+
+def test_without_a_master_types_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files need no graph: only who offers a type is unknown, and why."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+    browser = TypeBrowser("std_srvs/Trigger")
+    assert browser.described["md5"] == "937c9679a518e3a18d831e57125ea522"
+    assert "No ROS master at http://localhost:1" in browser.trouble
