@@ -5,10 +5,13 @@ import { axis } from "../plot/axes.js";
 /** @typedef {{from: number, to: number}} View */
 
 const MARK = 14; // px: what is narrower is a small mark, what is wider a bar with a word in it
-const CLOSE = 3; // px: arrows of one pair of lanes that stand closer are thinned out
+const CLOSE = 3; // px: what is narrower and stands closer is not drawn one by one
+const APART = { message: 8, call: 3 }; // px: arrows of one pair of lanes that stand closer are thinned out
+const MANY = 5; // calls or messages that make a band
 const AXIS = 26; // px
 const COLOURS = ["text", "muted", "line", "ground", "raised", "error", "handler", "handler-edge", "wait-edge", "callback", "callback-edge"];
 const BLOCKED = ["lookup", "connect", "wait"];
+const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 const NAMES = { lookup: "look-up", connect: "connect", request: "request", publish: "publish" };
 
 export class Drawing {
@@ -141,7 +144,7 @@ export class Drawing {
       if (Math.max(x1, x2) < -8 || Math.min(x1, x2) > this.width + 8) continue;
       if (!mine) {
         const pair = (scene.lane[from] * 1000 + scene.lane[to]) * 4 + (message ? 2 : Number(answer));
-        if (Math.abs(x2 - (last.get(pair) ?? -Infinity)) < CLOSE) {
+        if (Math.abs(x2 - (last.get(pair) ?? -Infinity)) < (message ? APART.message : APART.call)) {
           this.thinned = true;
           continue;
         }
@@ -167,18 +170,75 @@ export class Drawing {
   #drawEvents(pen, chosen) {
     const { scene } = this;
     pen.font = `11px ${font(this.body)}`;
+    const crowded = this.#drawBands(pen);
     pen.textAlign = "left";
     for (let each = 0; each < scene.count; each++) {
       const [left, right] = [this.x(scene.start[each]), this.x(scene.end[each])];
-      if (right < -8 || left > this.width + 8) continue;
+      if (right < -8 || left > this.width + 8 || crowded.has(each)) continue;
       pen.globalAlpha = this.key < 0 || scene.key[each] === this.key ? 1 : 0.4;
-      this.#drawEvent(pen, each, left, right, each === chosen);
+      this.#drawEvent(pen, each, left, right);
     }
     pen.globalAlpha = 1;
+    if (chosen >= 0) this.#outline(pen, chosen);
   }
 
-  /** @param {CanvasRenderingContext2D} pen @param {number} each @param {number} left @param {number} right @param {boolean} chosen */
-  #drawEvent(pen, each, left, right, chosen) {
+  /** Draw what is too small and too close to be told apart as bands with a number; return the events in them. @param {CanvasRenderingContext2D} pen */
+  #drawBands(pen) {
+    const bands = this.#bands();
+    pen.textAlign = "center";
+    for (const { events, left, right, count, what } of bands) {
+      const [y, high] = this.scene.place(events[0]);
+      const [from, to] = [Math.max(left, 0), Math.min(right, this.width)];
+      const message = what === "messages" || what === "callbacks";
+      pen.globalAlpha = this.key < 0 ? 1 : 0.4;
+      pen.fillStyle = what === "calls" ? this.#hatched(pen) : this.colours[message ? "callback" : "handler"];
+      pen.strokeStyle = this.colours[what === "calls" ? "wait-edge" : message ? "callback-edge" : "handler-edge"];
+      pen.lineWidth = 1;
+      pen.setLineDash([2, 2]); // not one long bar: many short ones
+      pen.fillRect(from, y + high / 4, to - from, high / 2);
+      pen.strokeRect(from, y + high / 4, to - from, high / 2);
+      pen.setLineDash([]);
+      const [text, middle] = [`${count} ${what}`, (from + to) / 2];
+      const wide = pen.measureText(text).width + 8;
+      if (wide > to - from || high < 11) continue;
+      pen.fillStyle = this.colours.ground;
+      pen.fillRect(middle - wide / 2, y + high / 2 - 7, wide, 14);
+      pen.fillStyle = this.colours.text;
+      pen.fillText(text, middle, y + high / 2 + 0.5);
+    }
+    pen.globalAlpha = 1;
+    if (bands.length) this.thinned = true;
+    return new Set(bands.flatMap((band) => band.events));
+  }
+
+  #bands() {
+    const { scene } = this;
+    /** @typedef {{events: number[], left: number, right: number, key: number, count: number, what: string}} Band */
+    /** @type {Map<string, Band>} */
+    const open = new Map();
+    /** @type {Band[]} */
+    const bands = [];
+    for (let each = 0; each < scene.count; each++) {
+      const [left, right] = [this.x(scene.start[each]), this.x(scene.end[each])];
+      const what = BANDS[/** @type {keyof BANDS} */ (scene.kindOf(each))];
+      if (!what || right < -8 || left > this.width + 8 || right - left >= CLOSE || scene.key[each] === this.key) continue;
+      const place = `${scene.lane[each]} ${scene.rows[each]} ${scene.depth[each]} ${what}`;
+      let band = open.get(place);
+      if (!band || left - band.right >= CLOSE) {
+        band = { events: [], left, right, key: -1, count: 0, what };
+        open.set(place, band);
+        bands.push(band);
+      }
+      band.events.push(each);
+      band.right = Math.max(band.right, right);
+      if (band.key !== scene.key[each]) band.count += 1;
+      band.key = scene.key[each];
+    }
+    return bands.filter((band) => band.count >= MANY);
+  }
+
+  /** @param {CanvasRenderingContext2D} pen @param {number} each @param {number} left @param {number} right */
+  #drawEvent(pen, each, left, right) {
     const kind = this.scene.kindOf(each);
     const [y, high] = this.scene.place(each);
     const wide = right - left;
@@ -189,10 +249,15 @@ export class Drawing {
     else if (kind === "lookup") diamond(pen, left + wide / 2, y + Math.min(4, high / 2), this.colours["wait-edge"], this.colours.ground);
     else if (kind === "connect") ring(pen, left + wide / 2, y + high - Math.min(4, high / 2), this.colours["wait-edge"], this.colours.ground);
     else tick(pen, left, y, high, kind === "publish" ? this.colours["callback-edge"] : this.colours["handler-edge"], kind === "publish");
-    if (!chosen) return;
+  }
+
+  /** @param {CanvasRenderingContext2D} pen @param {number} each */
+  #outline(pen, each) {
+    const [y, high] = this.scene.place(each);
+    const [left, right] = [Math.max(this.x(this.scene.start[each]), -20), Math.min(this.x(this.scene.end[each]), this.width + 20)];
     pen.strokeStyle = this.colours.text;
     pen.lineWidth = 2;
-    pen.strokeRect(Math.max(left, -20) - 2, y - 2, Math.max(Math.min(right, this.width + 20) - Math.max(left, -20), 2) + 4, high + 4);
+    pen.strokeRect(left - 2, y - 2, Math.max(right - left, 2) + 4, high + 4);
   }
 
   /** @param {CanvasRenderingContext2D} pen @param {number} each @param {string} kind @param {number} left @param {number} right
@@ -205,9 +270,9 @@ export class Drawing {
     pen.beginPath();
     if (open) torn(pen, left, y, wide, high);
     else pen.rect(left, y, wide, high);
-    pen.fillStyle = BLOCKED.includes(kind) ? this.colours.ground : this.colours[message ? "callback" : "handler"];
+    pen.fillStyle = wide <= 3 ? this.colours[edge] : BLOCKED.includes(kind) ? this.colours.ground : this.colours[message ? "callback" : "handler"];
     pen.fill();
-    if (BLOCKED.includes(kind)) {
+    if (BLOCKED.includes(kind) && wide > 3) {
       pen.fillStyle = this.#hatched(pen);
       pen.fill();
     }
@@ -299,11 +364,11 @@ function head(pen, x1, y1, x2, y2) {
 
 /** A bar whose right end is torn off: it went on. @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} wide @param {number} high */
 function torn(pen, x, y, wide, high) {
-  const teeth = Math.max(2, Math.round(high / 4));
+  const teeth = Math.max(2, Math.round(high / 6));
   pen.moveTo(x, y);
   pen.lineTo(x + wide, y);
   for (let tooth = 0; tooth < teeth; tooth++) {
-    pen.lineTo(x + wide - 4, y + ((tooth + 0.5) * high) / teeth);
+    pen.lineTo(x + wide - 6, y + ((tooth + 0.5) * high) / teeth);
     pen.lineTo(x + wide, y + ((tooth + 1) * high) / teeth);
   }
   pen.lineTo(x, y + high);

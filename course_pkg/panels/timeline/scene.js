@@ -5,7 +5,7 @@
 
 const HEAD = 22; // px of a lane's name
 const GAP = 12; // px between lanes
-const ROWS = [[16, 20], [40, 12], [Infinity, 8]]; // up to so many rows in all: px of each
+const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // up to so many rows in all: px of each, and between
 
 /** Time is in µs throughout. */
 export class Scene {
@@ -20,7 +20,8 @@ export class Scene {
     this.start = Float64Array.from(columns.start ?? []);
     this.end = Float64Array.from(columns.end ?? [], (end) => (end < 0 ? recorded.length : end));
     this.open = Array.from(columns.end ?? [], (end) => end < 0);
-    for (const name of ["kind", "lane", "row", "depth", "name", "peer", "key", "thread", "note"]) /** @type {any} */ (this)[name] = columns[name] ?? [];
+    this.rows = columns.row ?? [];
+    for (const name of ["kind", "lane", "depth", "name", "peer", "key", "thread", "note"]) /** @type {any} */ (this)[name] = columns[name] ?? [];
     /** @type {number[]} */
     this.top = [];
     this.#layOut();
@@ -29,11 +30,12 @@ export class Scene {
 
   #layOut() {
     const rows = this.recorded.lanes.reduce((sum, lane) => sum + lane.rows, 0);
-    this.row_height = ROWS.find(([most]) => rows <= most)?.[1] ?? 8;
+    const [, high, between] = /** @type {number[]} */ (ROWS.find(([most]) => rows <= most));
+    [this.row, this.between] = [high, between];
     let y = 4;
     for (const lane of this.recorded.lanes) {
       this.top.push(y);
-      y += HEAD + lane.rows * (this.row_height + 3) + GAP;
+      y += HEAD + lane.rows * (this.row + this.between) + GAP;
     }
     this.height = Math.max(y - GAP + 8, 40);
   }
@@ -67,9 +69,9 @@ export class Scene {
 
   /** The upper edge of an event, and how high it is, inset by how deep it lies within others. @param {number} each */
   place(each) {
-    const inset = Math.min(this.depth[each] * 3, this.row_height / 2 - 2);
-    const y = this.top[this.lane[each]] + HEAD + this.row[each] * (this.row_height + 3);
-    return [y + inset, this.row_height - 2 * inset];
+    const inset = Math.min(this.depth[each] * 3, this.row / 2 - 2);
+    const y = this.top[this.lane[each]] + HEAD + this.rows[each] * (this.row + this.between);
+    return [y + inset, this.row - 2 * inset];
   }
 
   /** From when to when there is anything to see. */

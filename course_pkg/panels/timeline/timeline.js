@@ -30,6 +30,7 @@ class TimelineView {
   end() {
     this.observer?.disconnect();
     this.themes?.disconnect();
+    this.paper?.removeEventListener("change", this.#drawNow);
     cancelAnimationFrame(this.frame);
   }
 
@@ -41,7 +42,7 @@ class TimelineView {
       "aria-label": `${this.scene.count} events of ${recorded.lanes.length} nodes. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
-    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Arrows that stand closer than 3 pixels are thinned out here. Zoom in to see all." });
+    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "What is too close together to be told apart is drawn as a band with its number, or left out if it is an arrow. Zoom in to see each." });
     this.body = h("tbody", {});
     this.table = /** @type {HTMLDetailsElement} */ (h("details", { class: "ros-list", ontoggle: () => this.#fillTable() }, h("summary", { text: "The same as a table" }),
       h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Events" }, h("table", {}, h("thead", {}, h("tr", {},
@@ -62,8 +63,8 @@ class TimelineView {
 
   #buildFoot() {
     const said = waiting(this.scene);
-    return h("div", { class: "ros-foot" }, this.thinned, legend(),
-      h("ul", { class: "ros-waits", "aria-label": "Who waited for whom" }, ...said.map(({ waits, text }) => h("li", { class: waits ? "ros-blocked" : "" }, ...prose(text)))),
+    return h("div", { class: "ros-foot" }, 
+      h("ul", { class: "ros-waits", "aria-label": "Who waited for whom" }, ...said.map(({ waits, text }) => h("li", { class: waits ? "ros-blocked" : "" }, ...prose(text)))), legend(), this.thinned,
       h("p", { class: "ros-muted ros-hint", text: HINT }));
   }
 
@@ -80,6 +81,8 @@ class TimelineView {
       this.#drawNow(); // later would be a page without a drawing for a moment
     });
     this.observer.observe(this.window);
+    this.paper = window.matchMedia("print"); // where the colours are others
+    this.paper.addEventListener("change", this.#drawNow);
     this.themes = new MutationObserver(() => this.#drawSoon());
     for (const element of [document.documentElement, document.body]) this.themes.observe(element, { attributes: true });
     const on = (/** @type {string} */ name, /** @type {(event: any) => void} */ act, options = {}) => this.canvas.addEventListener(name, act, options);
@@ -207,12 +210,12 @@ class TimelineView {
     if (!this.frame) this.frame = requestAnimationFrame(() => this.#drawNow());
   }
 
-  #drawNow() {
+  #drawNow = () => {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
     this.drawing.draw(this.view, this.chosen);
     setAttribute(this.thinned, "hidden", !this.drawing.thinned);
-  }
+  };
 
   /** The table's rows are made when it is opened first: thousands of them take their time. */
   #fillTable() {

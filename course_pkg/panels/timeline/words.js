@@ -3,7 +3,7 @@ import { numeral } from "../plot/axes.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
 
-const MANY = 8; // sentences about who waited, before the rest is only counted
+const SENTENCES = 8; // sentences about who waited, before the rest is only counted
 
 /** A span of time (µs). @param {number} span */
 export function duration(span) {
@@ -52,16 +52,16 @@ function heard(scene, each) {
 export function waiting(scene) {
   const { calls, streams } = scene.recorded.waits;
   const said = [...calls.map((wait) => ({ waits: true, text: waited(wait) })), ...streams.map((stream) => ({ waits: false, text: published(stream) }))];
-  const rest = said.length - MANY;
-  return rest > 1 ? [...said.slice(0, MANY), { waits: false, text: `And ${rest} more, which the table lists.` }] : said;
+  const rest = said.length - SENTENCES;
+  return rest > 1 ? [...said.slice(0, SENTENCES), { waits: false, text: `And ${rest} more, which the table lists.` }] : said;
 }
 
 /** @param {any} wait */
 function waited({ node, service, servers, calls, blocked, longest, open, failed }) {
-  const whom = servers.length ? `for ${servers.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "and reached nobody";
+  const whom = servers.length ? `waited for ${servers.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")} on` : open ? "waited for a server that does not speak, on" : "reached nobody on";
   const long = calls > 1 ? `${duration(blocked * 1e6)} in ${calls} calls, the longest ${duration(longest * 1e6)}` : duration(blocked * 1e6);
   const ends = [open ? (calls > 1 ? `${open} not over` : "and it is not over") : "", failed ? (calls > 1 ? `${failed} failed` : "in vain") : ""].filter(Boolean);
-  return `\`${node}\` waited ${whom} on \`${service}\`: ${[long, ...ends].join(", ")}.`;
+  return `\`${node}\` ${whom} \`${service}\`: ${[long, ...ends].join(", ")}.`;
 }
 
 /** @param {any} stream */
