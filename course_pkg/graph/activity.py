@@ -13,7 +13,7 @@ from typing import Any
 from xml.parsers.expat import ExpatError
 from xmlrpc.client import Fault, loads
 
-from course_pkg.graph.callers import ServiceCaller, callers_probe, told_callers
+from course_pkg.graph.callers import Callers, ServiceCaller, callers_probe, told_callers
 from course_pkg.graph.probe import Probe, ask_all, rpc_answer, rpc_probe
 from course_pkg.graph.snapshot import PATIENCE, Snapshot
 
@@ -64,7 +64,7 @@ class Listener:
             for each in told
             if (peer := self._peers[awake[name]].get(each.connection))
         ]
-        callers = {service: who for probe in probes.values() for service, who in told_callers(probe).items()}
+        callers = {service: who for probe in probes.values() for service, who in _callers(probe).items()}
         # Without knowing whom its connections lead to, what a node has counted tells nothing.
         clear = {name for name, told in counts.items() if self._peers[awake[name]] or not told}
         mute = frozenset(node.name for node in snapshot.nodes if node.name not in clear)
@@ -108,6 +108,14 @@ def _counts(probe: Probe) -> list[_Count] | None:
     except (ExpatError, Fault, LookupError, TypeError, ValueError):
         # rospy answers by a fault as soon as a connection has carried 2 GiB: XML-RPC has no greater number.
         return None
+
+
+def _callers(probe: Probe) -> Callers:
+    """Return who has called a node's services; a stranger's shape tells nothing."""
+    try:
+        return told_callers(probe)
+    except (LookupError, TypeError, ValueError):
+        return {}
 
 
 def _peers(info: Iterable[Any]) -> dict[int, str]:

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
 from course_pkg.errors import UnknownExecutable
-from course_pkg.graph import Activity, Carried, NodeProcess, PrivateMaster, listen, look
+from course_pkg.graph import (
+    Activity,
+    Carried,
+    NodeProcess,
+    NodeSeen,
+    PrivateMaster,
+    Snapshot,
+    listen,
+    look,
+)
 from tests.kernel import Kernel
 from tests.support import eventually, stopped
 
@@ -122,3 +133,29 @@ def test_an_empty_graph() -> None:
     with PrivateMaster() as alone:
         seen = listen(look(alone.uri))
     assert (seen.carried, seen.mute, dict(seen.callers)) == ((), frozenset(), {})
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        [1, "", [[["/words", 3, [[1, 10, 3, True]]]], [], [["/service", "calls"]]]],
+        [1, "", [[["/words"]], [], []]],
+        [1, "", "nothing"],
+        [0, "not supported", 0],
+        "nonsense",
+    ],
+)
+def test_a_stranger_s_answer_does_no_harm(answer: object) -> None:
+    """A node of another library may answer in a shape of its own: what cannot be read is not counted."""
+    server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+    server.register_function(lambda _: answer, "getBusStats")
+    server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    node = NodeSeen("/stranger", f"http://localhost:{server.server_address[1]}/", "answered")
+    try:
+        seen = listen(Snapshot("http://localhost:1", (node,), (), ()))
+    finally:
+        server.shutdown()
+        server.server_close()
+    assert seen.callers == {}
+    assert seen.mute == {"/stranger"} or seen.carried == (Carried("/words", "/stranger", "/listener", 1, 3),)

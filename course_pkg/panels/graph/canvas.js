@@ -19,7 +19,12 @@ export class Canvas {
     this.tools = h("div", { class: "ros-tools", role: "group", "aria-label": "Size of the drawing", hidden: true },
       this.#tool("−", "Smaller", () => this.#resize(this.scale / STEP)), this.#tool("+", "Larger", () => this.#resize(this.scale * STEP)),
       this.#tool("Fit", "Show the whole drawing", () => this.#resize(this.#whole())));
-    new ResizeObserver(() => this.#fit()).observe(this.el);
+    // Only another width counts: the height is that of the drawing, which is made here.
+    let width = 0;
+    new ResizeObserver(() => {
+      if (width === (width = this.el.clientWidth)) return;
+      this.#fit();
+    }).observe(this.el);
   }
 
   /** @param {string} drawing an SVG, built in Python by an XML library, which escapes every name that comes from the graph */
@@ -40,7 +45,7 @@ export class Canvas {
     for (const shape of this.#shapes()) {
       const chosen = shape.getAttribute("data-key") === this.chosen;
       shape.classList.toggle("ros-chosen", chosen);
-      shape.setAttribute("aria-pressed", String(chosen));
+      if (!shape.hasAttribute("aria-expanded")) shape.setAttribute("aria-pressed", String(chosen));
     }
     let some = false;
     for (const edge of this.el.querySelectorAll(".ros-edge")) {
