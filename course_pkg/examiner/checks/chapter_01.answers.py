@@ -92,6 +92,14 @@ def full_name(written, namespace, name):
         return f"{namespace}/{name}/{written[1:]}".lstrip("/")
     return f"{namespace}/{written}".lstrip("/")
 
+# %% 01.1 wrong: no slash between | hint: A slash is missing between
+def full_name(written, namespace, name):
+    if written.startswith("/"):
+        return written
+    if written.startswith("~"):
+        return namespace + name + "/" + written[1:]
+    return namespace + written
+
 # %% 01.1 wrong: as this notebook means it | hint: The node in question is another
 def full_name(written, namespace, name):
     return rospy.resolve_name(written)
@@ -142,11 +150,11 @@ def start_in(room):
 def start_in(room):
     return node.run("course_pkg", "server", "__ns:=/kitchen", "__name:=measurer", "getGeometry:=measure")
 
-# %% 01.2 wrong: an equals sign alone | hint: Its name and its place are as ever
+# %% 01.2 wrong: an equals sign alone | hint: Its name and place are as ever
 def start_in(room):
     return node.run("course_pkg", "server", f"__ns=/{room}", "__name=measurer", "getGeometry=measure")
 
-# %% 01.2 wrong: blanks around the sign | hint: Its name and its place are as ever
+# %% 01.2 wrong: blanks around the sign | hint: Its name and place are as ever
 def start_in(room):
     return node.run("course_pkg", "server", "__ns", ":=", f"/{room}", "getGeometry", ":=", "measure")
 
@@ -197,7 +205,7 @@ def ask_wherever(last, length, width, height):
         if last in service:
             return node.call(service, geometry, length, width, height).volume
 
-# %% 01.3 wrong: ends with it, without the slash | hint: Compare all of what stands behind the last slash
+# %% 01.3 wrong: ends with it, without the slash | hint: Compare all that stands behind the last slash
 def ask_wherever(last, length, width, height):
     for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
         if service.endswith(last):
@@ -235,7 +243,7 @@ def ask_wherever(last, length, width, height):
 def ask_wherever(last, length, width, height):
     return length * width * height
 
-# %% 01.3 wrong: only one namespace deep | hint: It may be in any namespace
+# %% 01.3 wrong: only one namespace deep | hint: Look through all names
 def ask_wherever(last, length, width, height):
     for service in rosservice.get_service_list():
         parts = service.split("/")
