@@ -7,7 +7,9 @@ from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
+from course_pkg.graph import MasterClient
 from tests.browser.jupyter import Lab, panel, picture, running_lab, running_notebook
+from tests.support import eventually
 
 JOIN = """
 from course_pkg import TopicPanel, join
@@ -77,6 +79,19 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, page: Page) -> None:
         topic.get_by_role("button", name="1000 at once").click()
         expect(topic.locator(".ros-facts")).to_contain_text(re.compile(r"Published1,\d\d\d"), timeout=10_000)
         picture(topic, "topic-panel-burst")
+
+
+def test_a_page_that_is_left_takes_the_node_off_the_graph(lab: Lab, page: Page) -> None:
+    """Whoever closes the page ends what the panel publishes, while the kernel lives on."""
+    with running_notebook(page, lab, "left", JOIN, 'open("master.txt", "w").write(node.master)', PANEL):
+        topic = listening(page)
+        topic.get_by_role("button", name="Publish at a rate").click()
+        expect(topic.get_by_role("button", name="Stop")).to_be_visible()
+        master = MasterClient((lab.folder / "master.txt").read_text())
+        assert master.system_state().publishers["/speed"]
+        page.goto("about:blank")
+        eventually(lambda: not any("topic_panel" in node for node in master.system_state().nodes))
+        assert "/topic_test" in master.system_state().nodes
 
 
 def test_what_is_wrong_is_said_at_its_field(lab: Lab, page: Page) -> None:

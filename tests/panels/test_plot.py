@@ -44,6 +44,15 @@ def test_what_is_no_number_is_left_out_and_said_so(bad: float, kind: str) -> Non
     assert made["notes"] == ["2 points of 'topic' are left out: not a finite number."]
 
 
+def test_a_gap_in_a_line_is_not_bridged() -> None:
+    """Where a value could not be drawn, a new stroke begins; dots need none."""
+    points = [(0, 1), (1, 2), (2, math.nan), (3, 3), (4, math.inf), (5, 4), (6, 5)]
+    curve = drawing({"topic": points})["series"][0]
+    assert [point[0] for point in curve["points"]] == [0.0, 1.0, 3.0, 5.0, 6.0]
+    assert curve["breaks"] == [2, 3]
+    assert drawing({"topic": points}, kind="dots")["series"][0]["breaks"] == []
+
+
 def test_a_logarithmic_axis_leaves_out_what_is_not_above_zero() -> None:
     """Zero and below cannot be shown there; without `log` they are."""
     points = {"topic": [(0, 0.0), (1, -2.0), (2, 3.0)]}

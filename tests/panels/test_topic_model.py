@@ -150,6 +150,16 @@ def test_messages_that_cannot_be_read_are_named() -> None:
     assert [each["understood"] for each in desk.state["echo"]] == [False, False]
 
 
+def test_a_message_without_fields_is_a_message() -> None:
+    """That it came is all there is to show; there is nothing to draw."""
+    empty = message_type("std_msgs/Empty")
+    desk = Desk(empty)
+    assert desk.state["about"]["numbers"] == []
+    assert desk.state["check"]["once"] == "rostopic pub --once /speed std_msgs/Empty"
+    desk.model.report({"echo": [heard(1, "", empty, texts={})]})
+    assert desk.state["echo"][0]["line"] == "no fields"
+
+
 def test_reports_come_in_parts() -> None:
     """What a report does not name stays as it was."""
     desk = Desk()

@@ -5,7 +5,8 @@ import { h, say } from "../kit.js";
 import { axis, place, reading } from "./axes.js";
 import { look, markers, near, s, whenWide } from "./svg.js";
 
-/** @typedef {{label: string, points: [number, number][], count?: number, given?: number}} Series */
+/** @typedef {{label: string, points: [number, number][], breaks?: number[], count?: number,
+ *   given?: number}} Series */
 /** @typedef {{title?: string, x: string, y: string, kind: string, log: boolean, series: Series[], empty?: string,
  *   window?: [number, number]}} Drawing */
 
@@ -79,13 +80,15 @@ export class Chart {
   }
 
   /** @param {Series} series @param {number} index @param {string} kind */
-  #drawSeries({ points }, index, kind) {
+  #drawSeries({ points, breaks }, index, kind) {
     const { dash, name } = look(index);
     const places = points.map((point) => this.toPage(point));
     if (kind === "dots") return [markers(places, index, places.length > CROWD)];
-    const line = s("polyline", { class: `${name} ros-series-line`, "stroke-dasharray": dash, points: places.map((each) => each.join(",")).join(" ") });
+    const ends = [0, ...(breaks ?? []), places.length];
+    const strokes = ends.slice(1).map((end, at) => s("polyline", { class: `${name} ros-series-line`, "stroke-dasharray": dash,
+      points: places.slice(ends[at], end).map((each) => each.join(",")).join(" ") }));
     const room = places.length ? Math.abs(places[places.length - 1][0] - places[0][0]) : 0;
-    return room >= APART * (places.length - 1) ? [line, markers(places, index)] : [line];
+    return room >= APART * (places.length - 1) ? [...strokes, markers(places, index)] : [...strokes, markers(alone(places, ends), index)];
   }
 
   #drawEmpty() {
@@ -157,6 +160,11 @@ export class Chart {
     const [left, top] = this.toPage(point);
     return [s("line", { x1: left, x2: left, y1: TOP, y2: HEIGHT - BOTTOM }), s("circle", { cx: left, cy: top, r: 7 })];
   }
+}
+
+/** The points between two gaps, which no stroke shows. @param {[number, number][]} places @param {number[]} ends */
+function alone(places, ends) {
+  return ends.slice(1).flatMap((end, at) => (end - ends[at] === 1 ? [places[ends[at]]] : []));
 }
 
 /** "delay (ms)" and "3" as "delay 3 ms". @param {string} name @param {string} value */

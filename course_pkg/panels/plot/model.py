@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Callable, Iterable, Mapping
+from itertools import accumulate, groupby
 from typing import Any, TypeAlias
 
 from course_pkg.errors import NotASeries
@@ -54,17 +55,29 @@ def _bars(series: Mapping[str, Any], kind: str, log: bool, x: str, y: str) -> di
 
 def _curves(series: Mapping[str, Any], kind: str, log: bool, x: str, y: str) -> dict[str, Any]:
     points = {str(label): _points(given, label, kind) for label, given in series.items()}
-    kept = {label: [each for each in all_of if _drawable(each, log)] for label, all_of in points.items()}
-    shown = [_curve(label, every, kind, log) | {"given": len(points[label])} for label, every in kept.items()]
+    runs = {label: _runs(every, kind, log) for label, every in points.items()}
+    kept = {label: [point for run in every for point in run] for label, every in runs.items()}
+    shown = [_curve(label, runs[label], kind, log) | {"given": len(points[label])} for label in points]
     notes = [note for label in points for note in _notes(label, points[label], kept[label], kind)]
     tables = [_spread(kept, y), _values(points, x, y)] if any(points.values()) else []
     return {"bars": [], "series": shown, "notes": notes, "tables": tables}
 
 
-def _curve(label: str, points: list[Point], kind: str, log: bool) -> dict[str, Any]:
+def _curve(label: str, runs: list[list[Point]], kind: str, log: bool) -> dict[str, Any]:
+    """Return the points to draw; at each of `breaks`, indices of points, a new stroke begins."""
+    points = [point for run in runs for point in run]
     rounded = [_rounder([point[axis] for point in points]) for axis in (0, 1)]
-    drawn = [[rounded[0](across), rounded[1](up)] for across, up in thinned(points, kind, log)]
-    return {"label": label, "points": drawn, "count": len(points)}
+    strokes = [thinned(run, kind, log) for run in runs]
+    drawn = [[rounded[0](across), rounded[1](up)] for stroke in strokes for across, up in stroke]
+    breaks = list(accumulate(map(len, strokes)))[:-1]
+    return {"label": label, "points": drawn, "breaks": breaks, "count": len(points)}
+
+
+def _runs(points: list[Point], kind: str, log: bool) -> list[list[Point]]:
+    """Return what can be drawn; of a line what stands between two gaps, so that none is bridged."""
+    groups = groupby(points, lambda point: _drawable(point, log))
+    runs = [list(group) for drawable, group in groups if drawable]
+    return runs if kind == "line" else [[point for run in runs for point in run]]
 
 
 def _notes(label: str, points: list[Point], kept: list[Point], kind: str) -> list[str]:

@@ -32,7 +32,7 @@ class Echo:
             lines = _rows(each, kind)
             about = {name: each[name] for name in ("number", "ago", "peer")}
             understood = lines is not None
-            line = summary(lines) if lines is not None else _stranger(each, kind)
+            line = (summary(lines) or "no fields") if lines is not None else _stranger(each, kind)
             self._entries.appendleft({**about, "line": line, "understood": understood})
             if lines is not None:
                 self.latest = lines
