@@ -5,12 +5,12 @@ from __future__ import annotations
 import difflib
 import signal
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
-from course_pkg.errors import ExamError
+from course_pkg.errors import ExamError, GraphError
 from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
 from course_pkg.examiner.folder import SLACK, Folder
@@ -246,6 +246,8 @@ class Exam:
     ) -> None:
         with held_back(signal.SIGTERM):
             self._open.close()
+            with suppress(GraphError):  # a master that is gone has nothing to forget
+                self._node.forget_topics(self.draw.made)
         if isinstance(error, Exception) and not isinstance(error, (RuleBroken, ExamError)):
             words = f"{type(error).__name__}: {error}"
             raise ExamError(f"This check itself is broken ({words}); it is not your doing.") from error

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
@@ -46,6 +46,20 @@ class Node:
         uri = self.master.lookup_service(service)
         node_uri = self.master.lookup_node(providers[0]) if providers else None
         return Registration(providers[0], uri, node_uri) if uri and node_uri else None
+
+    def forget_topics(self, made: Callable[[str], bool]) -> None:
+        """Take the topics of `made` names off the graph, whoever registered them.
+
+        What a student's function began on a topic of a check's own goes on, and so would its name.
+        """
+        state, master = self.master.system_state(), self.master
+        for table, withdraw in (
+            (state.publishers, master.unregister_publisher),
+            (state.subscribers, master.unregister_subscriber),
+        ):
+            for topic in filter(made, table):
+                for node in table[topic]:
+                    withdraw(node, topic, master.lookup_node(node) or "")
 
     def probe(self, service: str) -> Probe | None:
         """Ask who serves `service` what it is; return None when nobody is registered."""

@@ -123,6 +123,24 @@ def test_what_stands_in_the_way_is_told_in_the_report(tmp_path: Path, cells: str
     assert words in output(cells, tmp_path)
 
 
+def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path) -> None:
+    """What the student's function left open is off the graph; what they began themselves stays."""
+    cells = """
+    from std_msgs.msg import UInt32
+
+    mine = node.subscribe("/mine", UInt32)
+
+    def listen(topic):
+        return [message.data for message in node.subscribe(topic, UInt32).wait(3, timeout=10)]
+
+    print(check("00.3").verdict.value)
+    import rosgraph
+    _, subscribers, _ = rosgraph.Master("/anybody").getSystemState()
+    print([topic for topic, _ in subscribers])
+    """
+    assert output(cells, tmp_path).splitlines() == ["passed", "['/mine']"]
+
+
 def test_the_judge_ends_with_a_killed_kernel(master: PrivateMaster, tmp_path: Path) -> None:
     """SIGKILL leaves nobody on the graph, in the middle of a check."""
     with program(HANG + '    check("05.1")', tmp_path) as process:
