@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from course_pkg.shop.counter import Counter, Visit
     from course_pkg.shop.drawing import shop_picture
     from course_pkg.shop.findings import Findings, side_by_side
-    from course_pkg.shop.trial import try_out
+    from course_pkg.shop.trial import age_of_knowledge, try_out
     from course_pkg.shop.watch import Customer, Watch
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "Findings",
     "Visit",
     "Watch",
+    "age_of_knowledge",
     "shop_picture",
     "side_by_side",
     "try_out",
@@ -35,7 +36,7 @@ __getattr__ = lazily(
         "counter": "Counter Visit",
         "drawing": "shop_picture",
         "findings": "Findings side_by_side",
-        "trial": "try_out",
+        "trial": "age_of_knowledge try_out",
         "watch": "Customer Watch",
     },
 )

@@ -21,7 +21,6 @@ class Findings:
     design: str
     customers: tuple[Visit, ...]
     greeted: Mapping[int, float]  # when, by the customer's number
-    learnt: tuple[float, ...]  # when the cashier heard something from the detector, a "nobody" included
     asked: int  # calls made
     heard: int  # messages received
     lasted: float  # s
@@ -63,26 +62,24 @@ class Findings:
         comes = {visit.number: visit.comes for visit in self.customers}
         return [(comes[number], 1000 * delay) for number, delay in self.delays.items()]
 
-    @property
-    def age_points(self) -> Points:
-        """For a plot: at each time (s), how long ago the cashier last heard from the detector (s)."""
-        times = [0.0, *(time for time in self.learnt if 0 < time < self.lasted), self.lasted]
-        teeth = [[(now, now - before), (now, 0.0)] for before, now in pairwise(times)]
-        return [(0.0, 0.0), *(point for tooth in teeth for point in tooth)][:-1]
-
-    @property
-    def oldest(self) -> float:
-        """The longest time for which the cashier heard nothing from the detector, in s."""
-        return max((age for _, age in self.age_points), default=0.0)
-
     def __repr__(self) -> str:
         return f"<{self.design}: {len(self.customers)} customers>"
+
+
+def age_points(news: Sequence[float], lasted: float) -> Points:
+    """Return for a plot how old knowledge was at each time (s, s), where there was news at the times `news`.
+
+    From 0 to `lasted` s, and fresh at 0; news before or after that does not count.
+    """
+    times = [0.0, *(time for time in news if 0 < time < lasted), lasted]
+    teeth = [[(now, now - before), (now, 0.0)] for before, now in pairwise(times)]
+    return [(0.0, 0.0), *(point for tooth in teeth for point in tooth)][:-1]
 
 
 def side_by_side(trials: Sequence[Findings]) -> str:
     """Return a table of what the trials show beyond doubt, in words; a plot has the numbers."""
     least = min((sum(trial.effort.values()) / trial.lasted for trial in trials), default=0.0)
-    head = ("design", "greets after", "lost", "calls", "processor")
+    head = ("design", "greets", "lost", "calls", "processor")
     rows = [head, *(_row(trial, least) for trial in trials)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
@@ -93,7 +90,7 @@ def _row(trial: Findings, least: float) -> tuple[str, ...]:
     much = sum(trial.effort.values()) / trial.lasted > MUCH * least
     return (
         trial.design,
-        "less than 0.1 s" if trial.median_delay < PROMPT else "longer",
+        "within 0.1 s" if trial.median_delay < PROMPT else "later",
         "some" if trial.lost else "nobody",
         "none" if not trial.asked else "hundreds" if trial.asked >= 100 else "a few",
         "much" if much else "little",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from typing import Any
 
 from course_pkg.errors import NodeFailed
@@ -10,7 +11,7 @@ from course_pkg.graph.node import Node
 from course_pkg.graph.processes import NodeProcess
 from course_pkg.shop.counter import Visit
 from course_pkg.shop.effort import processor_time
-from course_pkg.shop.findings import Findings
+from course_pkg.shop.findings import Findings, Points, age_points
 from course_pkg.srv import CashierReport, LetIn
 
 # When the customers come, in s. Whatever the moment of the first question, the customers come at each tenth
@@ -42,6 +43,20 @@ def try_out(
     return Findings(_title(design, rate), visits, **_told(report, began), lasted=lasted, effort=effort)
 
 
+def age_of_knowledge(node: Node, cashiers: Iterable[str], seconds: float) -> dict[str, Points]:
+    """Wait for `seconds`, and return for each cashier, by its node's name, how old its knowledge was then.
+
+    For a plot: at each time (s), how long ago it last heard from the detector (s).
+    """
+    began = time.time()
+    time.sleep(seconds)
+    reports = {name: node.call(f"/{name}/report", CashierReport) for name in cashiers}
+    return {
+        name: age_points([when.to_sec() - began for when in report.learnt_at], seconds)
+        for name, report in reports.items()
+    }
+
+
 def _let_in(node: Node, began: float) -> tuple[Visit, ...]:
     """Let the customers of a DAY in; return their visits, in s from `began`."""
     response = node.call("/let_in", LetIn, after=DAY, stay=STAY)
@@ -62,7 +77,6 @@ def _told(report: Any, began: float) -> dict[str, Any]:  # noqa: ANN401 -- a cla
     times = [when.to_sec() - began for when in report.greeted_at]
     return {
         "greeted": dict(zip(report.greeted, times, strict=True)),
-        "learnt": tuple(when.to_sec() - began for when in report.learnt_at),
         "asked": report.asked,
         "heard": report.heard,
     }

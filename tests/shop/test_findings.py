@@ -7,20 +7,18 @@ import math
 import pytest
 
 from course_pkg.shop import Findings, Visit, side_by_side
+from course_pkg.shop.findings import age_points
 
 
 def trial(
     design: str = "poll",
     greeted: dict[int, float] | None = None,
-    learnt: tuple[float, ...] = (),
     asked: int = 0,
     effort: float = 0.1,
 ) -> Findings:
     """Return a trial of 10 s with four customers, who come at 1, 2, 3 and 4 s and stay for a second each."""
     visits = tuple(Visit(number, float(number), number + 1.0) for number in (1, 2, 3, 4))
-    return Findings(
-        design, visits, greeted or {}, learnt, asked, 0, 10.0, {"cashier": effort, "detector": effort}
-    )
+    return Findings(design, visits, greeted or {}, asked, 0, 10.0, {"cashier": effort, "detector": effort})
 
 
 def test_delays_count_from_the_moment_of_coming() -> None:
@@ -41,10 +39,9 @@ def test_a_day_on_which_nobody_was_greeted() -> None:
 
 def test_knowledge_ages_until_there_is_news() -> None:
     """The age grows by a second each second, and falls to nothing with each news within the trial."""
-    found = trial(learnt=(-1.0, 2.0, 5.0, 11.0))
-    assert found.age_points == [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (5.0, 3.0), (5.0, 0.0), (10.0, 5.0)]
-    assert found.oldest == 5.0
-    assert trial().oldest == 10.0
+    points = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (5.0, 3.0), (5.0, 0.0), (10.0, 5.0)]
+    assert age_points([-1.0, 2.0, 5.0, 11.0], 10.0) == points
+    assert age_points([], 10.0) == [(0.0, 0.0), (10.0, 10.0)]
 
 
 def test_effort_is_a_share_of_a_core() -> None:
@@ -63,13 +60,13 @@ def test_a_table_of_what_is_certain() -> None:
         ]
     )
     assert table.splitlines() == [
-        "design  greets after     lost    calls     processor",
-        "rarely  longer           some    a few     little",
-        "often   less than 0.1 s  nobody  hundreds  much",
-        "topic   less than 0.1 s  some    none      little",
+        "design  greets        lost    calls     processor",
+        "rarely  later         some    a few     little",
+        "often   within 0.1 s  nobody  hundreds  much",
+        "topic   within 0.1 s  some    none      little",
     ]
 
 
 def test_a_table_of_nothing() -> None:
     """It has its head."""
-    assert side_by_side([]).split() == ["design", "greets", "after", "lost", "calls", "processor"]
+    assert side_by_side([]).split() == ["design", "greets", "lost", "calls", "processor"]

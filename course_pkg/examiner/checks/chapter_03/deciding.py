@@ -98,9 +98,7 @@ def what_polling_costs(exam: Exam) -> None:
             },
         )
         exam.expect(
-            "nobody is missed who stays for longer than the pause"
-            if not share
-            else "who is missed stays for less",
+            "the share of those who are missed" if share else "nobody is missed who stays for a whole pause",
             expected=share,
             seen=missed,
             near=1e-6,
