@@ -95,7 +95,7 @@ export class Canvas {
 
   /** @param {number} scale */
   #resize(scale) {
-    this.zoom = Math.min(2, Math.max(0.2, scale));
+    this.zoom = Math.min(2, Math.max(0.05, scale));
     this.#fit();
   }
 
