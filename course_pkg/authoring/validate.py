@@ -12,27 +12,41 @@ from pathlib import Path
 from course_pkg.authoring.execute import CELL, surroundings
 
 SANITIZE = Path(__file__).with_name("nbval_sanitize.cfg")
+A_CORE = 2  # notebooks: most of their time they wait, for nodes to start and for answers
+
+
+def workers_here(notebooks: int) -> int:
+    """Return how many notebooks to run at once on this machine."""
+    return max(1, min(notebooks, A_CORE * (os.cpu_count() or 1)))
 
 
 def validate(
-    notebooks: Sequence[Path], *, workers: int = 2, timeout: float = 900.0, compare: bool = True
+    notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
     """Run nbval over `notebooks`, each on a master of its own, `workers` at once, within `timeout` s.
 
-    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two. It runs as a
-    copy, for nbval gives the kernel the notebook's own folder to work in. Without `compare`, a notebook
-    only has to run to its end: what it shows is not held against what is stored.
+    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two; those with
+    the most cells begin. Each runs as a copy in a folder of its own, for nbval gives the kernel the
+    notebook's folder to work in. Without `compare`, a notebook only has to run to its end: what it shows is
+    not held against what is stored.
     """
     with surroundings() as (folder, environment):
-        copies = [shutil.copy(path, folder) for path in notebooks]
+        copies = [_copied(path, folder) for path in notebooks]
         return subprocess.run(
-            command([Path(copy) for copy in copies], workers=workers, compare=compare),
+            command(copies, workers=workers or workers_here(len(copies)), compare=compare),
+            cwd=folder,
             env=environment,
             capture_output=True,
             text=True,
             timeout=timeout,
             check=False,
         )
+
+
+def _copied(notebook: Path, folder: Path) -> Path:
+    own = folder / notebook.stem
+    own.mkdir()
+    return Path(shutil.copy(notebook, own))
 
 
 def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) -> list[str]:
@@ -49,7 +63,7 @@ def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) ->
             "no:cacheprovider",
             *parallel,
         ),
-        *("-c", os.devnull, "--rootdir", str(notebooks[0].parent), "--nbval-cell-timeout", str(CELL)),
+        *("-c", os.devnull, "--rootdir", str(notebooks[0].parents[1]), "--nbval-cell-timeout", str(CELL)),
         *("--nbval-sanitize-with", str(SANITIZE)),
         *map(str, notebooks),
     ]
