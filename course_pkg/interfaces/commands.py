@@ -31,16 +31,11 @@ def rospy_line(service: str, kind: ServiceType, values: Mapping[str, Value]) -> 
     A type that is not built comes from its text. Raises FieldError.
     """
     plain = kind.request.check(values)
-    package, _, short = kind.name.partition("/")
+    short = kind.name.partition("/")[2]
     writer = Python(kind.request.fields, ["rospy", "call", "response", short])
     keywords = [f"{each.name}={writer.value(each, plain[each.name])}" for each in kind.request.fields]
     proxy = f"call = rospy.ServiceProxy({python_text(service)}, {short})"
-    lines = ["import rospy", *writer.imports()]
-    if kind.built:
-        lines += [f"from {package}.srv import {short}"]
-    else:
-        lines += _compiled("service", kind.name, kind.text, writer.made())
-    return "\n".join([*lines, "", proxy, _call("response = call", keywords)])
+    return "\n".join([*_definitions(kind, "srv", writer), "", proxy, _call("response = call", keywords)])
 
 
 def rostopic_line(
@@ -75,14 +70,9 @@ def publisher_lines(
     A type that is not built comes from its text. Raises FieldError.
     """
     plain = kind.check(values)
-    writer = Python(kind.fields, ["rospy", "publisher", "rate", kind.name.partition("/")[2]])
+    short = kind.name.partition("/")[2]
+    writer = Python(kind.fields, ["rospy", "publisher", "rate", short])
     keywords = [f"{each.name}={writer.value(each, plain[each.name])}" for each in kind.fields]
-    package, _, short = kind.name.partition("/")
-    lines = ["import rospy", *writer.imports()]
-    if kind.built:
-        lines += [f"from {package}.msg import {short}"]
-    else:
-        lines += _compiled("message", kind.name, kind.text, writer.made())
     options = f"queue_size={queue_size}" + (", latch=True" if latch else "")
     publisher = f"publisher = rospy.Publisher({python_text(topic)}, {short}, {options})"
     publish = _call("publisher.publish", keywords)
@@ -90,7 +80,7 @@ def publisher_lines(
         indented = publish.replace("\n", "\n    ")
         loop = f"while not rospy.is_shutdown():\n    {indented}\n    rate.sleep()"
         publish = f"rate = rospy.Rate({rate:g})\n{loop}"
-    return "\n".join([*lines, "", publisher, publish])
+    return "\n".join([*_definitions(kind, "msg", writer), "", publisher, publish])
 
 
 def _shell(*words: str) -> str:
@@ -104,8 +94,13 @@ def _call(called: str, keywords: list[str]) -> str:
     return "\n".join([f"{called}(", *(f"    {each}," for each in keywords), ")"])
 
 
-def _compiled(what: str, name: str, text: str, made: list[str]) -> list[str]:
-    """Return the lines that make a type from its text, after the `made` lines for its parts."""
-    tools = ", ".join([f"compile_{what}", *(["message_type"] if made else [])])
-    definition = f'{name.partition("/")[2]} = compile_{what}("{name}", {python_block(text)}).cls'
-    return [f"from course_pkg.interfaces import {tools}", "", *made, definition]
+def _definitions(kind: ServiceType | MessageType, folder: str, writer: Python) -> list[str]:
+    """Return the lines that define what the others use; a type that is not built is made from its text."""
+    package, _, short = kind.name.partition("/")
+    lines = ["import rospy", *writer.imports()]
+    if kind.built:
+        return [*lines, f"from {package}.{folder} import {short}"]
+    make, made = {"srv": "compile_service", "msg": "compile_message"}[folder], writer.made()
+    tools = ", ".join([make, *(["message_type"] if made else [])])
+    definition = f'{short} = {make}("{kind.name}", {python_block(kind.text)}).cls'
+    return [*lines, f"from course_pkg.interfaces import {tools}", "", *made, definition]

@@ -94,6 +94,18 @@ def test_a_page_that_is_left_takes_the_node_off_the_graph(lab: Lab, page: Page) 
         assert "/topic_test" in master.system_state().nodes
 
 
+def test_a_busy_kernel_is_said_to_be_busy(lab: Lab, page: Page) -> None:
+    """A click while a cell runs is taken when the cell has ended, and until then a sentence says why."""
+    with running_notebook(page, lab, "busy", JOIN, PANEL, "import time; time.sleep(4)"):
+        topic = listening(page)
+        page.locator(".jp-CodeCell").last.locator(".jp-InputPrompt").click()
+        page.keyboard.press("Control+Enter")
+        topic.get_by_role("button", name="Publish", exact=True).click()
+        expect(topic.get_by_text("Waiting for the kernel: it is busy with another cell.")).to_be_visible()
+        expect(topic.get_by_text("Message 1 went to nobody")).to_be_visible(timeout=15_000)
+        expect(topic.get_by_text("Waiting for the kernel")).to_be_hidden()
+
+
 def test_what_is_wrong_is_said_at_its_field(lab: Lab, page: Page) -> None:
     """Nothing is published while a field or a setting is wrong; the keyboard goes to the first."""
     with running_notebook(page, lab, "wrong", JOIN, PANEL):

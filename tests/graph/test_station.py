@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from course_pkg.graph import MasterClient, PrivateMaster, look
+from course_pkg.graph.station import paths
 from course_pkg.graph.station.curve import SPAN, STEP, Curve
 from course_pkg.graph.station.metronome import CATCH_UP, Metronome
 from course_pkg.graph.station.neighbours import Neighbour, look_around
@@ -172,6 +173,8 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     fixed = compile_message("demo/Fixed", "bool[2] flags\nfloat32[40] many\n")
     assert numbers(fixed)[:2] == ["flags[0]", "flags[1]"]
     assert len(numbers(fixed)) == 2 + 8
+    deep = compile_message("demo/Deep", "geometry_msgs/PoseArray[] poses\n")
+    assert len(numbers(deep)) == paths.MOST
 
 
 def test_a_number_is_found_in_the_bytes() -> None:

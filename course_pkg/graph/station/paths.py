@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from typing import Any
 
 import genpy
@@ -12,13 +13,14 @@ import genpy
 from course_pkg.interfaces import Field, Kind, MessageType
 
 ELEMENTS = 8  # of an array, as many as can be picked
+MOST = 200  # numbers of a message; in arrays of arrays there may be thousands
 
 _NUMBERS = (Kind.INTEGER, Kind.FLOAT, Kind.BOOL)
 
 
 def numbers(message: MessageType) -> list[str]:
     """Return the paths of all numbers in a message; of an array, those of its first elements."""
-    return [path for field in message.fields for path in _paths(field, field.name)]
+    return list(islice((path for field in message.fields for path in _paths(field, field.name)), MOST))
 
 
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:

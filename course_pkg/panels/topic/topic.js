@@ -6,6 +6,7 @@ import { Chart } from "../plot/chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
 const SETTLE = 120; // ms without a keystroke before what is typed is sent
+const SLOW = 1500; // ms after which a click that the kernel has not taken is explained
 const AGEING = 250; // ms between two looks at the clock
 const SPAN = 20; // s that a curve shows
 
@@ -36,7 +37,8 @@ class TopicView {
       if (trait !== "draft") part.call(this);
     }
     const ageing = setInterval(() => this.#age(), AGEING);
-    signal.addEventListener("abort", () => { clearTimeout(this.settling); clearInterval(ageing); this.chart.end(); });
+    model.on("msg:custom", (/** @type {{kind: string}} */ content) => { if (content.kind === "taken") this.#settle(); });
+    signal.addEventListener("abort", () => { clearTimeout(this.settling); clearTimeout(this.slow); clearInterval(ageing); this.chart.end(); });
     kernelLink(model, signal, (live) => this.#kernel(live));
   }
 
@@ -63,13 +65,14 @@ class TopicView {
     this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Withdraw the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
     this.wrong = h("p", { class: "ros-note ros-wrong" });
     this.words = h("p", { class: "ros-words", role: "status", "aria-live": "polite" });
+    this.waiting = h("p", { class: "ros-muted", role: "status" });
     this.counts = h("div", { class: "ros-counts" });
     return h("form", { novalidate: true, class: "ros-publishing", "aria-label": "Publish", onsubmit: (/** @type {Event} */ event) => {
       event.preventDefault();
       this.#act("publish");
     } }, h("h4", { text: "Publish" }), this.fields.el,
     h("div", { class: "ros-settings" }, this.rate.el, this.queue.el, h("label", { class: "ros-latch", for: id }, this.latch, "Latch: keep the last message for who comes later")),
-    h("div", { class: "ros-actions" }, this.once, this.often, this.burst, this.wrong), this.words, this.counts, this.withdraw);
+    h("div", { class: "ros-actions" }, this.once, this.often, this.burst, this.wrong), this.waiting, this.words, this.counts, this.withdraw);
   }
 
   #hearing() {
@@ -258,7 +261,15 @@ class TopicView {
 
   /** @param {object} content */
   #send(content) {
-    if (this.live) send(this.model, content);
+    if (!this.live || !send(this.model, content)) return;
+    clearTimeout(this.slow);
+    this.slow = setTimeout(() => say(this.waiting, "Waiting for the kernel: it is busy with another cell."), SLOW);
+  }
+
+  /** The kernel has taken a click. */
+  #settle() {
+    clearTimeout(this.slow);
+    say(this.waiting, "");
   }
 
   /** JupyterLab keeps the browser from submitting a form by Enter. @param {KeyboardEvent} event */

@@ -80,6 +80,7 @@ class TopicPanel(Panel):
             self._model.stop()
         elif kind == "withdraw":
             self._model.withdraw()
+        self.send({"kind": "taken"})
 
     def __repr__(self) -> str:
         return f"TopicPanel({self._topic!r})"
