@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -36,17 +37,13 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
     joined = module(entry)
     assert joined.count("export ") == 1
     assert "\nimport {" not in joined
-    declared = [
-        line.split("(")[0].split()[-1]
-        for line in joined.splitlines()
-        if line.startswith(("function ", "async function "))
-    ]
+    declared = re.findall(r"^(?:async )?(?:function|const|let|class) (\w+)", joined, re.MULTILINE)
     assert len(declared) == len(set(declared))
 
 
 def test_there_are_panels_to_join() -> None:
     """The parametrised test above looks at every panel."""
-    panels = {"choices", "graph", "plot", "prediction", "service", "topic"}
+    panels = {"choices", "graph", "plot", "prediction", "service", "timeline", "topic"}
     assert panels <= {entry.stem for entry in ENTRIES}
 
 

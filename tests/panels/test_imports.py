@@ -14,6 +14,8 @@ MODELS = [
     "graph.drawing",
     "plot.model",
     "prediction.model",
+    "timeline.model",
+    "timeline.text",
     "topic.model",
     "types.model",
 ]

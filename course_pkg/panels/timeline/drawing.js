@@ -95,8 +95,8 @@ export class Drawing {
     pen.fillStyle = this.colours.muted;
     pen.textAlign = "center";
     for (const { x, text } of ticks) {
-      const half = pen.measureText(text).width / 2;
-      if (x - half > 0 && x + half < this.width) pen.fillText(text, x, AXIS / 2);
+      const half = pen.measureText(text).width / 2 + 2;
+      pen.fillText(text, Math.max(half, Math.min(x, this.width - half)), AXIS / 2);
       pen.fillRect(Math.round(x), AXIS - 5, 1, 5);
     }
   }

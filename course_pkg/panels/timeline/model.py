@@ -121,7 +121,7 @@ def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
     first = messages[room].start if of_messages else events[MOST].start
     what = "messages and callbacks" if of_messages else "events"
     count = len(events) - len(kept)
-    return kept, [f"Drawn are {MOST:,} events: {count:,} {what} from {first:.3g} s on are left out."]
+    return kept, [f"Drawn are {MOST:,} events: {count:,} {what} from {first:.4g} s on are left out."]
 
 
 def _count(events: Sequence[Event], rows: Sequence[int], node: str) -> int:

@@ -2,7 +2,7 @@
 import { freshId, h, prose, say, setAttribute } from "../kit.js";
 import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
-import { duration, moment, parts, sentence, waiting } from "./words.js";
+import { counted, duration, moment, parts, sentence, waiting } from "./words.js";
 
 const FINEST = 50; // µs across the page
 const HINT = "Drag to move. Ctrl + wheel zooms, and so do + and −; ← and → move, ↑ and ↓ go from event to event, 0 shows all.";
@@ -39,7 +39,7 @@ class TimelineView {
     const empty = !this.scene.count;
     this.canvas = this.drawing.body;
     for (const [name, value] of Object.entries({ tabindex: "0", role: "application", "aria-roledescription": "timeline", "data-lm-suppress-shortcuts": "true",
-      "aria-label": `${this.scene.count} events of ${recorded.lanes.length} nodes. ${HINT}` })) this.canvas.setAttribute(name, value);
+      "aria-label": `${counted(this.scene.count, "event")} of ${counted(recorded.lanes.length, "node")}. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
     this.thinned = h("p", { class: "ros-muted", hidden: true, text: "What is too close together to be told apart is drawn as a band with its number, or left out if it is an arrow. Zoom in to see each." });
@@ -55,7 +55,7 @@ class TimelineView {
   #buildHead() {
     const { recorded, count } = this.scene;
     const button = (/** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => h("button", { type: "button", class: "ros-quiet", "aria-label": label, title: label, text, onclick: act });
-    const facts = `${duration(recorded.length)} recorded, ${count} events of ${recorded.lanes.length} nodes`;
+    const facts = `${duration(recorded.length)} recorded: ${counted(count, "event")} of ${counted(recorded.lanes.length, "node")}`;
     return h("div", { class: "ros-bar" }, h("span", { class: "ros-muted", text: facts }), count ? h("div", { class: "ros-buttons", role: "group", "aria-label": "View" },
       button("←", "Earlier", () => this.#move(-0.25)), button("→", "Later", () => this.#move(0.25)), button("−", "Zoom out", () => this.#zoom(2)),
       button("+", "Zoom in", () => this.#zoom(0.5)), button("All", "Show all", () => this.#look(this.#whole()))) : null);

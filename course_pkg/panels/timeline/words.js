@@ -45,7 +45,7 @@ export function parts(scene, each) {
 /** @param {Scene} scene @param {number} each */
 function heard(scene, each) {
   const callbacks = (scene.exchanges.get(scene.key[each]) ?? []).length - 1;
-  return callbacks ? `${count(callbacks, "callback")} got it.` : "No callback that got it is on record.";
+  return callbacks ? `${counted(callbacks, "callback")} got it.` : "No callback that got it is on record.";
 }
 
 /** Who waited for whom, and who for nobody, one sentence each. @param {Scene} scene @returns {{waits: boolean, text: string}[]} */
@@ -67,10 +67,10 @@ function waited({ node, service, servers, calls, blocked, longest, open, failed 
 /** @param {any} stream */
 function published({ node, topic, published: messages, heard_by }) {
   const who = heard_by.length ? `heard by ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "heard by nobody on record";
-  return `\`${node}\` published ${count(messages, "message")} on \`${topic}\`, ${who}, and waited for nobody.`;
+  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`, ${who}, and waited for nobody.`;
 }
 
-/** @param {number} number @param {string} noun */
-function count(number, noun) {
+/** "1 node", "2 nodes". @param {number} number @param {string} noun */
+export function counted(number, noun) {
   return `${number} ${noun}${number === 1 ? "" : "s"}`;
 }

@@ -1,0 +1,281 @@
+"""The timeline on a page: used by pointer and keyboard, read in words and on paper, in JupyterLab."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import FloatRect, Locator, Page, expect
+
+from course_pkg.graph import Event, Recording
+from course_pkg.panels import Timeline
+from tests.browser.jupyter import Lab, panel, picture, running_notebook
+from tests.browser.test_saved_panels import save
+
+FAINT = Path(__file__).with_name("contrast.js").read_text()
+# The colours that lie on a spot of the drawing: how many differ within 9 x 9 pixels.
+COLOURS = """(canvas, [x, y]) => {
+    const data = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data
+    return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
+}"""
+LENGTH = 1.0  # s
+EDGE = 0.02  # of the drawing's time lies before and after the recording
+
+
+def recording(*more: Event, open_end: bool = False) -> Recording:
+    """Make up a call of 0.5 s beside a stream at 20 Hz."""
+    key, mine, theirs = "call 1", ("/customer", "/detect"), ("/cashier", "/detect")
+    end = None if open_end else 0.7
+    events = [
+        Event("lookup", *mine, 0.2, 0.201, "master", key, "MainThread"),
+        Event("connect", *mine, 0.201, 0.202, "/cashier", key, "MainThread"),
+        Event("request", *mine, 0.202, 0.2021, "/cashier", key, "MainThread"),
+        Event("wait", *mine, 0.2021, end, "/cashier", key, "MainThread"),
+        Event("handler", *theirs, 0.2025, end and 0.6995, "/customer", key, "Thread-1 (handle)"),
+        *([] if open_end else [Event("response", *mine, 0.7, 0.7, "/cashier", key, "MainThread")]),
+        *more,
+    ]
+    for number in range(19):
+        at, key = 0.05 + number / 20, f"message {number}"
+        events.append(Event("publish", "/robot", "/joints", at, at + 1e-4, "/simulator", key, "MainThread"))
+        events.append(
+            Event("callback", "/simulator", "/joints", at + 2e-4, at + 0.01, "/robot", key, "/joints")
+        )
+    return Recording(
+        "/customer",
+        tuple(sorted(events, key=lambda event: event.start)),
+        ("/idle",),
+        {"/old": "it keeps no record"},
+        (),
+        LENGTH,
+    )
+
+
+def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Locator:
+    """Open a saved page with the timeline of a recording."""
+    page.goto(save(Timeline(given), folder / "page.html", theme))
+    return panel(page, "Timeline")
+
+
+def drawing(timeline: Locator) -> Locator:
+    """Find what is drawn upon."""
+    return timeline.locator("canvas.ros-body")
+
+
+def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
+    """Return where on the drawing something of that time (s) stands, on the first row of a lane."""
+    box = drawing(timeline).bounding_box()
+    assert box is not None
+    return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)
+
+
+def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
+    """Click at a time (s) on a lane."""
+    x, y = spot(timeline, time, lane)
+    drawing(timeline).click(position={"x": x, "y": y})
+
+
+def ticks(timeline: Locator) -> bytes:
+    """Return a picture of the time axis: it differs when another part of the time is in view."""
+    return timeline.locator("canvas.ros-axis").screenshot()
+
+
+def drawn(page: Page) -> None:
+    """Wait until the drawing shows what was asked for last: it is drawn in the next frame."""
+    page.evaluate("new Promise(requestAnimationFrame)")
+
+
+def test_a_click_says_what_it_is(page: Page, tmp_path: Path) -> None:
+    """What is clicked is told in words and milliseconds, and a click beside it takes that back."""
+    timeline = show(page, tmp_path, recording())
+    details = timeline.locator(".ros-details")
+    expect(details).to_contain_text("Click anything")
+    click(page, timeline, 0.45, 2)
+    expect(details).to_contain_text("/customer waited 498 ms for /cashier to answer on /detect.")
+    expect(details).to_contain_text("handler (/cashier) 497 ms")
+    picture(timeline, "timeline-chosen")
+    click(page, timeline, 0.45, 3)
+    expect(details).to_contain_text("/cashier worked 497 ms on /detect for /customer.")
+    click(page, timeline, 0.055, 1)
+    expect(details).to_contain_text(
+        "/simulator spent 9.8 ms in a callback for a message on /joints from /robot."
+    )
+    click(page, timeline, 0.9, 2)
+    expect(details).to_contain_text("Click anything")
+
+
+def test_what_waits_is_hatched(page: Page, tmp_path: Path) -> None:
+    """The blocked caller is drawn in stripes, the handler in one colour, and idle time in none."""
+    timeline = show(page, tmp_path, recording())
+    colours = {
+        lane_and_time: drawing(timeline).evaluate(COLOURS, spot(timeline, *reversed(lane_and_time)))
+        for lane_and_time in ((2, 0.6), (3, 0.6), (3, 0.9))
+    }
+    assert colours[2, 0.6] > 3
+    assert colours[3, 0.6] == 1
+    assert colours[3, 0.9] == 1
+    assert (
+        drawing(timeline).evaluate("canvas => canvas.getContext('2d').getImageData(0, 0, 1, 1).data.length")
+        == 4
+    )
+
+
+def test_the_keyboard_does_it_all(page: Page, tmp_path: Path) -> None:
+    """Down and up go through the events in time, Enter zooms in on one, 0 shows all again."""
+    timeline = show(page, tmp_path, recording())
+    details, whole = timeline.locator(".ros-details"), ticks(timeline)
+    drawing(timeline).focus()
+    page.keyboard.press("ArrowDown")
+    expect(details).to_contain_text("/robot published on /joints and waited for nobody. 1 callback got it.")
+    page.keyboard.press("ArrowDown")
+    expect(details).to_contain_text("/simulator spent")
+    page.keyboard.press("ArrowUp")
+    expect(details).to_contain_text("/robot published")
+    page.keyboard.press("Enter")
+    drawn(page)
+    near = ticks(timeline)
+    assert near != whole
+    page.keyboard.press("ArrowRight")
+    drawn(page)
+    assert ticks(timeline) != near
+    page.keyboard.press("0")
+    drawn(page)
+    assert ticks(timeline) == whole
+    page.keyboard.press("Escape")
+    expect(details).to_contain_text("Click anything")
+
+
+def test_look_up_and_connection_open_up(page: Page, tmp_path: Path) -> None:
+    """What is a small mark when all is in view can be chosen, and is a bar of its own when zoomed in on."""
+    timeline = show(page, tmp_path, recording())
+    drawing(timeline).focus()
+    details = timeline.locator(".ros-details")
+    while "asked the master" not in details.inner_text():
+        page.keyboard.press("ArrowDown")
+    expect(details).to_contain_text("/customer asked the master for the address of /detect, and waited 1 ms.")
+    for _ in range(7):
+        page.keyboard.press("+")
+    drawn(page)
+    picture(timeline, "timeline-zoomed")
+    box: FloatRect | None = drawing(timeline).bounding_box()
+    assert box is not None
+    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # zooming left the start of the look-up where it was
+    wide = box["width"] / (LENGTH * (1 + 2 * EDGE)) * 2**7 * 0.001
+    assert wide > 50
+    y = spot(timeline, 0, 2)[1]
+    drawing(timeline).click(position={"x": box["width"] * share + wide * 1.5, "y": y})
+    expect(details).to_contain_text("/customer connected to /cashier for /detect: 1 ms.")
+
+
+def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
+    """Ctrl and wheel zoom, a drag moves, and a turn without Ctrl leaves the drawing alone."""
+    timeline = show(page, tmp_path, recording())
+    whole = ticks(timeline)
+    drawing(timeline).hover(position={"x": 300, "y": 60})
+    page.mouse.wheel(0, 200)
+    drawn(page)
+    assert ticks(timeline) == whole
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -200)
+    page.keyboard.up("Control")
+    drawn(page)
+    near = ticks(timeline)
+    assert near != whole
+    page.mouse.down()
+    page.mouse.move(500, 300, steps=5)
+    page.mouse.up()
+    drawn(page)
+    assert ticks(timeline) != near
+    expect(timeline.locator(".ros-details")).to_contain_text("Click anything")
+    timeline.get_by_role("button", name="Show all").click()
+    drawn(page)
+    assert ticks(timeline) == whole
+
+
+def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
+    """All events stand in a table, and who waited, who was idle and who has no record in sentences."""
+    timeline = show(page, tmp_path, recording())
+    expect(timeline.get_by_text("/customer waited for /cashier on /detect: 500 ms.")).to_be_visible()
+    expect(timeline.get_by_text("/robot published 19 messages on /joints")).to_be_visible()
+    expect(timeline.get_by_text("On record, and idle: /idle.")).to_be_visible()
+    expect(timeline.get_by_text("Not recorded: /old, it keeps no record.")).to_be_visible()
+    timeline.get_by_text("The same as a table").click()
+    expect(timeline.get_by_role("row")).to_have_count(1 + 6 + 2 * 19)
+    expect(timeline.get_by_role("row", name="wait")).to_contain_text("202.100")
+    expect(timeline.get_by_role("row", name="wait")).to_contain_text("497.900")
+
+
+def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
+    """A caller that was still blocked is said to be, in the drawing's words, the sentences and the table."""
+    timeline = show(page, tmp_path, recording(open_end=True))
+    click(page, timeline, 0.6, 2)
+    expect(timeline.locator(".ros-details")).to_contain_text("/customer was still waiting for /cashier")
+    expect(timeline.get_by_text("800 ms, and it is not over.")).to_be_visible()
+    timeline.get_by_text("The same as a table").click()
+    expect(timeline.get_by_role("row", name="wait")).to_contain_text("not over")
+
+
+def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
+    """An empty recording says so, and offers nothing to zoom."""
+    timeline = show(page, tmp_path, Recording(nodes=("/idle",), length=0.5))
+    expect(timeline.get_by_text("Nothing happened between the nodes")).to_be_visible()
+    expect(timeline.get_by_role("button")).to_have_count(0)
+    picture(timeline, "timeline-empty")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 560, 390])
+def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> None:
+    """No text is too faint and nothing wider than the page, light and dark, wide and narrow."""
+    page.set_viewport_size({"width": width, "height": 1000})
+    failed = [
+        Event("lookup", "/customer", "/nope", 0.8, 0.801, "master", "call 2", "MainThread"),
+        Event("error", "/customer", "/nope", 0.801, 0.801, "", "call 2", "MainThread", "<b>unavailable</b>"),
+    ]
+    timeline = show(page, tmp_path, recording(*failed), theme)
+    timeline.get_by_text("The same as a table").click()
+    expect(timeline.get_by_role("row", name="error")).to_contain_text("<b>unavailable</b>")
+    assert timeline.evaluate(FAINT) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    picture(timeline, f"timeline-{theme}-{width}")
+
+
+def test_on_paper(page: Page, tmp_path: Path) -> None:
+    """Printed, the drawing is on white whatever the theme."""
+    timeline = show(page, tmp_path, recording(), "dark")
+    ground = "canvas => getComputedStyle(canvas.closest('section')).backgroundColor"
+    assert drawing(timeline).evaluate(ground) != "rgb(255, 255, 255)"
+    page.emulate_media(media="print")
+    assert drawing(timeline).evaluate(ground) == "rgb(255, 255, 255)"
+    x, y = spot(timeline, 0.45, 3)
+    pixel = "(canvas, [x, y]) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data]"
+    assert min(drawing(timeline).evaluate(pixel, [x, y])) > 150
+    picture(timeline, "timeline-print")
+
+
+def test_in_jupyterlab(lab: Lab, page: Page) -> None:
+    """A recording of a real call is drawn in a notebook, and the keys stay with the drawing."""
+    cells = (
+        "from course_pkg import Timeline, join\nfrom std_srvs.srv import Trigger\nnode = join('recorder')",
+        "served = node.serve('/answer', Trigger, lambda request: (True, 'here'))",
+        "with node.record() as recording:\n    node.call('/answer', Trigger)",
+        "Timeline(recording)",
+    )
+    with running_notebook(page, lab, "timeline", *cells):
+        timeline = panel(page, "Timeline")
+        expect(timeline.get_by_text("/recorder waited for /recorder on /answer")).to_be_visible()
+        before = page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
+            "cells => cells.map(cell => cell.innerText)"
+        )
+        drawing(timeline).focus()
+        for key in ("ArrowDown", "+", "-", "0", "Enter", "d", "d"):
+            page.keyboard.press(key)
+        expect(timeline.locator(".ros-details")).to_contain_text("/recorder asked the master")
+        expect(page.locator(".jp-CodeCell")).to_have_count(len(cells))
+        after = page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
+            "cells => cells.map(cell => cell.innerText)"
+        )
+        assert len(before) == len(after)
+        expect(page.locator(".jp-CodeCell .jp-InputPrompt").last).to_have_text(re.compile(r"\[4\]:"))
+        picture(page, "timeline-lab")

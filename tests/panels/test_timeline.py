@@ -1,0 +1,219 @@
+"""What a timeline draws of a recording, and what it says in words."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from course_pkg.graph import Event, Recording
+from course_pkg.panels import Timeline, timeline_text
+from course_pkg.panels.timeline.model import MOST, OPEN, arrows, state
+from course_pkg.panels.timeline.rows import rows_of
+from course_pkg.panels.timeline.waits import waits_of
+
+
+def call(key: str = "call 1", at: float = 0.0, **more: Any) -> list[Event]:  # noqa: ANN401
+    """Make up a call that is on record at both ends: 1 s, of which the handler works 0.6 s."""
+    who = {"caller": "/customer", "server": "/cashier", "thread": "MainThread", **more}
+    caller, server, thread = who["caller"], who["server"], who["thread"]
+    return [
+        Event("lookup", caller, "/x", at, at + 0.1, "master", key, thread),
+        Event("connect", caller, "/x", at + 0.1, at + 0.2, server, key, thread),
+        Event("request", caller, "/x", at + 0.2, at + 0.3, server, key, thread),
+        Event("wait", caller, "/x", at + 0.3, at + 1.0, server, key, thread),
+        Event("handler", server, "/x", at + 0.35, at + 0.95, caller, key, f"Thread-{key}"),
+        Event("response", caller, "/x", at + 1.0, at + 1.0, server, key, thread),
+    ]
+
+
+def message(number: int, at: float, *hearers: str) -> list[Event]:
+    """Make up a message and its callbacks."""
+    key = f"message {number}"
+    sent = Event("publish", "/robot", "/joints", at, at + 0.001, ", ".join(hearers), key, "MainThread")
+    return [
+        sent,
+        *(
+            Event("callback", node, "/joints", at + 0.002, at + 0.004, "/robot", key, "/joints")
+            for node in hearers
+        ),
+    ]
+
+
+def recording(*events: Event, length: float = 10.0, **more: Any) -> Recording:  # noqa: ANN401
+    """Make up a recording of these events."""
+    ordered = tuple(sorted(events, key=lambda event: event.start))
+    return Recording(
+        events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more
+    )
+
+
+def drawn(found: Recording) -> list[tuple[str, str]]:
+    """Return the arrows by the kinds at their ends."""
+    return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
+
+
+def test_a_call_has_two_arrows() -> None:
+    """The request goes to the handler, and the answer from its end to the response."""
+    assert drawn(recording(*call())) == [("request", "handler"), ("handler", "response")]
+
+
+def test_what_was_not_recorded_is_not_drawn() -> None:
+    """With one side of a call or message on record there is no arrow."""
+    handler = [event for event in call() if event.kind == "handler"]
+    caller = [event for event in call() if event.kind != "handler"]
+    callback = message(1, 1.0, "/simulator")[1:]
+    for events in (handler, caller, callback):
+        assert drawn(recording(*events)) == []
+
+
+def test_no_answer_reaches_who_gave_up() -> None:
+    """A caller whose time was up got no answer, also when the handler ended later; a refusal is one."""
+    *asked, handler, _ = call()
+    gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
+    refused = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
+    assert drawn(recording(*asked, handler, gave_up)) == [("request", "handler")]
+    assert drawn(recording(*asked, handler, refused)) == [("request", "handler"), ("handler", "error")]
+
+
+def test_a_call_that_never_ended() -> None:
+    """What is open has no answer; a wait begun before the recording shows where its request went."""
+    wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
+    handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
+    found = recording(wait, handler)
+    assert drawn(found) == [("wait", "handler")]
+    assert state(found)["columns"]["end"] == [OPEN, OPEN]
+
+
+def test_a_message_has_an_arrow_to_each_callback() -> None:
+    """One message, two subscribers: two arrows."""
+    assert drawn(recording(*message(1, 1.0, "/simulator", "/plotter"))) == [("publish", "callback")] * 2
+
+
+def test_threads_that_work_at_once_stand_below_each_other() -> None:
+    """Handlers that overlap have rows of their own, handlers one after the other share one."""
+    overlapping = [
+        Event("handler", "/s", "/x", at, at + 1, "/c", f"call {at}", f"Thread-{at}") for at in (0, 0.5, 0.9)
+    ]
+    assert rows_of(overlapping)[0] == [0, 1, 2]
+    in_turn = [
+        Event("handler", "/s", "/x", at, at + 1, "/c", f"call {at}", f"Thread-{at}") for at in (0, 2, 4)
+    ]
+    assert rows_of(in_turn)[0] == [0, 0, 0]
+
+
+def test_a_thread_keeps_its_row() -> None:
+    """What a thread does twice stands on one row, also when another worked in between."""
+    events = [
+        Event("callback", "/n", "/a", 0, 1, thread="/a"),
+        Event("handler", "/n", "/x", 0.5, 1.5, thread="Thread-1"),
+        Event("callback", "/n", "/a", 2, 3, thread="/a"),
+    ]
+    assert rows_of(events)[0] == [0, 1, 0]
+
+
+def test_a_call_within_a_callback_is_inset() -> None:
+    """What a thread does within something else is known to lie within it, and what follows is not."""
+    callback = Event("callback", "/customer", "/go", -0.1, 1.5, thread="/go")
+    after = Event("callback", "/customer", "/go", 2.0, 2.1, thread="/go")
+    found = recording(callback, *(e for e in call(thread="/go") if e.node == "/customer"), after)
+    rows, depths = rows_of(found.events)
+    assert rows == [0] * 7
+    assert depths == [0, 1, 1, 1, 1, 1, 0]
+
+
+def test_fifty_overlapping_calls() -> None:
+    """Each of 50 callers and 50 handlers at once has its row."""
+    events = [event for n in range(50) for event in call(f"call {n}", n / 1000, thread=f"caller {n}")]
+    lanes = state(recording(*events))["lanes"]
+    assert lanes == [{"node": "/customer", "rows": 50}, {"node": "/cashier", "rows": 50}]
+
+
+def test_the_state_is_bounded() -> None:
+    """Of too many events the calls are kept, then the messages in order, and what is left out is said."""
+    stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
+    kept = state(recording(*stream, *call(at=4.0)))
+    kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
+    assert len(kinds) == MOST
+    assert kinds.count("wait") == 1
+    said = "Drawn are 4,000 events: 6,006 messages and callbacks from 1.998 s on are left out."
+    assert kept["notes"] == [said]
+    assert len(json.dumps(kept)) < 400_000
+    assert kept["waits"]["streams"][0]["published"] == 5000
+
+
+def test_too_many_calls() -> None:
+    """Of too many calls the first are kept."""
+    calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
+    kept = state(recording(*calls, length=1001.0))
+    assert len(kept["columns"]["kind"]) == MOST
+    assert kept["notes"] == ["Drawn are 4,000 events: 2,000 events from 666.4 s on are left out."]
+
+
+def test_nothing_recorded() -> None:
+    """An empty recording says which nodes were idle or had no record."""
+    empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
+    assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
+    assert empty["unrecorded"] == [["/b", "its process is gone"]]
+
+
+def test_all_that_is_shown_comes_from_the_recording() -> None:
+    """The columns give back each event as it was, in whole microseconds."""
+    found = recording(*call(), *message(1, 2.0, "/simulator"))
+    kept = state(found)
+    columns, words = kept["columns"], kept["words"]
+    for number, event in enumerate(found.events):
+        assert kept["kinds"][columns["kind"][number]] == event.kind
+        assert kept["lanes"][columns["lane"][number]]["node"] == event.node
+        assert columns["start"][number] == round(event.start * 1e6)
+        assert columns["end"][number] == round((event.end or 0.0) * 1e6)
+        texts = [words[columns[name][number]] for name in ("name", "peer", "key", "thread", "note")]
+        assert texts == [event.name, event.peer, event.key, event.thread, event.note]
+
+
+def test_who_waited_how_long() -> None:
+    """Look-up, connection and wait count as waiting, the handler does not; messages make nobody wait."""
+    waits = waits_of(recording(*call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator")))
+    (wait,), (stream,) = waits["calls"], waits["streams"]
+    assert (wait["node"], wait["service"], wait["servers"]) == ("/customer", "/x", ["/cashier"])
+    assert (wait["calls"], round(wait["blocked"], 6), round(wait["longest"], 6)) == (2, 1.8, 0.9)
+    assert (stream["published"], stream["heard_by"]) == (1, ["/simulator"])
+
+
+def test_an_open_wait_counts_to_the_end() -> None:
+    """A wait that had not ended counts up to the end of the recording, and from its beginning."""
+    wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
+    (found,) = waits_of(recording(wait, length=2.0))["calls"]
+    assert (found["blocked"], found["open"]) == (2.0, 1)
+
+
+def test_in_plain_sentences() -> None:
+    """The text says who waited for whom and who did not, without times and numbers."""
+    error = Event("error", "/customer", "/nope", 5.1, 5.1, "", "call 8", "MainThread", "unavailable")
+    lookup = Event("lookup", "/customer", "/nope", 5.0, 5.1, "master", "call 8", "MainThread")
+    late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
+    found = recording(late, lookup, error, *call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator"))
+    assert timeline_text(found).splitlines() == [
+        "/customer called /nope, and reached nobody.",
+        "/customer called /x and waited for /cashier.",
+        "/late called /x and waited for /cashier, to the end of the recording.",
+        "/robot published /joints and waited for nobody; /simulator heard it.",
+    ]
+    assert timeline_text(Recording()) == "Nothing was recorded."
+
+
+@pytest.mark.parametrize(("failed", "words"), [(1, "in vain"), (2, "at times in vain")])
+def test_failures_in_plain_sentences(failed: int, words: str) -> None:
+    """A call that failed was made in vain; one of several, at times."""
+    error = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
+    found = recording(*call()[:-1], error, *(call("call 2", 2.0) if failed == 2 else []))
+    assert timeline_text(found) == f"/customer called /x and waited for /cashier, {words}."
+
+
+def test_the_panel() -> None:
+    """It is a widget with a stable name that needs a recording and no kernel."""
+    panel = Timeline(recording(*call()))
+    assert repr(panel) == "Timeline()"
+    assert panel.recorded["length"] == 10_000_000
+    panel.close()
