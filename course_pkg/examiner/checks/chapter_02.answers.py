@@ -112,6 +112,36 @@ def count_aloud(topic, rate, count):
         publisher.publish(number)
         time.sleep(rate)
 
+# %% 02.1 wrong: a pause instead of a look | hint: Look every few milliseconds
+def count_aloud(topic, rate, count):
+    publisher = rospy.Publisher(topic, UInt32, queue_size=10)
+    time.sleep(2)
+    pace = rospy.Rate(rate)
+    for number in range(count):
+        publisher.publish(number)
+        pace.sleep()
+
+# %% 02.1 wrong: stops too early | hint: The last one is missing
+def count_aloud(topic, rate, count):
+    publisher = rospy.Publisher(topic, UInt32, queue_size=10)
+    wait_for_listener(publisher, 2.0)
+    pace = rospy.Rate(rate)
+    for number in range(count - 1):
+        publisher.publish(number)
+        pace.sleep()
+
+# %% 02.1 wrong: on a thread | hint: The end is missing
+def count_aloud(topic, rate, count):
+    def speak():
+        publisher = rospy.Publisher(topic, UInt32, queue_size=10)
+        wait_for_listener(publisher, 2.0)
+        pace = rospy.Rate(rate)
+        for number in range(count):
+            publisher.publish(number)
+            pace.sleep()
+
+    threading.Thread(target=speak, daemon=True).start()
+
 # %% 02.1 wrong: half as fast | hint: Too slow
 def count_aloud(topic, rate, count):
     publisher = rospy.Publisher(topic, UInt32, queue_size=10)
@@ -175,6 +205,16 @@ def start_mirror(source, target):
 
     sub = rospy.Subscriber(source, JointState, callback, queue_size=50)
     return sub
+
+# %% 02.2 right: with the course's own
+def start_mirror(source, target):
+    image = node.advertise(target, JointState)
+
+    def hear(m):
+        turned = [-value for value in m.position], [-value for value in m.velocity]
+        image.publish(header=m.header, name=m.name, position=turned[0], velocity=turned[1])
+
+    return node.subscribe(source, JointState, hear)
 
 # %% 02.2 wrong: nothing turns | hint: The position came out as it went in
 def start_mirror(source, target):
@@ -330,6 +370,23 @@ def start_mirror(source, target):
 
     return rospy.Subscriber(source, JointState, show)
 
+# %% 02.2 wrong: looks every tenth of a second | hint: Some came more than once
+def start_mirror(source, target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+    heard = []
+
+    def repeat():
+        while True:
+            time.sleep(0.1)
+            if heard:
+                image = JointState(header=heard[-1].header, name=heard[-1].name)
+                image.position = [-angle for angle in heard[-1].position]
+                image.velocity = [-speed for speed in heard[-1].velocity]
+                publisher.publish(image)
+
+    threading.Thread(target=repeat, daemon=True).start()
+    return rospy.Subscriber(source, JointState, heard.append)
+
 # %% 02.2 wrong: late | hint: They come late
 def start_mirror(source, target):
     publisher = rospy.Publisher(target, JointState, queue_size=10)
@@ -342,7 +399,7 @@ def start_mirror(source, target):
 
     return rospy.Subscriber(source, JointState, show)
 
-# %% 02.2 wrong: says each twice | hint: Publish once for each message
+# %% 02.2 wrong: says each twice | hint: Publish in the callback, once for each message
 def start_mirror(source, target):
     publisher = rospy.Publisher(target, JointState, queue_size=10)
 
@@ -355,7 +412,7 @@ def start_mirror(source, target):
 
     return rospy.Subscriber(source, JointState, show)
 
-# %% 02.2 wrong: changes what it was given | hint: Another callback of this program got the message
+# %% 02.2 wrong: changes what it was given | hint: Another callback of this program got it
 def start_mirror(source, target):
     publisher = rospy.Publisher(target, JointState, queue_size=10)
 
@@ -444,7 +501,7 @@ def announce(topic, value):
 
     threading.Thread(target=repeat, daemon=True).start()
 
-# %% 02.3 wrong: takes the notice down | hint: a publisher that is unregistered takes its notice along
+# %% 02.3 wrong: takes the notice down | hint: one that is unregistered takes its notice along
 def announce(topic, value):
     publisher = rospy.Publisher(topic, Float64, queue_size=1, latch=True)
     publisher.publish(value)
@@ -521,8 +578,7 @@ def follow(topic, work):
 
 # %% 02.4 wrong: node.subscribe has no such limit | hint: Too many may wait
 def follow(topic, work):
-    node.subscribe(topic, Float64, lambda message: work(message.data))
-    return rospy.Subscriber(topic, Float64, lambda message: None)
+    return node.subscribe(topic, Float64, lambda message: work(message.data))
 
 # %% 02.4 wrong: every sixteenth | hint: The last value was never worked on
 def follow(topic, work):
@@ -745,6 +801,37 @@ class Watch:
         if time.time() - self.last <= 1:
             return "running"
         return "ended"
+
+# %% 02.5 wrong: listens when it is asked | hint: Make a rospy.Subscriber for the topic, of type UInt32, when the watch is made
+class Watch:
+    def __init__(self, topic):
+        self.topic = topic
+        self.last = None
+
+    def hear(self, message):
+        self.last = time.monotonic()
+
+    def state(self):
+        rospy.Subscriber(self.topic, UInt32, self.hear)
+        if self.last is None:
+            return "waiting"
+        return "running" if time.monotonic() - self.last <= 1.0 else "ended"
+
+# %% 02.5 wrong: one time for all | hint: Keep what a watch knows in self
+last = None
+
+class Watch:
+    def __init__(self, topic):
+        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)
+
+    def hear(self, message):
+        global last
+        last = time.monotonic()
+
+    def state(self):
+        if last is None:
+            return "waiting"
+        return "running" if time.monotonic() - last <= 1.0 else "ended"
 
 # %% 02.5 wrong: in capitals | hint: Write the word as it stands in the exercise
 class Watch:

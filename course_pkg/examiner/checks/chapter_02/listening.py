@@ -16,14 +16,15 @@ kept = []
 
 def begin(start, *args):
     kept.append(start(*args))
-    return hasattr(kept[-1], "unregister")
+    return hasattr(kept[-1], "unregister") or hasattr(kept[-1], "stop")
 
 
 def end():
     while kept:
         subscriber = kept.pop()
-        if hasattr(subscriber, "unregister"):
-            subscriber.unregister()
+        for way in ("unregister", "stop"):  # of rospy.Subscriber, and of what node.subscribe returns
+            if hasattr(subscriber, way):
+                getattr(subscriber, way)()
 """
 WITNESS = """
 import rospy
@@ -147,7 +148,8 @@ def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arr
         expected="the stamps that were published",
         seen=seen[:3] if heard else "nothing was heard",
         hints={
-            says("nothing was heard"): "Nothing came out. Publish the image in the callback.",
+            says("nothing was heard"): "Nothing came out. Publish the image in the callback. (An error in a "
+            "callback is printed by rospy, which goes on.)",
             says("'secs': 0, 'nsecs': 0"): "The time is 0, as in a header that is new. Hand the header on.",
             says(""): "That is another time than the robot's. Hand the header on as it is.",
         },
@@ -162,11 +164,15 @@ def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arr
         hints=[
             (lambda seen: len(seen) == 1, "Only one was mirrored. A callback is called for each message."),
             (
+                lambda seen: len(set(seen)) < len(seen),
+                "Some came more than once. Publish in the callback, once for each message.",
+            ),
+            (
                 lambda seen: seen[0] != stamps[0]["secs"] and len(seen) > len(stamps) / 2,
                 "The first are missing. Make the publisher before the subscriber, and not in the callback.",
             ),
             (
-                lambda seen: len(seen) < len(stamps) and len(set(seen)) == len(seen),
+                lambda seen: len(seen) < len(stamps),
                 "Some were left out. Do nothing in the callback that takes time, and drop nothing.",
             ),
             (says(""), "Publish once for each message, in the callback."),
@@ -184,19 +190,21 @@ def _is_image(exam: Exam, message: dict[str, Any], image: dict[str, Any]) -> Non
             tuple(reversed(message["name"])): "The list was turned around. It is the signs that turn.",
         },
     )
-    for field in ("position", "velocity"):
+    for field, other in (("position", "velocity"), ("velocity", "position")):
         values = message[field]
         exam.expect(
             f"every {field} has its sign turned",
             expected=[-value for value in values],
             seen=image[field],
             near=1e-9,
-            hints={
-                tuple(values): f"The {field} came out as it went in. Turn the sign of each.",
-                (): f"The list is empty: {field} was left out.",
-                tuple(reversed(values)): "The list was turned around. It is the signs that turn.",
-                tuple(abs(value) for value in values): "A sign that turns makes plus of minus, too: -value.",
-            },
+            hints=[
+                (values, f"The {field} came out as it went in. Turn the sign of each."),
+                ([], f"The list is empty: {field} was left out."),
+                (values[::-1], "The list was turned around. It is the signs that turn."),
+                ([abs(value) for value in values], "A sign that turns makes plus of minus, too: -value."),
+                ([-value for value in message[other]], f"Those are of the field {other}. Name the fields."),
+                (says(""), "Turn the sign of each number, and nothing else."),
+            ],
         )
 
 
@@ -270,6 +278,7 @@ def _worked(exam: Exam, seen: list[Any], values: list[float]) -> None:
         hints={
             says("never"): "Call work in the callback.",
             says("data"): "That is the whole message. The number is its data.",
+            says(""): "Nobody published that. Call work in the callback, with the data of the message.",
         },
     )
     exam.hold(

@@ -23,13 +23,21 @@ def count_aloud(exam: Exam) -> None:
     for hertz, count in ((exam.draw.integer(15, 25), 30), (exam.draw.integer(40, 60), 45)):
         topic = f"/{exam.draw.word()}"
         hearing = exam.hear(topic, "std_msgs/UInt32")
-        exam.run("count_aloud", topic, hertz, count, within=10.0, hints=_slow(hertz)).value  # noqa: B018
+        counted = exam.run("count_aloud", topic, hertz, count, within=10.0, hints=_slow(hertz))
+        counted.value  # noqa: B018 -- that it returns is a rule
         heard = hearing.wait(count + 1, within=0.5)
         hearing.published(
             hints={says("nobody"): "Make a rospy.Publisher for the topic that is given."}, within=0.5
         )
         _counts(exam, heard, count)
         _keeps_time(exam, heard, hertz)
+        exam.hold(
+            "it begins as soon as somebody listens",
+            counted.took < count / hertz + 1.2,
+            expected="no pause before the first number, since somebody was listening",
+            seen=f"the end after {counted.took:.1f} s",
+            hints="Look every few milliseconds whether somebody listens, and begin then.",
+        )
     alone = exam.run(
         "count_aloud",
         f"/{exam.draw.word()}",
@@ -57,6 +65,9 @@ def _slow(hertz: int) -> dict[object, str]:
             "TimesUp"
         ): f"It is not done in time. {hertz} a second is a pause of 1/{hertz} s each: rospy.Rate does "
         "that. And a wait for a listener has to see one that is there.",
+        says(
+            "must be unsigned integer"
+        ): "The message is a number, as range() gives it: no text and no float.",
     }
 
 
@@ -74,6 +85,10 @@ def _counts(exam: Exam, heard: list[Arrival], count: int) -> None:
             ),
             (list(range(count + 1)), "That is one too many. range(count) ends with count - 1."),
             (list(range(1, count + 1)), "It starts with 1. The first number is 0."),
+            (
+                lambda seen: seen and seen == list(range(len(seen))),
+                "The end is missing. Publish `count` numbers, and return when the last one is out.",
+            ),
             ([], "Nothing was heard. Publish each number, when somebody listens."),
             (lambda seen: seen == list(range(seen[0], count)), TOO_EARLY),
             (lambda seen: len(set(seen)) < len(seen), "A number was said twice."),
@@ -122,8 +137,8 @@ def a_notice(exam: Exam) -> None:
     _announce(exam, topic, first)
     early.published(
         hints={
-            says("nobody"): "Nobody publishes it any more: a publisher that is unregistered "
-            "takes its notice along."
+            says("nobody"): "Make a rospy.Publisher for the topic that is given, and keep it: one that is "
+            "unregistered takes its notice along."
         }
     )
     _hears(exam, early, [first], "who listens already hears the value once")
@@ -187,7 +202,7 @@ def _hears(exam: Exam, hearing: Hearing, values: list[float], rule: str) -> None
             (lambda seen: len(seen) > len(values) and set(seen) == set(values), "It was said twice."),
             (
                 lambda seen: seen[-1] != values[-1],
-                "That is not the last value that was announced. Latch the one that is given.",
+                "That is not the value that was announced. Publish it as it is given.",
             ),
         ],
     )

@@ -3,21 +3,22 @@
 import time
 
 from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.publishing import Publishing
 
 KEEPER = """
-watches = []
+watches = {}
 
 
 def begin(kind, topic):
-    watches[:] = [kind(topic)]
+    watches[topic] = kind(topic)
 
 
-def state():
-    return watches[0].state()
+def state(topic):
+    return watches[topic].state()
 
 
 def end():
-    for watch in watches:
+    for watch in watches.values():
         for value in vars(watch).values():
             if hasattr(value, "unregister"):
                 value.unregister()
@@ -35,22 +36,27 @@ LIMIT = 1.0  # s without a message
     deadline=40.0,
 )
 def watch_a_stream(exam: Exam) -> None:
-    """Ask before the first message, during a stream, in a pause, after its end, and when it runs again."""
-    topic = f"/{exam.draw.word()}"
+    """Ask one before the first message, in a stream and after it; have another that is asked late."""
+    topic, unasked = (f"/{exam.draw.word()}" for _ in range(2))
     exam.prepare(KEEPER)
     try:
-        exam.run("begin", Its("Watch"), topic, worded="Watch(topic)", hints=_RETURNS).value  # noqa: B018
-        _says(exam, "before the first message it is waiting", "waiting", _BEFORE)
+        for name in (topic, unasked):
+            exam.run("begin", Its("Watch"), name, worded="Watch(topic)", hints=_RETURNS).value  # noqa: B018
+        _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
         time.sleep(1.3)
-        _says(exam, "before the first message it is waiting", "waiting", _BEFORE)
+        _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
+        _speaks(exam, unasked)
+        time.sleep(0.3)
+        _says(exam, unasked, "it watches from the start, asked or not", "running", _UNASKED)
+        _says(exam, topic, "one watch knows nothing of another", "waiting", _APART)
         _runs(exam, topic, "while messages come it is running")
         _runs(exam, topic, "when they come again it is running again")
     finally:
         exam.run("end")
 
 
-def _runs(exam: Exam, topic: str, rule: str) -> None:
-    """Publish ten a second for a while, then be silent, and stay registered as one who could speak."""
+def _speaks(exam: Exam, topic: str) -> Publishing:
+    """Publish ten messages a second to the watch."""
     speaking = exam.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
     exam.hold(
         "it listens to the topic",
@@ -59,22 +65,28 @@ def _runs(exam: Exam, topic: str, rule: str) -> None:
         seen="nobody",
         hints="Make a rospy.Subscriber for the topic, of type UInt32, when the watch is made.",
     )
+    return speaking
+
+
+def _runs(exam: Exam, topic: str, rule: str) -> None:
+    """Speak for a while, then be silent, and stay registered as one who could speak."""
+    speaking = _speaks(exam, topic)
     time.sleep(0.5)
     for _ in range(5):
-        _says(exam, rule, "running", _WHILE)
+        _says(exam, topic, rule, "running", _WHILE)
         time.sleep(0.06)
     time.sleep(1.0)
-    _says(exam, rule, "running", _WHILE)
+    _says(exam, topic, rule, "running", _WHILE)
     speaking.stop()
     time.sleep(0.5)
-    _says(exam, "a pause of half a second is no end", "running", _PAUSE)
-    time.sleep(speaking.sent[-1] + LIMIT + 0.4 - time.monotonic())
+    _says(exam, topic, "a pause of half a second is no end", "running", _PAUSE)
+    time.sleep(max(speaking.sent[-1] + LIMIT + 0.4 - time.monotonic(), 0.0))
     for _ in range(2):
-        _says(exam, "without a message for longer than a second it has ended", "ended", _END)
+        _says(exam, topic, "without a message for longer than a second it has ended", "ended", _END)
 
 
-def _says(exam: Exam, rule: str, word: str, hints: list[tuple[object, str]]) -> None:
-    asked = exam.run("state", worded="Watch(topic).state()", hints=_RETURNS)
+def _says(exam: Exam, topic: str, rule: str, word: str, hints: list[tuple[object, str]]) -> None:
+    asked = exam.run("state", topic, worded="Watch(topic).state()", hints=_RETURNS)
     exam.hold(
         "the answer is one of the three words",
         asked.value in WORDS,
@@ -105,6 +117,15 @@ _RETURNS = {
 _BEFORE: list[tuple[object, str]] = [
     ("running", "No message has come yet: it is not running."),
     ("ended", "Nothing can have ended that has not begun: before the first message it is waiting."),
+]
+_UNASKED: list[tuple[object, str]] = [
+    (says(""), "It was spoken to before it was asked for the first time. Listen when the watch is made."),
+]
+_APART: list[tuple[object, str]] = [
+    (
+        says(""),
+        "The other watch was spoken to. Keep what a watch knows in self, and not in one place for all.",
+    ),
 ]
 _WHILE: list[tuple[object, str]] = [
     ("waiting", "Messages come ten times a second. Note each in the callback."),
