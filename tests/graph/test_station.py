@@ -24,7 +24,7 @@ from course_pkg.graph.station.process import TopicStation
 from course_pkg.graph.station.wire import Wire
 from course_pkg.interfaces import compile_message, message_type
 from tests.kernel import Kernel
-from tests.support import eventually, process_state
+from tests.support import eventually, process_state, stopped
 
 NUMBER = {"name": "std_msgs/Float64", "text": ""}
 
@@ -312,6 +312,27 @@ def test_one_that_dies_is_said_to_have_ended(told: Told, master: PrivateMaster) 
     assert "The panel's node has ended." in eventually(lambda: told.lost)
     assert look(master.uri).nodes == ()
     publish(told, "1")
+
+
+def test_one_that_is_stopped_ends_all_the_same(told: Told, master: PrivateMaster) -> None:
+    """It cannot sign off, is killed, and is signed off by its owner; telling it something does not block."""
+    eventually(lambda: told.parts.get("node"))
+    with stopped(told.station.pid):
+        for _ in range(100):
+            publish(told, "1")
+        told.station.end(wait=True)
+        assert look(master.uri).nodes == ()
+
+
+def test_messages_are_read_before_a_type_is_told(told: Told, kernel: Kernel) -> None:
+    """As long as nobody has said which type the topic is to have, the sender's holds."""
+    kernel.run("""
+        from course_pkg.graph import join
+        node = join("talker")
+        spoken = node.advertise("/speed", "std_msgs/String", latch=True)
+        spoken.publish("fast")
+    """)
+    assert eventually(lambda: told.echo)[0]["texts"] == {"data": "fast"}
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:

@@ -65,6 +65,14 @@ def test_a_topic_without_a_type_waits_for_one() -> None:
     assert desk.told == [("type", {"name": "std_msgs/String", "text": ""}), ("plot", {"path": ""})]
 
 
+def test_the_first_message_tells_the_type() -> None:
+    """A latched message may come before anybody has looked around, and is read all the same."""
+    desk = Desk(None)
+    desk.model.report({"echo": [heard(1, "2.5")]})
+    assert desk.state["echo"][0]["line"] == "data 2.5"
+    assert desk.state["about"]["message"]["name"] == "std_msgs/Float64"
+
+
 def test_a_type_that_is_not_known_here_is_said() -> None:
     """Somebody publishes what this machine has no definition of."""
     desk = Desk(None)

@@ -100,6 +100,16 @@ def test_it_comes_back_with_what_was_typed(panel: TopicPanel) -> None:
     assert eventually(lambda: '"count": 1' in panel.curve)
 
 
+def test_a_page_in_a_hurry_leaves_nothing_behind(panel: TopicPanel, master: PrivateMaster) -> None:
+    """However often and fast it is shown and hidden, there is one node in the end, or none."""
+    for _ in range(8):
+        panel.hidden()
+        panel.shown()
+    eventually(lambda: [node.name for node in look(master.uri).nodes] == [panel.around["own"]], timeout=30)
+    panel.hidden()
+    eventually(lambda: not look(master.uri).nodes)
+
+
 def test_another_type_is_said(panel: TopicPanel, kernel: Kernel) -> None:
     """A real publisher of another type is named with its type."""
     kernel.run("""

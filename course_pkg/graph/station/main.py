@@ -132,7 +132,8 @@ class Station:
     def _look(self) -> None:
         """See who is on the topic, and be on the master's books again after it was restarted."""
         try:
-            if not node_known(self._master):
+            # In this order: a node that is signing off is unknown, too, and must not come back.
+            if not node_known(self._master) and not rospy.is_shutdown():
                 register_all(self._master)
             self._around = look_around(self._master, self._topic).as_dict()
             self._trouble = ""
@@ -170,12 +171,19 @@ class Station:
         return about | {"ago": round(time.monotonic() - sound.at, 3), "texts": self._texts(sound)}
 
     def _texts(self, sound: Sound) -> Any:  # noqa: ANN401 -- a tree of texts, or None
-        kind = self._kind
+        kind = self._kind or self._sender_kind(sound.type)
         if kind is None or sound.md5 != kind.md5 or len(sound.body) != sound.size:
             return None
         try:
             return kind.format(kind.to_values(kind.cls().deserialize(sound.body)))
         except (genpy.DeserializationError, FieldError):
+            return None
+
+    def _sender_kind(self, name: str) -> MessageType | None:
+        """Return the type that a publisher names, as long as nobody has said which is the topic's."""
+        try:
+            return message_type(name)
+        except CourseError:
             return None
 
 

@@ -75,14 +75,19 @@ class TopicStation:
             if not self._ended.is_set():
                 words = f"The panel's node has ended. {self._tail()}"
                 self.end()
-                with suppress(GraphError):  # killed, it could not sign off
-                    remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
+                self._forget()
                 self._lost(self, words)
 
     def _finish(self) -> None:
         if not self._leash.wait(GRACE):
             self._leash.end(0.2)
+            self._forget()
         self._output.close()
+
+    def _forget(self) -> None:
+        """Sign off in the place of a node that was killed."""
+        with suppress(GraphError):
+            remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
 
     def _tail(self) -> str:
         descriptor = self._output.fileno()

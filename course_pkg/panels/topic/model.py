@@ -71,6 +71,7 @@ class TopicModel:
         """Tell a new station what the one before knew."""
         with self._turn:
             self._own, self._echo, self._heard = "", Echo(), {"count": 0, "pace": {}}
+            self.see({**self._around, "sources": []})
             self._changed(echo=[], latest=[], heard=self._heard, curve="", spoken={}, trouble="")
             self._tell_type()
 
@@ -92,6 +93,8 @@ class TopicModel:
             if heard:
                 shown["heard"] = self._heard = {**self._heard, **heard}
             if "echo" in parts:
+                if self.kind is None:
+                    self._find(parts["echo"][-1]["type"])
                 self._echo.take(parts["echo"], self.kind)
                 shown |= {"echo": self._echo.entries, "latest": self._echo.latest}
             self._changed(**shown)
