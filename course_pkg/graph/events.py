@@ -16,6 +16,7 @@ HANDLER = "handler"  # the server works on a request
 PUBLISH = "publish"  # a message is published
 CALLBACK = "callback"  # a subscriber's callback runs
 MASTER = "master"  # the peer of a look-up
+NOBODY = "nobody was connected"  # the note of a message that was lost so
 
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
 OF_MESSAGES = (PUBLISH, CALLBACK)

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from course_pkg.graph.events import CALLBACK, ERROR, HANDLER, PUBLISH, REQUEST, RESPONSE, Event
+from course_pkg.graph.events import CALLBACK, ERROR, HANDLER, NOBODY, PUBLISH, REQUEST, RESPONSE, Event
 
 Told = Mapping[str, Any]  # a mark as its process tells it; course_pkg.graph.trace.Mark
 WireName = tuple[str, str, int]  # service or topic, connection, number on it
@@ -179,7 +179,7 @@ def _note(told: Told) -> str:
         return str(told["note"])
     asked, sent = told["asked"], len(told["wires"])
     if not asked:
-        return "nobody was connected"
+        return NOBODY
     if sent < asked:
         return f"sent to {sent} of {asked}: what is missing was dropped from a queue, or is still in it"
     return str(told["note"])

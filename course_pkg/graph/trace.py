@@ -188,8 +188,7 @@ class Recorder:
         `clock` is the time now, `process` the process id; from `complete_from` on, nothing has been pushed
         out of the ring.
         """
-        marks = {id(mark): mark for mark in (*self._lasting.copy(), *self._over.copy())}
-        late = [mark for mark in marks.values() if mark.end is None or mark.end >= start]
+        late = [mark for mark in self._marks() if mark.end is None or mark.end >= start]
         return {
             "clock": time.monotonic(),
             "process": os.getpid(),
@@ -197,6 +196,15 @@ class Recorder:
             "blind": sorted(self.blind),
             "marks": [told for mark in late for told in mark.told()],
         }
+
+    def _marks(self) -> list[Mark | CallMark]:
+        while True:
+            try:
+                return list({id(mark): mark for mark in (*self._lasting.copy(), *self._over.copy())}.values())
+            except (
+                RuntimeError
+            ):  # another thread came in between, because memory was being tidied up just then
+                continue
 
     def _complete_from(self) -> float:
         full = len(self._over) == self._over.maxlen

@@ -203,6 +203,15 @@ def test_in_plain_sentences() -> None:
     assert timeline_text(Recording()) == "Nothing was recorded."
 
 
+def test_messages_that_nobody_heard() -> None:
+    """That nobody was connected is said where it is on record; else somebody may have heard."""
+    (sent,) = message(1, 1.0)
+    assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
+    lost = Event(**{**sent.as_dict(), "note": "nobody was connected"})
+    assert timeline_text(recording(lost)).endswith("nobody was connected.")
+    assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1
+
+
 @pytest.mark.parametrize(("failed", "words"), [(1, "in vain"), (2, "at times in vain")])
 def test_failures_in_plain_sentences(failed: int, words: str) -> None:
     """A call that failed was made in vain; one of several, at times."""

@@ -31,6 +31,8 @@ def _called(wait: dict[str, Any]) -> str:
 
 
 def _published(stream: dict[str, Any]) -> str:
-    who = " and ".join(stream["heard_by"])
-    heard = f"{who} heard it" if who else "nobody heard it"
-    return f"{stream['node']} published {stream['topic']} and waited for nobody; {heard}."
+    words = f"{stream['node']} published {stream['topic']} and waited for nobody"
+    if stream["heard_by"]:
+        return f"{words}; {' and '.join(stream['heard_by'])} heard it."
+    alone = stream["alone"] == stream["published"]
+    return f"{words}; {'nobody was connected' if alone else 'nobody on record heard it'}."

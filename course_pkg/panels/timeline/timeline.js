@@ -64,7 +64,7 @@ class TimelineView {
   #buildFoot() {
     const said = waiting(this.scene);
     return h("div", { class: "ros-foot" }, 
-      h("ul", { class: "ros-waits", "aria-label": "Who waited for whom" }, ...said.map(({ waits, text }) => h("li", { class: waits ? "ros-blocked" : "" }, ...prose(text)))), legend(), this.thinned,
+      h("ul", { class: "ros-waits", "aria-label": "Who waited for whom" }, ...said.map(({ waits, text }) => h("li", { class: waits ? "ros-blocked" : "" }, ...prose(text)))), legend(this.scene), this.thinned,
       h("p", { class: "ros-muted ros-hint", text: HINT }));
   }
 
@@ -236,21 +236,24 @@ function pair([label, value]) {
   return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }));
 }
 
-/** What the shapes mean, those that wait first. */
-function legend() {
+/** What the shapes mean that there are, those that wait first. @param {Scene} scene */
+function legend(scene) {
   const id = freshId("ros-hatch");
   const hatch = `<defs><pattern id="${id}" width="6" height="6" patternUnits="userSpaceOnUse"><path class="ros-stripe" d="M-1,1 L1,-1 M0,6 L6,0 M5,7 L7,5"/></pattern></defs>`;
   const samples = [
-    ["waits: blocked until another answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
-    ["look-up, connect: waits too, bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
-    ["handler works", '<rect class="ros-work" x="1" y="2" width="32" height="14"/>'],
-    ["request, and its answer", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
-    ["failed", '<path class="ros-failed" d="M13,5 l8,8 m0,-8 l-8,8"/>'],
-    ["publishes, waits for nobody", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
-    ["callback runs", '<rect class="ros-heard" x="1" y="2" width="32" height="14"/>'],
-    ["not over when the recording ended", '<path class="ros-work" d="M1,2 H33 l-4,3.5 l4,3.5 l-4,3.5 l4,3.5 H1 z"/>'],
+    ["wait", "waits: blocked until another answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
+    ["lookup connect", "look-up, connect: waits too, bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
+    ["handler", "handler works", '<rect class="ros-work" x="1" y="2" width="32" height="14"/>'],
+    ["request", "request, and its answer", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
+    ["error", "failed", '<path class="ros-failed" d="M13,5 l8,8 m0,-8 l-8,8"/>'],
+    ["publish", "publishes, waits for nobody", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
+    ["callback", "callback runs", '<rect class="ros-heard" x="1" y="2" width="32" height="14"/>'],
+    ["open", "not over when the recording ended", '<path class="ros-work" d="M1,2 H33 l-4,3.5 l4,3.5 l-4,3.5 l4,3.5 H1 z"/>'],
   ];
-  return h("ul", { class: "ros-legend", "aria-label": "What the shapes mean" }, ...samples.map(([text, shape]) => {
+  const shown = new Set(Array.from({ length: scene.count }, (_, each) => scene.kindOf(each)));
+  if (scene.open.some(Boolean)) shown.add("open");
+  const found = samples.filter(([kinds]) => kinds.split(" ").some((kind) => shown.has(kind)));
+  return h("ul", { class: "ros-legend", "aria-label": "What the shapes mean" }, ...found.map(([, text, shape]) => {
     const item = h("li", {});
     item.innerHTML = `<svg width="34" height="18" aria-hidden="true">${shape}</svg>`;
     item.append(text);

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
-from course_pkg.graph.events import BLOCKED, CALLBACK, ERROR, MASTER, PUBLISH, Event
+from course_pkg.graph.events import BLOCKED, CALLBACK, ERROR, MASTER, NOBODY, PUBLISH, Event
 
 if TYPE_CHECKING:
     from course_pkg.graph import Recording
@@ -55,4 +55,5 @@ def _wait(node: str, service: str, events: list[Event], length: float) -> State:
 
 def _stream(node: str, topic: str, events: list[Event], hearers: dict[str, set[str]]) -> State:
     heard = {hearer for event in events for hearer in hearers[event.key]}
-    return {"node": node, "topic": topic, "published": len(events), "heard_by": sorted(heard)}
+    alone = sum(event.note == NOBODY for event in events)
+    return {"node": node, "topic": topic, "published": len(events), "alone": alone, "heard_by": sorted(heard)}

@@ -65,9 +65,10 @@ function waited({ node, service, servers, calls, blocked, longest, open, failed 
 }
 
 /** @param {any} stream */
-function published({ node, topic, published: messages, heard_by }) {
+function published({ node, topic, published: messages, alone, heard_by }) {
   const who = heard_by.length ? `heard by ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "heard by nobody on record";
-  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`, ${who}, and waited for nobody.`;
+  const lost = !alone ? "" : alone === messages ? ", when nobody was connected" : `, ${alone} of them when nobody was connected`;
+  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`${alone === messages ? "" : `, ${who}`}${lost}, and waited for nobody.`;
 }
 
 /** "1 node", "2 nodes". @param {number} number @param {string} noun */
