@@ -1,0 +1,140 @@
+"""The simulator on the graph: one thread moves the world tick by tick, others wait for their turn."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from queue import Empty as NothingToDo
+from queue import SimpleQueue
+from typing import Any, TypeVar
+
+import rospy
+from std_srvs.srv import Empty, EmptyResponse
+from turtlesim.srv import Kill, KillResponse, Spawn, SpawnResponse
+
+from course_pkg.turtlesim.actor import Actor
+from course_pkg.turtlesim.answering import Answering, Refused
+from course_pkg.turtlesim.names import objection
+from course_pkg.turtlesim.paper import Colour
+from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, sound
+
+BUDGET = 0.008  # s of a tick for requests: a flood of them delays nobody's pose by more
+LATEST = 0.25  # s; a machine that slept does not catch up with more
+CHANNELS = ("background_r", "background_g", "background_b")
+
+Result = TypeVar("Result")
+
+
+class Simulator:
+    """The services of the node, and the loop that everything happens in."""
+
+    def __init__(self) -> None:
+        self._jobs: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
+        self._changes = threading.RLock()  # who comes and goes, one at a time
+        for name, value in zip(CHANNELS, BACKGROUND, strict=True):
+            if not rospy.has_param(f"~{name}"):
+                rospy.set_param(f"~{name}", value)
+        self._world = World(self._background())
+        self._actors: dict[str, Actor] = {}
+        turtle = self._world.turtles["turtle1"]
+        self._announce(turtle)
+        self._enter(turtle)
+        self._services = [
+            Answering("clear", Empty, self._clear),
+            Answering("reset", Empty, self._reset),
+            Answering("spawn", Spawn, self._spawn),
+            Answering("kill", Kill, self._kill),
+        ]
+
+    def run(self) -> None:
+        """Move the world every 16 ms until the node is shut down."""
+        due = time.monotonic()
+        while not rospy.is_shutdown():
+            due = max(due + TICK, time.monotonic() - LATEST)
+            while (rest := due - time.monotonic()) > 0:
+                time.sleep(rest)
+            self._do_jobs()
+            for warning in self._world.tick(time.monotonic()):
+                rospy.logwarn(warning)
+            for actor in tuple(self._actors.values()):
+                actor.publish()
+
+    def in_tick(self, job: Callable[[], Result]) -> Result:
+        """Have `job` done between two ticks, and return what it returns."""
+        done: Future[Result] = Future()
+        self._jobs.put((job, done))
+        return done.result()
+
+    def _do_jobs(self) -> None:
+        until = time.monotonic() + BUDGET
+        while time.monotonic() < until:
+            try:
+                job, done = self._jobs.get_nowait()
+            except NothingToDo:
+                return
+            try:
+                done.set_result(job())
+            except Exception as error:  # noqa: BLE001 -- it belongs to the client that waits for it
+                done.set_exception(error)
+
+    def _spawn(self, request: Any) -> SpawnResponse:  # noqa: ANN401 -- a class that catkin generates
+        if request.name and (words := objection(request.name)):
+            raise Refused(words)
+        if not sound(request.x, request.y, request.theta):
+            raise Refused("A turtle cannot be where a number is not finite.")
+        with self._changes:
+            try:
+                turtle = self.in_tick(
+                    lambda: self._world.spawn(request.x, request.y, request.theta, request.name)
+                )
+            except NameTaken as error:
+                rospy.logerr(str(error))
+                raise Refused from error
+            self._announce(turtle)
+            self._enter(turtle)
+        return SpawnResponse(turtle.name)
+
+    def _kill(self, request: Any) -> KillResponse:  # noqa: ANN401
+        with self._changes:
+            try:
+                turtle = self.in_tick(lambda: self._world.kill(request.name))
+            except UnknownTurtle as error:
+                rospy.logerr(str(error))
+                raise Refused from error
+            self._actors.pop(turtle.name).close()
+        return KillResponse()
+
+    def _clear(self, _request: Any) -> EmptyResponse:  # noqa: ANN401
+        rospy.loginfo("Clearing turtlesim.")
+        background = self._background()
+        self.in_tick(lambda: self._world.clear(background))
+        return EmptyResponse()
+
+    def _reset(self, _request: Any) -> EmptyResponse:  # noqa: ANN401
+        rospy.loginfo("Resetting turtlesim.")
+        background = self._background()
+        with self._changes:
+            self.in_tick(lambda: self._world.reset(background))
+            turtle = self._world.turtles["turtle1"]
+            self._announce(turtle)
+            for name in [name for name in self._actors if name != turtle.name]:
+                self._actors.pop(name).close()
+            if turtle.name in self._actors:
+                self._actors[turtle.name].turtle = turtle  # whoever listens to it goes on listening
+            else:
+                self._enter(turtle)
+        return EmptyResponse()
+
+    def _enter(self, turtle: Turtle) -> None:
+        actor = Actor(turtle, self._world.paper, self.in_tick)
+        self._actors = dict(sorted({**self._actors, turtle.name: actor}.items()))
+
+    def _announce(self, turtle: Turtle) -> None:
+        place = f"x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]"
+        rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
+
+    def _background(self) -> Colour:
+        red, green, blue = (int(rospy.get_param(f"~{name}")) % 256 for name in CHANNELS)
+        return red, green, blue
