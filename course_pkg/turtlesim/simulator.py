@@ -40,7 +40,7 @@ class Simulator:
         self._actors: dict[str, Actor] = {}
         turtle = self._world.turtles["turtle1"]
         self._announce(turtle)
-        self._enter(turtle)
+        self._enter(Actor(turtle, self._world.paper, self.in_tick))
         self._services = [
             Answering("clear", Empty, self._clear),
             Answering("reset", Empty, self._reset),
@@ -58,7 +58,7 @@ class Simulator:
             self._do_jobs()
             for warning in self._world.tick(time.monotonic()):
                 rospy.logwarn(warning)
-            for actor in tuple(self._actors.values()):
+            for actor in self._actors.values():
                 actor.publish()
 
     def in_tick(self, job: Callable[[], Result]) -> Result:
@@ -84,26 +84,26 @@ class Simulator:
             raise Refused(words)
         if not sound(request.x, request.y, request.theta):
             raise Refused("A turtle cannot be where a number is not finite.")
+        place = (request.x, request.y, request.theta)
         with self._changes:
             try:
-                turtle = self.in_tick(
-                    lambda: self._world.spawn(request.x, request.y, request.theta, request.name)
-                )
+                turtle = self.in_tick(lambda: self._world.spawn(*place, request.name))
             except NameTaken as error:
                 rospy.logerr(str(error))
                 raise Refused from error
             self._announce(turtle)
-            self._enter(turtle)
+            actor = Actor(turtle, self._world.paper, self.in_tick)
+            self.in_tick(lambda: self._enter(actor))
         return SpawnResponse(turtle.name)
 
     def _kill(self, request: Any) -> KillResponse:  # noqa: ANN401
         with self._changes:
             try:
-                turtle = self.in_tick(lambda: self._world.kill(request.name))
+                actor = self.in_tick(lambda: self._actors.pop(self._world.kill(request.name).name))
             except UnknownTurtle as error:
                 rospy.logerr(str(error))
                 raise Refused from error
-            self._actors.pop(turtle.name).close()
+            actor.close()
         return KillResponse()
 
     def _clear(self, _request: Any) -> EmptyResponse:  # noqa: ANN401
@@ -116,20 +116,26 @@ class Simulator:
         rospy.loginfo("Resetting turtlesim.")
         background = self._background()
         with self._changes:
-            self.in_tick(lambda: self._world.reset(background))
+            for actor in self.in_tick(lambda: self._begin_anew(background)):
+                actor.close()
             turtle = self._world.turtles["turtle1"]
             self._announce(turtle)
-            for name in [name for name in self._actors if name != turtle.name]:
-                self._actors.pop(name).close()
-            if turtle.name in self._actors:
-                self._actors[turtle.name].turtle = turtle  # whoever listens to it goes on listening
-            else:
-                self._enter(turtle)
+            if turtle.name not in self._actors:  # it had been killed
+                new = Actor(turtle, self._world.paper, self.in_tick)
+                self.in_tick(lambda: self._enter(new))
         return EmptyResponse()
 
-    def _enter(self, turtle: Turtle) -> None:
-        actor = Actor(turtle, self._world.paper, self.in_tick)
-        self._actors = dict(sorted({**self._actors, turtle.name: actor}.items()))
+    def _begin_anew(self, background: Colour) -> list[Actor]:
+        """Reset the world; return the actors that have left it. The first turtle's listeners go on listening."""
+        self._world.reset(background)
+        leaving = [actor for name, actor in self._actors.items() if name not in self._world.turtles]
+        self._actors = {name: actor for name, actor in self._actors.items() if actor not in leaving}
+        for name, actor in self._actors.items():
+            actor.turtle = self._world.turtles[name]
+        return leaving
+
+    def _enter(self, actor: Actor) -> None:
+        self._actors = dict(sorted({**self._actors, actor.turtle.name: actor}.items()))
 
     def _announce(self, turtle: Turtle) -> None:
         place = f"x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]"

@@ -1,18 +1,71 @@
-"""The node `turtlesim`: a world of turtles to be driven by topics and services."""
+"""The node `teleop_turtle`: turtle1 obeys the arrow keys of a terminal."""
 
 from __future__ import annotations
 
-import rospy
+import os
+import select
+import sys
+import termios
+import tty
+from collections.abc import Iterator
+from contextlib import contextmanager
 
-from course_pkg.graph.handshake import guard_against_idle_connections
-from course_pkg.graph.registrar import hasten_shutdown
-from course_pkg.turtlesim.simulator import Simulator
+import rospy
+from geometry_msgs.msg import Twist
+
+HELP = """\
+Drive turtle1 with the arrow keys of this terminal.
+  up, down     forwards, backwards
+  left, right  turn
+  q            quit
+"""
+STEP = 2.0  # m/s and rad/s, unless ~scale_linear and ~scale_angular say otherwise
+PATIENCE = 0.2  # s between looks at whether the node has been shut down
+KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter of an arrow's escape code
 
 
 def main() -> None:
-    """Simulate until the node is shut down."""
-    rospy.init_node("turtlesim")
-    guard_against_idle_connections()
-    hasten_shutdown()
-    rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
-    Simulator().run()
+    """Read keys until q, Ctrl-C, the end of the input, or the end of the node."""
+    if not sys.stdin.isatty():
+        sys.exit("turtle_teleop_key reads single keys: run it in a terminal, by rosrun turtlesim turtle_teleop_key")
+    rospy.init_node("teleop_turtle")
+    publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
+    scales = rospy.get_param("~scale_linear", STEP), rospy.get_param("~scale_angular", STEP)
+    sys.stdout.write(HELP)
+    with _single_keys(sys.stdin.fileno()):
+        for forward, turn in orders(sys.stdin.fileno()):
+            order = Twist()
+            order.linear.x, order.angular.z = forward * scales[0], turn * scales[1]
+            publisher.publish(order)
+
+
+def orders(file: int) -> Iterator[tuple[int, int]]:
+    """Yield for each arrow key how to go, forward and turn from -1 to 1."""
+    typed = ""
+    while not rospy.is_shutdown():
+        if not select.select([file], [], [], PATIENCE)[0]:
+            continue
+        read = os.read(file, 64).decode(errors="replace")
+        if not read or "q" in read or "\x03" in read:
+            return
+        *complete, typed = (typed + read).split("\x1b")
+        for code in complete:
+            yield from _order(code)
+        if _order(typed):
+            yield from _order(typed)
+            typed = ""
+
+
+def _order(code: str) -> list[tuple[int, int]]:
+    return [KEYS[code[1]]] if len(code) >= 2 and code[0] in "[O" and code[1] in KEYS else []
+
+
+@contextmanager
+def _single_keys(terminal: int) -> Iterator[None]:
+    """Have each key reach the program at once and unseen, and give the terminal back as it was."""
+    before = termios.tcgetattr(terminal)
+    try:
+        tty.setcbreak(terminal)
+        yield
+    finally:
+        termios.tcsetattr(terminal, termios.TCSADRAIN, before)
