@@ -39,7 +39,7 @@ class Actor:
         self._pose = rospy.Publisher(f"{name}/pose", Pose, queue_size=1)
         self._colour = rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1)
         self._ordered = rospy.Subscriber(f"{name}/cmd_vel", Twist, self._obey, queue_size=1, tcp_nodelay=True)
-        self._services = [
+        self._services: list[Any] = [
             Answering(f"{name}/set_pen", SetPen, self._set_pen),
             Answering(f"{name}/teleport_relative", TeleportRelative, self._teleport_relative),
             Answering(f"{name}/teleport_absolute", TeleportAbsolute, self._teleport_absolute),
@@ -55,7 +55,8 @@ class Actor:
         """Take the turtle off the graph."""
         for service in self._services:
             service.shutdown()
-        for topic in (self._ordered, self._pose, self._colour):
+        topics: list[Any] = [self._ordered, self._pose, self._colour]
+        for topic in topics:
             topic.unregister()
 
     def _obey(self, message: Any) -> None:  # noqa: ANN401 -- a class that catkin generates

@@ -11,8 +11,9 @@ from collections.abc import Callable
 from typing import Any
 
 import rospy
+from rospy.impl import tcpros_base
 from rospy.impl.registration import get_service_manager
-from rospy.impl.tcpros_service import ServiceImpl, TCPService
+from rospy.impl.tcpros_service import ServiceImpl, TCPService, service_connection_handler
 
 OK = b"\x01"
 
@@ -21,7 +22,14 @@ class Refused(Exception):
     """The request is refused; the client is told the words, which may be none."""
 
 
-class AnsweringProtocol(TCPService):  # type: ignore[misc] -- rospy has no types
+def word_refusals() -> None:
+    """Have this process refuse a connection in roscpp's words; call it after init_node()."""
+    tcpros_base.start_tcpros_server()
+    server: Any = tcpros_base._tcpros_server
+    server.service_connection_handler = _connected
+
+
+class AnsweringProtocol(TCPService):
     """What the connection header says."""
 
     def get_header_fields(self) -> dict[str, str]:
@@ -36,20 +44,39 @@ class AnsweringProtocol(TCPService):  # type: ignore[misc] -- rospy has no types
         }
 
 
-class Answering(ServiceImpl):  # type: ignore[misc] -- rospy has no types
+class Answering(ServiceImpl):
     """A service, registered at once. `answer` returns a response, or raises Refused."""
 
     def __init__(self, name: str, kind: Any, answer: Callable[[Any], Any]) -> None:  # noqa: ANN401
-        super().__init__(name, kind, answer)
-        self.protocol = AnsweringProtocol(self.resolved_name, kind)
+        super().__init__(name, kind, answer)  # type: ignore[no-untyped-call]
+        self.protocol: Any = AnsweringProtocol(self.resolved_name, kind)  # type: ignore[no-untyped-call]
         get_service_manager().register(self.resolved_name, self)
 
     def _handle_request(self, transport: Any, request: Any) -> None:  # noqa: ANN401
         try:
             response = self.handler(request)
         except Refused as refusal:
-            self._write_service_error(transport, str(refusal))
+            self._write_service_error(transport, str(refusal))  # type: ignore[no-untyped-call]
+            return
+        except Exception as error:  # noqa: BLE001 -- whatever went wrong, somebody waits for an answer
+            rospy.logerr(f"Exception thrown while processing service call: {error}")
+            self._write_service_error(transport, str(error))  # type: ignore[no-untyped-call]
             return
         self.seq += 1
         transport.write_buff.write(OK)
         transport.send_message(response, self.seq)
+
+
+def _connected(sock: Any, address: Any, header: dict[str, str]) -> str | None:  # noqa: ANN401
+    """Take a connection over, or return why not."""
+    if any(field not in header for field in ("md5sum", "service", "callerid")):
+        return "bogus tcpros header. did not have required elements: md5sum, service, callerid"
+    name, asked = header["service"], header["md5sum"]
+    service = get_service_manager().get_service(name)
+    if service is None:
+        return f"received a tcpros connection for a nonexistent service [{name}]."
+    md5 = service.service_class._md5sum
+    if asked not in ("*", md5):
+        return f"client wants service {name} to have md5sum {asked}, but it has {md5}. Dropping connection."
+    refusal: str | None = service_connection_handler(sock, address, header)
+    return refusal

@@ -37,7 +37,7 @@ class Walker:
             return 0.0, _gentle(rest, TURN)
         return _gentle(SIDE - math.hypot(x - self.x, y - self.y), SPEED), 0.0
 
-    def after(self, x: float, y: float, theta: float) -> Walker:
+    def after(self, x: float, y: float) -> Walker:
         """Return the walker that goes on from here."""
         if self.turning:
             return Walker(x, y, self.theta + CORNER)  # the corner it meant: small errors do not add up
@@ -65,7 +65,7 @@ class _Walking:
         walker = self._walker or Walker(*here)
         speed, turn = walker.steer(*here)
         if not (speed or turn):
-            walker = walker.after(*here)
+            walker = walker.after(pose.x, pose.y)
             rospy.loginfo("Turning the corner" if walker.turning else "Along the next side")
         self._walker = walker
         order = Twist()

@@ -22,7 +22,7 @@ from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, Unkn
 
 BUDGET = 0.008  # s of a tick for requests: a flood of them delays nobody's pose by more
 LATEST = 0.25  # s; a machine that slept does not catch up with more
-CHANNELS = ("background_r", "background_g", "background_b")
+DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
 Result = TypeVar("Result")
 
@@ -33,11 +33,11 @@ class Simulator:
     def __init__(self) -> None:
         self._jobs: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
         self._changes = threading.RLock()  # who comes and goes, one at a time
-        for name, value in zip(CHANNELS, BACKGROUND, strict=True):
+        for name, value in DEFAULTS.items():
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)
         self._world = World(self._background())
-        self._actors: dict[str, Actor] = {}
+        self._actors: dict[str, Actor] = {}  # replaced, never changed: the loop may be going through it
         turtle = self._world.turtles["turtle1"]
         self._announce(turtle)
         self._enter(Actor(turtle, self._world.paper, self.in_tick))
@@ -92,14 +92,13 @@ class Simulator:
                 rospy.logerr(str(error))
                 raise Refused from error
             self._announce(turtle)
-            actor = Actor(turtle, self._world.paper, self.in_tick)
-            self.in_tick(lambda: self._enter(actor))
+            self._enter(Actor(turtle, self._world.paper, self.in_tick))
         return SpawnResponse(turtle.name)
 
     def _kill(self, request: Any) -> KillResponse:  # noqa: ANN401
         with self._changes:
             try:
-                actor = self.in_tick(lambda: self._actors.pop(self._world.kill(request.name).name))
+                actor = self.in_tick(lambda: self._take_out(request.name))
             except UnknownTurtle as error:
                 rospy.logerr(str(error))
                 raise Refused from error
@@ -121,12 +120,16 @@ class Simulator:
             turtle = self._world.turtles["turtle1"]
             self._announce(turtle)
             if turtle.name not in self._actors:  # it had been killed
-                new = Actor(turtle, self._world.paper, self.in_tick)
-                self.in_tick(lambda: self._enter(new))
+                self._enter(Actor(turtle, self._world.paper, self.in_tick))
         return EmptyResponse()
 
+    def _take_out(self, name: str) -> Actor:
+        actor = self._actors[self._world.kill(name).name]
+        self._actors = {name: other for name, other in self._actors.items() if other is not actor}
+        return actor
+
     def _begin_anew(self, background: Colour) -> list[Actor]:
-        """Reset the world; return the actors that have left it. The first turtle's listeners go on listening."""
+        """Reset the world; return the actors that left it. The first turtle's listeners go on listening."""
         self._world.reset(background)
         leaving = [actor for name, actor in self._actors.items() if name not in self._world.turtles]
         self._actors = {name: actor for name, actor in self._actors.items() if actor not in leaving}
@@ -142,5 +145,10 @@ class Simulator:
         rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
 
     def _background(self) -> Colour:
-        red, green, blue = (int(rospy.get_param(f"~{name}")) % 256 for name in CHANNELS)
+        """Return the colour that the parameters name; what is no number counts as the usual one."""
+        own = rospy.get_param(rospy.get_name(), {})  # all at once: each question is a round trip
+        given = {**DEFAULTS, **own} if isinstance(own, dict) else DEFAULTS
+        red, green, blue = (
+            given[name] % 256 if isinstance(given[name], int) else usual for name, usual in DEFAULTS.items()
+        )
         return red, green, blue

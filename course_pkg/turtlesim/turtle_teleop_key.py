@@ -27,7 +27,9 @@ KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter
 def main() -> None:
     """Read keys until q, Ctrl-C, the end of the input, or the end of the node."""
     if not sys.stdin.isatty():
-        sys.exit("turtle_teleop_key reads single keys: run it in a terminal, by rosrun turtlesim turtle_teleop_key")
+        sys.exit(
+            "turtle_teleop_key reads single keys: run it in a terminal, by rosrun turtlesim turtle_teleop_key"
+        )
     rospy.init_node("teleop_turtle")
     publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
     scales = rospy.get_param("~scale_linear", STEP), rospy.get_param("~scale_angular", STEP)
@@ -46,14 +48,13 @@ def orders(file: int) -> Iterator[tuple[int, int]]:
         if not select.select([file], [], [], PATIENCE)[0]:
             continue
         read = os.read(file, 64).decode(errors="replace")
-        if not read or "q" in read or "\x03" in read:
-            return
-        *complete, typed = (typed + read).split("\x1b")
-        for code in complete:
+        keys, quits, _ = (typed + read).partition("q")
+        *complete, typed = keys.split("\x1b")
+        for code in (*complete, typed):
             yield from _order(code)
-        if _order(typed):
-            yield from _order(typed)
-            typed = ""
+        if quits or not read:
+            return
+        typed = f"\x1b{typed}" if "\x1b" in keys and len(typed) < 2 else ""
 
 
 def _order(code: str) -> list[tuple[int, int]]:

@@ -6,6 +6,7 @@ import rospy
 
 from course_pkg.graph.handshake import guard_against_idle_connections
 from course_pkg.graph.registrar import hasten_shutdown
+from course_pkg.turtlesim.answering import word_refusals
 from course_pkg.turtlesim.simulator import Simulator
 
 
@@ -14,5 +15,6 @@ def main() -> None:
     rospy.init_node("turtlesim")
     guard_against_idle_connections()
     hasten_shutdown()
+    word_refusals()
     rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
     Simulator().run()

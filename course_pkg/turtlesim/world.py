@@ -150,7 +150,9 @@ class World:
         return [warning for warning in warnings if warning]
 
     def _free_name(self) -> str:
-        return next(name for name in (f"turtle{number}" for number in self._numbers) if name not in self.turtles)
+        return next(
+            name for name in (f"turtle{number}" for number in self._numbers) if name not in self.turtles
+        )
 
 
 def sound(*numbers: float) -> bool:
@@ -164,6 +166,6 @@ def wrapped(angle: float) -> float:
 
 
 def _on_paper(point: Point) -> Point:
-    """Return the point, or the nearest one not far off the paper: a line to the moon takes no time to draw."""
+    """Return the point, or the nearest not far off the paper: a line to the moon takes no time to draw."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

@@ -1,0 +1,17 @@
+"""A simulator for the tests of one module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.graph import NodeProcess, PrivateMaster
+
+
+@pytest.fixture(scope="module")
+def simulator(master: PrivateMaster) -> Iterator[NodeProcess]:
+    """`rosrun turtlesim turtlesim_node`, answering."""
+    with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as process:
+        process.wait_for_service("/spawn")
+        yield process

@@ -1,0 +1,214 @@
+"""The node on a real graph: what clients of the real turtlesim rely on."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+
+import pytest
+
+from course_pkg.graph import NodeProcess, PrivateMaster, look
+from course_pkg.interfaces import message_type, service_type
+from tests.kernel import Kernel
+from tests.support import eventually
+
+MD5 = {
+    "Color": "353891e354491c51aabe32df673fb446",
+    "Pose": "863b248d5016ca62ea2e895ae5265cf9",
+    "Spawn": "0b2d2e872a8e2887d5ed626f2bf2c561",
+    "Kill": "c1f3d28f1b044c871e6eff2e9fc3c667",
+    "SetPen": "9f452acce566bf0c0954594f69a8e41b",
+    "TeleportAbsolute": "a130bc60ee6513855dc62ea83fcc5b20",
+    "TeleportRelative": "9d5c2dcd348ac8f76ce2a4307bd63a13",
+}
+CLIENT = """
+import rospy
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
+from course_pkg import join
+
+node = join("client")
+def words(name, kind, *values):
+    try:
+        return node.call(name, kind, *values)
+    except rospy.ServiceException as error:
+        return str(error)
+def pose(name="turtle1", after=0):
+    with node.subscribe(f"/{name}/pose", Pose) as heard:
+        return heard.wait(1 + after)[-1]
+"""
+
+
+@pytest.fixture
+def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
+    """A node that talks to a simulator with one turtle."""
+    kernel.run(CLIENT + "node.call('/reset', Empty)")
+    return kernel
+
+
+def terminal(*command: str) -> str:
+    """Run a command as a student types it, and return what it prints."""
+    done = subprocess.run(
+        command, capture_output=True, text=True, timeout=30, env=dict(os.environ), check=False
+    )
+    return done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("name", MD5)
+def test_the_types_are_those_of_the_real_package(name: str) -> None:
+    """Same MD5s, or no client would connect."""
+    kind = message_type if name in ("Color", "Pose") else service_type
+    assert kind(f"turtlesim/{name}").cls._md5sum == MD5[name]
+
+
+def test_what_the_node_offers(simulator: NodeProcess) -> None:
+    """The names of its topics and services, with their types, are the real one's."""
+    seen = eventually(lambda: look() if look().service("/turtle1/teleport_absolute") else None)
+    services = {each.name: each.type for each in seen.served_by("/turtlesim") if "logger" not in each.name}
+    assert services == {
+        "/clear": "std_srvs/Empty",
+        "/kill": "turtlesim/Kill",
+        "/reset": "std_srvs/Empty",
+        "/spawn": "turtlesim/Spawn",
+        "/turtle1/set_pen": "turtlesim/SetPen",
+        "/turtle1/teleport_absolute": "turtlesim/TeleportAbsolute",
+        "/turtle1/teleport_relative": "turtlesim/TeleportRelative",
+    }
+    topics = {each.name: each for each in seen.topics}
+    assert topics["/turtle1/pose"].type == "turtlesim/Pose"
+    assert topics["/turtle1/color_sensor"].type == "turtlesim/Color"
+    assert topics["/turtle1/cmd_vel"].subscribers == ("/turtlesim",)
+
+
+def test_parameters(simulator: NodeProcess) -> None:
+    """The background is a parameter of the node's own."""
+    shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
+    assert shown == ["69", "86", "255"]
+
+
+def test_a_name_twice(client: Kernel, simulator: NodeProcess) -> None:
+    """The second spawn fails with an empty error, and the reason is in the node's log."""
+    client.run("node.call('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
+    said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
+    assert said == "service [/spawn] responded with an error: b''"
+    eventually(lambda: "A turtled named [MyTurtle] already exists" in simulator.output())
+
+
+def test_killing_nobody(client: Kernel, simulator: NodeProcess) -> None:
+    """So does killing a turtle that is not there."""
+    said = client.run("result = words('/kill', Kill, 'nobody')")
+    assert said == "service [/kill] responded with an error: b''"
+    eventually(lambda: "Tried to kill turtle [nobody], which does not exist" in simulator.output())
+
+
+def test_an_illegal_name(client: Kernel) -> None:
+    """A name that is none is refused with the character and its place, and makes no turtle."""
+    said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
+    assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
+    assert not [topic for topic in look().topics if topic.name.startswith("/my")]
+
+
+def test_a_name_in_a_namespace(client: Kernel) -> None:
+    """a/b is accepted, and its topics are where the name says."""
+    client.run("node.call('/spawn', Spawn, 3, 3, 0, 'a/b')")
+    assert client.run("result = round(pose('a/b').x, 3)") == 3.0
+
+
+def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
+    """Its topics and services go with it, and its name is free."""
+    client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
+    client.run("node.call('/kill', Kill, 'brief')")
+    assert not look().service("/brief/set_pen")
+    assert client.run("result = node.call('/spawn', Spawn, 3, 3, 0, 'brief').name") == "brief"
+
+
+def test_driving(client: Kernel) -> None:
+    """One message of x = 1 moves the turtle 1.008, as long as a second holds, a tick more or less."""
+    client.run("order = Twist(); order.linear.x = 1.0; before = pose().x")
+    client.run("publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)")
+    client.run(
+        "import time\nuntil = time.monotonic() + 10\n"
+        "while not publisher.get_num_connections() and time.monotonic() < until: time.sleep(0.01)\n"
+        "publisher.publish(order)"
+    )
+    moved = eventually(
+        lambda: client.run("last = pose(after=5); result = last.linear_velocity == 0 and last.x - before")
+    )
+    assert moved == pytest.approx(1.008, abs=0.033)
+
+
+def test_teleport_and_colour(client: Kernel) -> None:
+    """The sensor reads the line that a teleport drew, in the pen's colour."""
+    client.run("node.call('/turtle1/set_pen', SetPen, 200, 100, 50, 9, 0)")
+    client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 8, 8, 0)")
+    client.run("node.call('/turtle1/teleport_relative', TeleportRelative, -0.5, 0)")
+    seen = client.run(
+        "with node.subscribe('/turtle1/color_sensor', Color) as heard:\n"
+        "    colour = heard.wait(3)[-1]\nresult = [colour.r, colour.g, colour.b]"
+    )
+    assert seen == [200, 100, 50]
+
+
+def test_listeners_go_on_after_reset(client: Kernel) -> None:
+    """Whoever heard turtle1 before a reset hears it afterwards, from the middle."""
+    client.run("heard = node.subscribe('/turtle1/pose', Pose)")
+    client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 1, 1, 0); heard.wait()")
+    client.run("node.call('/reset', Empty); count = heard.count")
+    eventually(
+        lambda: client.run("result = heard.count > count + 5 and round(heard.messages[-1].x, 3) == 5.544")
+    )
+    client.run("heard.stop()")
+
+
+def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
+    """A world is never without turtle1 after a reset."""
+    client.run("node.call('/kill', Kill, 'turtle1'); node.call('/reset', Empty)")
+    assert client.run("result = round(pose().x, 3)") == 5.544
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "values"),
+    [
+        ("/spawn", "Spawn", "float('nan'), 1, 0, 'odd'"),
+        ("/turtle1/teleport_absolute", "TeleportAbsolute", "1, float('inf'), 0"),
+        ("/turtle1/teleport_relative", "TeleportRelative", "float('-inf'), 0"),
+    ],
+)
+def test_numbers_that_are_none_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
+    """A place that is not finite is refused in words, and nothing moves."""
+    said = client.run(f"result = words('{name}', {kind}, {values})")
+    assert "not finite" in said
+    assert client.run("result = round(pose().x, 3)") == 5.544
+
+
+def test_a_velocity_that_is_none_is_ignored(client: Kernel) -> None:
+    """NaN on cmd_vel moves nothing and stops nothing."""
+    client.run(
+        "import time\norder = Twist(); order.angular.z = float('nan')\n"
+        "publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)\n"
+        "until = time.monotonic() + 10\n"
+        "while not publisher.get_num_connections() and time.monotonic() < until: time.sleep(0.01)\n"
+        "publisher.publish(order)"
+    )
+    assert client.run("last = pose(after=5); result = [round(last.x, 3), last.theta]") == [5.544, 0.0]
+
+
+def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
+    """In a namespace everything is the namespace's, turtles too."""
+    with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
+        left.wait_for_service("/left/spawn")
+        eventually(lambda: look().service("/left/turtle1/set_pen"))
+
+
+def test_a_background_that_is_no_colour(client: Kernel) -> None:
+    """A parameter that holds no number is taken for the usual blue, and clear answers."""
+    terminal("rosparam", "set", "/turtlesim/background_r", "blue")
+    assert "ERROR" not in terminal("rosservice", "call", "/clear")
+    seen = client.run(
+        "with node.subscribe('/turtle1/color_sensor', Color) as heard:\n"
+        "    colour = heard.wait(3)[-1]\nresult = [colour.r, colour.g, colour.b]"
+    )
+    terminal("rosparam", "set", "/turtlesim/background_r", "69")
+    assert seen == [69, 86, 255]

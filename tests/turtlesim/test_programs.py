@@ -1,0 +1,99 @@
+"""The two programs that drive turtle1."""
+
+from __future__ import annotations
+
+import math
+import os
+import pty
+import subprocess
+
+import pytest
+
+from course_pkg.graph import NodeProcess
+from course_pkg.turtlesim.draw_square import SIDE, Walker
+from course_pkg.turtlesim.turtle_teleop_key import orders
+from course_pkg.turtlesim.world import TICK, Velocity, World
+from tests.kernel import Kernel
+from tests.support import eventually
+
+
+def test_a_square_closes() -> None:
+    """Four sides and four corners bring the turtle back to within a few centimetres, whatever the pace."""
+    world = World()
+    turtle = world.turtles["turtle1"]
+    start, corners, now = (turtle.x, turtle.y), 0, 0.0
+    walker = Walker(turtle.x, turtle.y, turtle.theta)
+    places = []
+    while corners < 4 and now < 120:
+        speed, turn = walker.steer(turtle.x, turtle.y, turtle.theta)
+        if not (speed or turn):
+            corners += walker.turning
+            places.append((turtle.x, turtle.y))
+            walker = walker.after(turtle.x, turtle.y)
+        turtle.velocity = Velocity(speed, 0.0, turn, now)
+        world.tick(now)
+        now += TICK
+    assert math.dist(start, (turtle.x, turtle.y)) < 0.1
+    assert math.dist(start, places[0]) == pytest.approx(SIDE, abs=0.02)
+    assert math.dist(start, places[2]) == pytest.approx(SIDE * math.sqrt(2), abs=0.1)
+
+
+def test_draw_square_walks(simulator: NodeProcess, kernel: Kernel) -> None:
+    """On the graph the turtle leaves the middle for the end of the first side."""
+    kernel.run(
+        "from course_pkg import join\nfrom turtlesim.msg import Pose\n"
+        "node = join('watcher'); heard = node.subscribe('/turtle1/pose', Pose)"
+    )
+    with NodeProcess(["rosrun", "turtlesim", "draw_square"]) as walking:
+        eventually(lambda: "Turning the corner" in walking.output(), timeout=20)
+    assert kernel.run("result = heard.messages[-1].x") == pytest.approx(5.544 + SIDE, abs=0.1)
+
+
+@pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
+def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
+    """Keys come as escape codes, which may arrive in pieces; other keys do nothing, and q ends it."""
+    reader, writer = os.pipe()
+    found = []
+    keys = orders(reader)
+    for chunk in chunks:
+        os.write(writer, chunk)
+    os.close(writer)
+    found = list(keys)
+    os.close(reader)
+    assert found == [(1, 0), (0, 1)]
+
+
+def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
+    """In a terminal, an arrow moves the turtle, q ends the node, and the terminal is as it was."""
+    kernel.run(
+        "from course_pkg import join\nfrom geometry_msgs.msg import Twist\n"
+        "node = join('watcher'); heard = node.subscribe('/turtle1/cmd_vel', Twist)"
+    )
+    master, terminal = pty.openpty()
+    before = subprocess.run(["stty", "-g"], stdin=terminal, capture_output=True, check=True).stdout
+    with subprocess.Popen(
+        ["rosrun", "turtlesim", "turtle_teleop_key"], stdin=terminal, stdout=subprocess.PIPE, text=True
+    ) as program:
+        assert program.stdout is not None
+        assert program.stdout.readline().startswith("Drive turtle1")
+
+        def pressed() -> int:
+            os.write(master, b"\x1b[A")
+            return int(kernel.run("result = heard.count"))
+
+        eventually(pressed, interval=0.1)
+        os.write(master, b"q")
+        assert program.wait(10) == 0
+    assert kernel.run("result = heard.messages[0].linear.x") == 2.0
+    assert subprocess.run(["stty", "-g"], stdin=terminal, capture_output=True, check=True).stdout == before
+    os.close(master)
+    os.close(terminal)
+
+
+def test_without_a_terminal_it_says_so() -> None:
+    """From a pipe there are no keys: one line and status 1."""
+    done = subprocess.run(
+        ["rosrun", "turtlesim", "turtle_teleop_key"], input="", capture_output=True, text=True, timeout=30
+    )
+    assert done.returncode == 1
+    assert "run it in a terminal" in done.stderr
