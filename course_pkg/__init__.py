@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         ServicePanel,
         Timeline,
         TopicPanel,
+        TurtlePanel,
         TypeBrowser,
         choose,
         predict,
@@ -36,6 +37,7 @@ __all__ = [
     "ServicePanel",
     "Timeline",
     "TopicPanel",
+    "TurtlePanel",
     "TypeBrowser",
     "check",
     "choose",
@@ -55,8 +57,8 @@ __getattr__ = lazily(
         "examiner": "check results",
         "graph": "join",
         "panels": (
-            "GraphPanel Plot ServicePanel Timeline TopicPanel TypeBrowser choose predict predictions "
-            "show_image timeline_text"
+            "GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser choose predict "
+            "predictions show_image timeline_text"
         ),
     },
 )

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from course_pkg.panels.timeline.text import timeline_text
     from course_pkg.panels.timeline.view import Timeline
     from course_pkg.panels.topic.view import TopicPanel
+    from course_pkg.panels.turtles.view import TurtlePanel
     from course_pkg.panels.types.view import TypeBrowser
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "ServicePanel",
     "Timeline",
     "TopicPanel",
+    "TurtlePanel",
     "TypeBrowser",
     "choose",
     "graph_text",
@@ -48,6 +50,7 @@ __getattr__ = lazily(
         "timeline.text": "timeline_text",
         "timeline.view": "Timeline",
         "topic.view": "TopicPanel",
+        "turtles.view": "TurtlePanel",
         "types.view": "TypeBrowser",
     },
 )

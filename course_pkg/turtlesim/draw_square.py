@@ -11,6 +11,7 @@ from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 from turtlesim.msg import Pose
 
+from course_pkg.graph import prepare_node
 from course_pkg.turtlesim.world import wrapped
 
 SIDE = 2.0  # m
@@ -47,6 +48,7 @@ class Walker:
 def main() -> None:
     """Walk until the node is shut down."""
     rospy.init_node("draw_square")
+    prepare_node()
     walking = _Walking(rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1))
     rospy.wait_for_service("reset")
     rospy.ServiceProxy("reset", Empty)()

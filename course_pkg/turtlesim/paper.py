@@ -13,7 +13,7 @@ MISSED = (1.0, 0.0)  # a row without anything in it
 
 
 class Paper:
-    """A square of 500 by 500 pixels, the origin at the top left, y downwards."""
+    """A square of 500 by 500 pixels, from the top left, y downwards; whole numbers are pixels' centres."""
 
     def __init__(self, background: Colour) -> None:
         self._pixels = bytearray()
@@ -35,11 +35,11 @@ class Paper:
         half = max(width, 1) / 2
         reach = half * math.sqrt(2)
         top = max(math.floor(min(start[1], end[1]) - reach), 0)
-        bottom = min(math.ceil(max(start[1], end[1]) + reach), SIDE)
+        bottom = min(math.ceil(max(start[1], end[1]) + reach) + 1, SIDE)
         band = _Band(start, end, half)
         for row in range(top, bottom):
-            left, right = band.across(row + 0.5)
-            first, last = max(math.ceil(left - 0.5), 0), min(math.floor(right - 0.5), SIDE - 1)
+            left, right = band.across(row)
+            first, last = max(math.ceil(left), 0), min(math.floor(right), SIDE - 1)
             if first <= last:
                 begin = (row * SIDE + first) * DEPTH
                 count = last - first + 1

@@ -13,6 +13,8 @@ from contextlib import contextmanager
 import rospy
 from geometry_msgs.msg import Twist
 
+from course_pkg.graph import prepare_node
+
 HELP = """\
 Drive turtle1 with the arrow keys of this terminal.
   up, down     forwards, backwards
@@ -31,6 +33,7 @@ def main() -> None:
             "turtle_teleop_key reads single keys: run it in a terminal, by rosrun turtlesim turtle_teleop_key"
         )
     rospy.init_node("teleop_turtle")
+    prepare_node()
     publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
     scales = rospy.get_param("~scale_linear", STEP), rospy.get_param("~scale_angular", STEP)
     sys.stdout.write(HELP)

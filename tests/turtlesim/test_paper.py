@@ -20,14 +20,14 @@ def inked(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
 
 def test_width() -> None:
     """A level line of width 3 colours three rows, and half its width beyond each end."""
-    pixels = inked((10.5, 20.5), (30.5, 20.5), 3)
+    pixels = inked((10.0, 20.0), (30.0, 20.0), 3)
     assert {y for _, y in pixels} == {19, 20, 21}
     assert (min(x for x, _ in pixels), max(x for x, _ in pixels)) == (9, 31)
 
 
 def test_width_0_draws_one_pixel() -> None:
     """Width 0 is as thin as can be, and not nothing."""
-    assert len({y for _, y in inked((10.5, 20.5), (30.5, 20.5), 0)}) == 1
+    assert len({y for _, y in inked((10.0, 20.0), (30.0, 20.0), 0)}) == 1
 
 
 @pytest.mark.parametrize("end", [(50.0, 12.0), (12.0, 50.0), (50.0, 50.0), (33.0, 47.0)])
@@ -45,7 +45,7 @@ def test_a_slanted_line_has_no_gaps(end: Point) -> None:
 
 def test_a_point_is_a_square() -> None:
     """A line without length is as wide as the pen."""
-    assert len(inked((20.0, 20.0), (20.0, 20.0), 4)) == 16
+    assert len(inked((20.5, 20.5), (20.5, 20.5), 4)) == 16
 
 
 def test_outside_is_cut_off() -> None:

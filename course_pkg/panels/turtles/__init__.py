@@ -1,0 +1,1 @@
+"""The turtle panel: turtles and their trails, from what the graph says."""
