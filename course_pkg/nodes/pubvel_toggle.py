@@ -1,4 +1,4 @@
-"""The node `pubvel_toggle`: drives turtle1 straight or in a circle; a call of `toggle_forward` changes over."""
+"""The node `pubvel_toggle`: drives turtle1 straight or round; a call of `toggle_forward` changes over."""
 
 from __future__ import annotations
 

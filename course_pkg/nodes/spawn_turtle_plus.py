@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 
 import rospy
-from course_pkg.srv import ChangeSpeed
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from course_pkg.graph import prepare_node
+from course_pkg.srv import ChangeSpeed
 from course_pkg.turtlesim.spawning import NAME, require, spawn_or_exit
 
 SPEED = 10.0  # m/s

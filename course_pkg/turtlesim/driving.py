@@ -48,7 +48,7 @@ def order(velocity: tuple[float, float]) -> Any:  # noqa: ANN401 -- a class that
 
 
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
-    """Publish the driver's velocity `driver.rate` times a second until `over()`; a new rate counts at once."""
+    """Publish the driver's velocity `driver.rate` times a second until `over()`; a new rate counts now."""
     last = -float("inf")
     while not over():
         now, period = time.monotonic(), 1.0 / driver.rate

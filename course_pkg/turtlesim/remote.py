@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 import rospy
-from course_pkg.srv import ChangeRate, ChangeRateResponse, ChangeSpeed, ChangeSpeedResponse
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty, EmptyResponse, SetBool, SetBoolResponse
 
 from course_pkg.graph import prepare_node
+from course_pkg.srv import ChangeRate, ChangeRateResponse, ChangeSpeed, ChangeSpeedResponse
 from course_pkg.turtlesim.driving import SPEED, Toggling, keep_driving
 
 FASTEST = 100.0  # messages a second
