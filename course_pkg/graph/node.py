@@ -67,7 +67,7 @@ class Node:
         self._served[served.name] = served
         return served
 
-    def call(self, name: str, kind: Any, *args: Any, timeout: float = 5.0, **fields: Any) -> Any:  # noqa: ANN401
+    def call(self, name: str, kind: Any, /, *args: Any, timeout: float = 5.0, **fields: Any) -> Any:  # noqa: ANN401
         """Call a service and return its response; the request by position, by field, or whole.
 
         Raises CallTimeout after `timeout` s, and otherwise what rospy.ServiceProxy raises.

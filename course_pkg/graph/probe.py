@@ -70,7 +70,7 @@ def node_probe(uri: str) -> Probe:
     return rpc_probe(uri, "getPid")
 
 
-def rpc_probe(uri: str, method: str, *arguments: float | str) -> Probe:
+def rpc_probe(uri: str, method: str, *arguments: Any) -> Probe:  # noqa: ANN401 -- what XML-RPC can carry
     """Return a probe that asks a node by XML-RPC; http://wiki.ros.org/ROS/Slave_API."""
     body = dumps(("/course", *arguments), method).encode()
     head = f"POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {len(body)}\r\n\r\n"

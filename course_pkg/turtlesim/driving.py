@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from geometry_msgs.msg import Twist
+from std_srvs.srv import EmptyResponse
 
 from course_pkg.errors import NotAdvertised
 from course_pkg.graph import Node
@@ -38,6 +39,11 @@ class Toggling:
     def velocity(self) -> tuple[float, float]:
         """Return how to go at this moment."""
         return (SPEED, 0.0) if self.forward else (0.0, TURN)
+
+    def handle_toggle(self, _request: Any) -> EmptyResponse:  # noqa: ANN401 -- a class that catkin generates
+        """Go straight if it turned, and turn if it went straight: the handler of toggle_forward."""
+        self.forward = not self.forward
+        return EmptyResponse()
 
 
 def order(velocity: tuple[float, float]) -> Any:  # noqa: ANN401 -- a class that catkin generates

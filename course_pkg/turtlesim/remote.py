@@ -7,7 +7,7 @@ from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
-from std_srvs.srv import Empty, EmptyResponse, SetBool, SetBoolResponse
+from std_srvs.srv import Empty, SetBool, SetBoolResponse
 
 from course_pkg.graph import prepare_node
 from course_pkg.srv import ChangeRate, ChangeRateResponse, ChangeSpeed, ChangeSpeedResponse
@@ -36,24 +36,19 @@ class Remote:
     def __init__(self, driver: Steered) -> None:
         self.driver = driver
 
-    def toggle(self, _request: Any) -> EmptyResponse:  # noqa: ANN401 -- a class that catkin generates
-        """Go straight if it turned, and turn if it went straight."""
-        self.driver.forward = not self.driver.forward
-        return EmptyResponse()
-
     def change_rate(self, request: Any) -> ChangeRateResponse:  # noqa: ANN401
         """Speak more or less often."""
         if not 0 < request.rate <= FASTEST:
             raise rospy.ServiceException(f"rate is {request.rate:g}, and has to be above 0 and at most 100")
         before, self.driver.rate = self.driver.rate, request.rate
-        return ChangeRateResponse(before)
+        return ChangeRateResponse(before)  # type: ignore[no-untyped-call]
 
     def change_speed(self, request: Any) -> ChangeSpeedResponse:  # noqa: ANN401
         """Go faster or slower."""
         if not math.isfinite(request.speed):
             raise rospy.ServiceException(f"speed is {request.speed:g}, and has to be a finite number")
         before, self.driver.speed = self.driver.speed, request.speed
-        return ChangeSpeedResponse(before)
+        return ChangeSpeedResponse(before)  # type: ignore[no-untyped-call]
 
     def start_stop(self, request: Any) -> SetBoolResponse:  # noqa: ANN401
         """Move, or stand."""
@@ -66,7 +61,7 @@ class Remote:
 def serve(remote: Remote, *names: str) -> None:
     """Serve those of the driver's services that are named."""
     offers = {
-        "toggle_forward": (Empty, remote.toggle),
+        "toggle_forward": (Empty, remote.driver.handle_toggle),
         "change_rate": (ChangeRate, remote.change_rate),
         "change_speed": (ChangeSpeed, remote.change_speed),
         "start_stop": (SetBool, remote.start_stop),

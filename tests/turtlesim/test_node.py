@@ -212,3 +212,9 @@ def test_a_background_that_is_no_colour(client: Kernel) -> None:
     )
     terminal("rosparam", "set", "/turtlesim/background_r", "69")
     assert seen == [69, 86, 255]
+
+
+def test_a_field_called_name_goes_by_its_name(client: Kernel) -> None:
+    """node.call takes the service's own name by position only, so that a request may have a field `name`."""
+    made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
+    assert made == "Named"
