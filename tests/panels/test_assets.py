@@ -43,7 +43,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 def test_there_are_panels_to_join() -> None:
     """The parametrised test above looks at every panel."""
-    panels = {"choices", "graph", "plot", "prediction", "service", "timeline", "topic"}
+    panels = {"choices", "graph", "plot", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 
 
