@@ -15,10 +15,8 @@ from rospy.impl import tcpros_base
 from rospy.impl.registration import get_service_manager
 from rospy.impl.tcpros_service import ServiceImpl, TCPService, service_connection_handler
 
-OK = b"\x01"
 
-
-class Refused(Exception):
+class Refused(rospy.ServiceException):
     """The request is refused; the client is told the words, which may be none."""
 
 
@@ -52,19 +50,11 @@ class Answering(ServiceImpl):
         self.protocol: Any = AnsweringProtocol(self.resolved_name, kind)  # type: ignore[no-untyped-call]
         get_service_manager().register(self.resolved_name, self)
 
-    def _handle_request(self, transport: Any, request: Any) -> None:  # noqa: ANN401
-        try:
-            response = self.handler(request)
-        except Refused as refusal:
-            self._write_service_error(transport, str(refusal))  # type: ignore[no-untyped-call]
-            return
-        except Exception as error:  # noqa: BLE001 -- whatever went wrong, somebody waits for an answer
-            rospy.logerr(f"Exception thrown while processing service call: {error}")
-            self._write_service_error(transport, str(error))  # type: ignore[no-untyped-call]
-            return
-        self.seq += 1
-        transport.write_buff.write(OK)
-        transport.send_message(response, self.seq)
+    def _write_service_error(self, transport: Any, err_msg: str) -> None:  # noqa: ANN401
+        words = err_msg
+        for prefix in ("service cannot process request: ", "error processing request: "):
+            words = words.removeprefix(prefix)
+        super()._write_service_error(transport, words)  # type: ignore[no-untyped-call]
 
 
 def _connected(sock: Any, address: Any, header: dict[str, str]) -> str | None:  # noqa: ANN401

@@ -90,7 +90,7 @@ class Simulator:
                 turtle = self.in_tick(lambda: self._world.spawn(*place, request.name))
             except NameTaken as error:
                 rospy.logerr(str(error))
-                raise Refused from error
+                raise Refused("") from error
             self._announce(turtle)
             self._enter(Actor(turtle, self._world.paper, self.in_tick))
         return SpawnResponse(turtle.name)
@@ -101,7 +101,7 @@ class Simulator:
                 actor = self.in_tick(lambda: self._take_out(request.name))
             except UnknownTurtle as error:
                 rospy.logerr(str(error))
-                raise Refused from error
+                raise Refused("") from error
             actor.close()
         return KillResponse()
 

@@ -218,3 +218,15 @@ def test_a_field_called_name_goes_by_its_name(client: Kernel) -> None:
     """node.call takes the service's own name by position only, so that a request may have a field `name`."""
     made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
     assert made == "Named"
+
+
+def test_its_calls_are_recorded(client: Kernel) -> None:
+    """The simulator is a node of the course: a recording has its handlers, and the client's wait for them."""
+    kinds = client.run(
+        "with node.record() as recording:\n"
+        "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"
+        "events = [each for each in recording.events if each.name == '/turtle1/teleport_absolute']\n"
+        "result = sorted({(str(each.kind), each.node) for each in events})"
+    )
+    assert ["handler", "/turtlesim"] in kinds
+    assert ["wait", "/client"] in kinds
