@@ -211,7 +211,7 @@ class TopicView {
     const { points = [], count = 0, left_out: left = 0 } = JSON.parse(this.model.get("curve") || "{}");
     const last = points.at(-1)?.[0] ?? SPAN;
     say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or not there` : "");
-    this.chart.show({ kind: "line", log: false, x: "time since the panel listens (s)", y: this.path.value, title: "", empty: "Nothing heard yet.",
+    this.chart.show({ kind: "line", log: false, x: "time since the panel listens (s)", y: this.path.value, title: "", empty: "Nothing to draw yet.",
       series: [{ label: "", points, count }], window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
   }
 
