@@ -21,10 +21,9 @@ from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.msg import args_kwds_to_message
 
 from course_pkg.errors import CallCancelled, CallTimeout, GraphError, MasterSilent, MasterUnreachable
-from course_pkg.graph.events import LOOKUP
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.rpc import MasterClient
-from course_pkg.graph.service_taps import RecordedCall, RecordedPart, service_transport
+from course_pkg.graph.service_taps import RecordedCall, RecordedLookup, service_transport
 from course_pkg.graph.types import service_class
 from course_pkg.graph.watchdog import Watchdog
 
@@ -156,7 +155,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _looked_up(self, call: _Call) -> str:
         master = self._current_master()
         try:
-            with RecordedPart(LOOKUP):
+            with RecordedLookup():
                 uri = master.lookup_service(self.resolved_name, timeout=call.rest())
         except MasterUnreachable as error:
             raise rospy.ServiceException("unable to contact master") from error

@@ -19,7 +19,7 @@ from rospy.impl.tcpros_service import ServiceImpl, ServiceProxy
 
 from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, REQUEST, RESPONSE, WAIT
 from course_pkg.graph.taps import Method, Tap, Transport, connection_name
-from course_pkg.graph.trace import Mark, recorder
+from course_pkg.graph.trace import END, CallMark, Mark, recorder
 
 BLIND = "service calls: this rospy makes and answers them otherwise"
 NO_ANSWER = "ended without an answer"
@@ -68,23 +68,18 @@ class RecordedCall:
         recorder().end(self._mark)
 
 
-class RecordedPart:
-    """The block in which this thread does one part of the call that it makes."""
+class RecordedLookup:
+    """The block in which this thread asks the master for the address of the service that it calls."""
 
-    __slots__ = ("_kind", "_part")
-
-    def __init__(self, kind: str) -> None:
-        self._kind = kind
+    __slots__ = ("_part",)
 
     def __enter__(self) -> None:
-        call = recorder().here.call
-        self._part = None if call is None else call.begin(self._kind)
+        self._part = _part(recorder().here.call, LOOKUP)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._part is not None:
-            self._part[2] = time.monotonic()
+        self._part[END] = time.monotonic()
 
 
 class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
@@ -105,8 +100,11 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
         """Connect and exchange headers, at the client."""
-        with RecordedPart(CONNECT):
+        part = _part(recorder().here.call, CONNECT)
+        try:
             super().connect(dest_addr, dest_port, endpoint_id, timeout)
+        finally:
+            part[END] = time.monotonic()
         self.connection = connection_name(self.local_endpoint, dest_port)
 
     def send_message(self, msg: Any, seq: int) -> None:  # noqa: ANN401
@@ -118,20 +116,26 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
         self.exchanges += 1
         call.peer = self.callerid_pub
         call.wire = (self.connection, self.exchanges, self.callerid_pub)
-        with RecordedPart(REQUEST):
+        part = call.begin(REQUEST)
+        try:
             super().send_message(msg, seq)
+        finally:
+            part[END] = time.monotonic()
 
     def receive_once(self) -> Any:  # noqa: ANN401
         """Wait for a request at the server, or for a response at the client."""
         call = None if self.serving else recorder().here.call
         if call is None:
             return super().receive_once()
+        part = call.begin(WAIT)
         try:
-            with RecordedPart(WAIT):
-                responses = super().receive_once()
-        except rospy.ServiceException as error:  # the server answered, in words
-            call.settle(ERROR, str(error))
+            responses = super().receive_once()
+        except BaseException as error:
+            part[END] = time.monotonic()
+            if isinstance(error, rospy.ServiceException):  # the server answered, in words
+                call.settle(ERROR, str(error))
             raise
+        part[END] = time.monotonic()
         call.settle(RESPONSE)
         return responses
 
@@ -152,7 +156,7 @@ def _calling(bare: Method) -> Method:
 
 def _looking_up(bare: Method) -> Method:
     def _get_service_uri(self: ServiceProxy, request: Any) -> Any:  # noqa: ANN401
-        with RecordedPart(LOOKUP):
+        with RecordedLookup():
             return bare(self, request)
 
     return _get_service_uri
@@ -182,6 +186,11 @@ def _handling(bare: Method) -> Method:
 def _fits(transport: Any) -> bool:  # noqa: ANN401
     """Say whether rospy's own transport is what the recorded one stands on."""
     return isinstance(transport, type) and issubclass(transport, Transport)
+
+
+def _part(call: CallMark | None, kind: str) -> list[Any]:
+    """Return the mark for a part that begins; of no call, it is nobody's."""
+    return [kind, 0.0, None] if call is None else call.begin(kind)
 
 
 def _refusal(data: bytes) -> str:

@@ -23,6 +23,7 @@ SIZE = 20_000  # marks; some 6 MB when full
 LEFT = 50  # records of nodes that have ended
 LONGEST = 300  # characters of what is kept of an error's words
 
+END = 2  # the place of the end in a part of a call
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that go over the connection
 
 Wire = tuple[str, int, str]  # a connection, the number of the message on it, and who is at its other end
@@ -67,7 +68,7 @@ class Mark:
 
 
 class CallMark:
-    """A call with all its parts, each [kind, start, end or None]; one mark, since calls have to stay quick.
+    """A call with all its parts, each [kind, start, end or None]: one mark, since calls have to stay quick.
 
     `settled` is how it ended, RESPONSE or ERROR, and `wire` is where its request went.
     """
@@ -100,7 +101,7 @@ class CallMark:
         self.start = time.monotonic()
 
     def begin(self, kind: str) -> list[Any]:
-        """Take down that a part begins, and return it; set its third place when it is over."""
+        """Take down that a part begins, and return it; its END is to be set when it is over."""
         part = [kind, time.monotonic(), None]
         self.parts.append(part)
         return part
@@ -139,10 +140,6 @@ class _Here(threading.local):
     call: CallMark | None = None
     batch: Any = None
 
-    def __init__(self) -> None:
-        thread = threading.current_thread()  # which is not kept itself: a server has one for each call
-        self.thread: Thread = (thread.name, thread.ident or 0)
-
 
 class Recorder:
     """The marks of this process: the last 20,000 that are over, and all that last.
@@ -162,13 +159,13 @@ class Recorder:
 
     def begin(self, kind: str, name: str, peer: str, wires: list[Wire]) -> Mark:
         """Take down that something begins."""
-        mark = Mark(kind, name, peer, wires, self.here.thread)
+        mark = Mark(kind, name, peer, wires, _thread())
         self._lasting.add(mark)
         return mark
 
     def begin_call(self, name: str) -> CallMark:
         """Take down that this thread begins a call."""
-        call = CallMark(name, next(self.numbers), self.here.thread)
+        call = CallMark(name, next(self.numbers), _thread())
         self._lasting.add(call)
         self.here.call = call
         return call
@@ -209,6 +206,11 @@ class Recorder:
     def _complete_from(self) -> float:
         full = len(self._over) == self._over.maxlen
         return (self._over[0].end or 0.0) if full else 0.0
+
+
+def _thread() -> Thread:
+    thread = threading.current_thread()  # which is not kept itself: a server has one for each call
+    return thread.name, thread.ident or 0
 
 
 @cache

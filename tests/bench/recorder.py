@@ -1,159 +1,130 @@
 """What the flight recorder costs: `./course run python tests/bench/recorder.py`.
 
-A call with a connection of its own and one over a kept connection, with neither end recorded and with both;
-a published message; and an event by itself. Client and servers are pinned to a core each, the two ways
-alternate.
+A call with a connection of its own, one over a kept connection, and a published message, where neither end is
+recorded and where both are; and an event by itself. Each way has processes of its own, which take turns;
+clients and servers are pinned to a core each. Printed is each one's best run, by the lower quartile of its
+calls: what else the machine does makes times longer, and never shorter.
 """
 
 from __future__ import annotations
 
 import argparse
-import inspect
+import json
 import os
 import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import partial
 
 import rospy
-from rospy.impl import tcpros_pubsub, tcpros_service
-from rospy.impl.tcpros_base import TCPROSTransport
-from rospy.topics import _PublisherImpl
-from std_msgs.msg import Float64
-from std_srvs.srv import Trigger
 
-from course_pkg.graph import PrivateMaster, prepare_node
+from course_pkg.graph import PrivateMaster
 from course_pkg.graph.trace import Recorder
 
 BAR, EVENT_BAR = 1.03, 5.0  # of a call with a connection of its own; microseconds
-SERVER = """
-import os, sys, rospy
+NODE = """
+import json, os, statistics, sys, time
+import rospy
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 from course_pkg.graph import guard_against_idle_connections, prepare_node
-os.sched_setaffinity(0, {int(sys.argv[2])})
-rospy.init_node("server_" + sys.argv[1])
-prepare_node() if sys.argv[1] == "recorded" else guard_against_idle_connections()
-rospy.Service(sys.argv[1], Trigger, lambda request: (True, ""))
-rospy.spin()
+way, core, calls = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+rospy.init_node(f"{way}_{'client' if calls else 'server'}", disable_signals=True)
+prepare_node() if way == "recorded" else guard_against_idle_connections()
+os.sched_setaffinity(0, {core})
+def quick(action, repeats):
+    times = []
+    for _ in range(repeats + 50):
+        started = time.perf_counter()
+        action()
+        times.append(time.perf_counter() - started)
+    return statistics.quantiles(times[50:], n=4)[0]
 """
-TAPPED = (
-    (tcpros_service, "TCPROSTransport", TCPROSTransport),
-    (tcpros_service.ServiceProxy, "call", None),
-    (tcpros_service.ServiceProxy, "_get_service_uri", None),
-    (tcpros_pubsub, "TCPROSTransport", TCPROSTransport),
-    (_PublisherImpl, "publish", None),
+SERVER = (
+    NODE
+    + """
+rospy.Service(way, Trigger, lambda request: (True, ""))
+time.sleep(1000)
+"""
 )
+CLIENT = (
+    NODE
+    + """
+fresh, kept = rospy.ServiceProxy(way, Trigger), rospy.ServiceProxy(way, Trigger, persistent=True)
+alone = rospy.Publisher("alone", Float64, queue_size=100)
+heard = rospy.Publisher("heard", Float64, queue_size=100)
+rospy.Subscriber("heard", Float64, lambda message: None)
+while not heard.get_num_connections():
+    time.sleep(0.01)
+print(json.dumps({
+    "call, a connection each": quick(fresh, calls),
+    "call, a connection kept": quick(kept, calls),
+    "message that nobody hears": quick(lambda: alone.publish(1.0), calls),
+    "message to one": quick(lambda: heard.publish(1.0), calls),
+}))
+"""
+)
+Figures = dict[str, float]
 
 
 def main() -> int:
     """Print all figures; fail when one misses its bar."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--calls", type=int, default=2000)
-    calls = parser.parse_args().calls
+    parser.add_argument("--calls", type=int, default=1000)
+    parser.add_argument("--runs", type=int, default=7)
+    options = parser.parse_args()
     cores = sorted(os.sched_getaffinity(0))
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
-        rospy.init_node("bench_recorder", disable_signals=True)
-        prepare_node()
-        servers = [started(name, cores[-1]) for name in ("bare", "recorded")]
-        os.sched_setaffinity(0, {cores[0]})
-        ratios = {way: compared(way, calls) for way in ("one each", "persistent")}
-        published()
-        for server in servers:
-            server.terminate()
+        servers = {way: started(way, cores[-1]) for way in ("bare", "recorded")}
+        runs: list[tuple[Figures, Figures]] = []
+        for _ in range(options.runs):
+            bare, recorded = (figures(way, cores[0], options.calls) for way in servers)
+            runs.append((bare, recorded))
+        for server in servers.values():
+            server.kill()
             server.wait()
-    cost = event()
-    print(f"event        {cost:.2f} µs (bar {EVENT_BAR:g})")
-    return int(ratios["one each"] > BAR or cost > EVENT_BAR)
+    ratio, cost = shown(runs), event()
+    print(f"an event by itself: {cost:.2f} µs, bar {EVENT_BAR:g}")
+    return int(ratio > BAR or cost > EVENT_BAR)
 
 
-def started(name: str, core: int) -> subprocess.Popen[bytes]:
+def started(way: str, core: int) -> subprocess.Popen[bytes]:
     """Start a server whose calls are recorded, or are not."""
-    server = subprocess.Popen([sys.executable, "-c", SERVER, name, str(core)])
-    rospy.wait_for_service(name, timeout=20)
+    server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
+    rospy.wait_for_service(way, timeout=20)
     return server
 
 
-@contextmanager
-def unrecorded() -> Iterator[None]:
-    """Have this process's rospy as it was, for the block."""
-    tapped = [(owner, name, getattr(owner, name)) for owner, name, _ in TAPPED]
-    for owner, name, bare in TAPPED:
-        setattr(owner, name, bare or inspect.unwrap(getattr(owner, name)))
-    try:
-        yield
-    finally:
-        for owner, name, method in tapped:
-            setattr(owner, name, method)
+def figures(way: str, core: int, calls: int) -> Figures:
+    """Return what one process measures, in s."""
+    command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    found: Figures = json.loads(done.stdout.splitlines()[-1])
+    return found
 
 
-def compared(way: str, calls: int) -> float:
-    """Print the medians of both, called in turns in blocks of 20; return the median of the blocks' ratios."""
-    persistent = way == "persistent"
-    with unrecorded():
-        bare = rospy.ServiceProxy("bare", Trigger, persistent=persistent)
-        timed(bare, 50)
-    recorded = rospy.ServiceProxy("recorded", Trigger, persistent=persistent)
-    timed(recorded, 50)
-    blocks: list[tuple[float, float]] = []
-    for number in range(calls // 20):
-        after = timed(recorded, 20) if number % 2 else []  # each goes first in every other block
-        with unrecorded():
-            before = timed(bare, 20)
-        blocks.append((quick(before), quick(after or timed(recorded, 20))))
-    ratio = statistics.median(second / first for first, second in blocks)
-    medians = [1000 * statistics.median(each) for each in zip(*blocks, strict=True)]
-    added = 1e6 * statistics.median(second - first for first, second in blocks)
-    print(
-        f"{way:12} bare {medians[0]:.3f} ms, recorded {medians[1]:.3f} ms, both ends add {added:.0f} µs, "
-        f"ratio {ratio:.3f}" + ("" if persistent else f" (bar {BAR})")
-    )
-    return ratio
-
-
-def published() -> None:
-    """Print what a message costs that goes to one subscriber, and one that nobody hears."""
-    for label, listeners in (("unheard", 0), ("to one", 1)):
-        publisher = rospy.Publisher(f"numbers_{listeners}", Float64, queue_size=100)
-        for _ in range(listeners):
-            rospy.Subscriber(f"numbers_{listeners}", Float64, lambda _: None)
-        while publisher.get_num_connections() < listeners:
-            time.sleep(0.01)
-        blocks = []
-        for _ in range(50):
-            with unrecorded():
-                first = quick(timed(partial(publisher.publish, 1.0), 40))
-            blocks.append((first, quick(timed(partial(publisher.publish, 1.0), 40))))
-        bare, recorded = (1e6 * statistics.median(each) for each in zip(*blocks, strict=True))
-        print(f"publish      {label}: bare {bare:.1f} µs, recorded {recorded:.1f} µs")
+def shown(runs: list[tuple[Figures, Figures]]) -> float:
+    """Print what each costs; return the ratio for a call with a connection of its own."""
+    ratios = []
+    for name in runs[0][0]:
+        bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
+        ratios.append(recorded / bare)
+        print(f"{name}: bare {bare:.1f} µs, recorded {recorded:.1f} µs, ratio {ratios[-1]:.3f}")
+    print(f"bar for the first: {BAR}")
+    return ratios[0]
 
 
 def event() -> float:
     """Return how long it takes to take down the beginning and the end of something (µs)."""
     recorder = Recorder()
-
-    def one() -> None:
-        recorder.end(recorder.begin("handler", "/service", "/client", []))
-
-    return 1e6 * statistics.median(sum(timed(one, 1000)) / 1000 for _ in range(50))
-
-
-def quick(times: list[float]) -> float:
-    """Return the lower quartile: what else the machine does makes times longer, and never shorter."""
-    return statistics.quantiles(times, n=4)[0]
-
-
-def timed(action: Callable[[], object], repeats: int) -> list[float]:
-    """Return how long each of the repeats took, in s."""
-    times = []
-    for _ in range(repeats):
-        started = time.perf_counter()
-        action()
-        times.append(time.perf_counter() - started)
-    return times
+    rounds = []
+    for _ in range(50):
+        began = time.perf_counter()
+        for _ in range(1000):
+            recorder.end(recorder.begin("handler", "/service", "/client", []))
+        rounds.append((time.perf_counter() - began) / 1000)
+    return 1e6 * statistics.median(rounds)
 
 
 if __name__ == "__main__":
