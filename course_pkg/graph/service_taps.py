@@ -18,8 +18,8 @@ from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_service import ServiceImpl, ServiceProxy
 
 from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, REQUEST, RESPONSE, WAIT
-from course_pkg.graph.taps import Method, Tap, Transport, connection_name
-from course_pkg.graph.trace import END, CallMark, Mark, recorder
+from course_pkg.graph.taps import Method, Tap, Transport
+from course_pkg.graph.trace import END, CallMark, Connection, Mark, recorder
 
 BLIND = "service calls: this rospy makes and answers them otherwise"
 NO_ANSWER = "ended without an answer"
@@ -85,18 +85,17 @@ class RecordedLookup:
 class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
     """One end of a service's connection, which takes down what passes."""
 
-    def __init__(self, protocol: Any, name: str, header: Any = None) -> None:  # noqa: ANN401
-        super().__init__(protocol, name, header)
-        self.serving = header is not None  # only a server has read one before it makes the transport
-        self.connection = ""
-        self.exchanges = 0
-        self.handled: Mark | None = None  # at the server, the request that is being worked on
+    serving = False
+    connection: Connection | None = None
+    exchanges = 0
+    handled: Mark | None = None  # at the server, the request that is being worked on
 
-    def set_socket(self, sock: Any, endpoint_id: str) -> None:  # noqa: ANN401
-        """Take over a connection, at the server."""
+    def set_socket(self, sock: Any, endpoint_id: str) -> None:  # noqa: ANN401 -- rospy has no types
+        """Take over a connection that was accepted: only servers do."""
         super().set_socket(sock, endpoint_id)
+        self.serving = True
         with suppress(OSError):  # it may have gone already
-            self.connection = connection_name(sock.getpeername(), self.local_endpoint[1])
+            self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
         """Connect and exchange headers, at the client."""
@@ -105,7 +104,7 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
             super().connect(dest_addr, dest_port, endpoint_id, timeout)
         finally:
             part[END] = time.monotonic()
-        self.connection = connection_name(self.local_endpoint, dest_port)
+        self.connection = (self.local_endpoint, dest_port)
 
     def send_message(self, msg: Any, seq: int) -> None:  # noqa: ANN401
         """Send a request at the client, or a response at the server."""
@@ -115,7 +114,8 @@ class RecordedTransport(Transport):  # type: ignore[misc]  # rospy has no types
             return
         self.exchanges += 1
         call.peer = self.callerid_pub
-        call.wire = (self.connection, self.exchanges, self.callerid_pub)
+        if self.connection is not None:
+            call.wire = (self.connection, self.exchanges, self.callerid_pub)
         part = call.begin(REQUEST)
         try:
             super().send_message(msg, seq)

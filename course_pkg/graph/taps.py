@@ -50,8 +50,3 @@ class Tap:
             tapped = wraps(bare)(self._made(bare))
             setattr(tapped, TAPPED, True)
             setattr(self._owner, self._name, tapped)
-
-
-def connection_name(client: Sequence[Any], server_port: int) -> str:
-    """Name a TCP connection as both its ends can, by the client's numeric address and the server's port."""
-    return f"{client[0]}:{client[1]}>{server_port}"

@@ -18,8 +18,8 @@ from rospy.impl.tcpros_pubsub import TCPROSHandler, TCPROSSub
 from rospy.topics import _PublisherImpl, _SubscriberImpl
 
 from course_pkg.graph.events import CALLBACK, PUBLISH
-from course_pkg.graph.taps import Method, Tap, Transport, connection_name
-from course_pkg.graph.trace import Mark, Wire, recorder
+from course_pkg.graph.taps import Method, Tap, Transport
+from course_pkg.graph.trace import Connection, Mark, Wire, recorder
 
 BLIND = "messages: this rospy publishes and receives them otherwise"
 LEFT_OUT = "/rosout"  # what nodes log is not what a recording is made for, and each call may log
@@ -91,29 +91,27 @@ class StampingBuffer(BytesIO):
 class RecordedTopicTransport(Transport):  # type: ignore[misc]  # rospy has no types
     """One end of a topic's connection, which counts what passes."""
 
-    def __init__(self, protocol: Any, name: str, header: Any = None) -> None:  # noqa: ANN401
-        super().__init__(protocol, name, header)
-        self.connection = ""
-        self.written = 0
+    connection: Connection | None = None
+    written = 0
 
     def set_socket(self, sock: Any, endpoint_id: str) -> None:  # noqa: ANN401
         """Take over a connection, at the publisher."""
         super().set_socket(sock, endpoint_id)
         with suppress(OSError):  # it may have gone already
-            self.connection = connection_name(sock.getpeername(), self.local_endpoint[1])
+            self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
         """Connect, or connect again, at the subscriber."""
-        self.connection = ""
+        self.connection = None
         setattr(self.protocol, ARRIVED, 0)
         super().connect(dest_addr, dest_port, endpoint_id, timeout)
-        self.connection = connection_name(self.local_endpoint, dest_port)
+        self.connection = (self.local_endpoint, dest_port)
 
     def write_data(self, data: bytes) -> Any:  # noqa: ANN401
         """Send a message."""
         done = super().write_data(data)
         self.written += 1
-        if isinstance(data, Stamped) and self.connection:
+        if isinstance(data, Stamped) and self.connection is not None:
             data.mark.wires.append((self.connection, self.written, self.endpoint_id))
         return done
 
@@ -126,7 +124,7 @@ class _Batch:
     def __init__(self, msgs: list[Any], connection: RecordedTopicTransport) -> None:
         protocol = connection.protocol  # gone when the connection has been closed meanwhile
         self._peer = str(connection.callerid_pub)
-        self._connection = connection.connection if protocol is not None else ""
+        self._connection = connection.connection if protocol is not None else None
         self._first = getattr(protocol, ARRIVED, 0) - len(msgs) + 1 if protocol is not None else 0
         self._msgs = msgs
         self._place = 0
@@ -134,7 +132,7 @@ class _Batch:
     def wires(self, msg: Any) -> list[Wire]:  # noqa: ANN401
         """Return how the message is known on both ends; callbacks get them in the order of the batch."""
         for place in range(self._place, len(self._msgs)):
-            if self._msgs[place] is msg and self._connection:
+            if self._msgs[place] is msg and self._connection is not None:
                 self._place = place
                 return [(self._connection, self._first + place, self._peer)]
         return []  # a latched message of another topic, to which this callback subscribes

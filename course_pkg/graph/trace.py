@@ -12,6 +12,7 @@ import os
 import threading
 import time
 from collections import deque
+from collections.abc import Sequence
 from functools import cache
 from itertools import count
 from typing import Any
@@ -26,7 +27,10 @@ LONGEST = 300  # characters of what is kept of an error's words
 END = 2  # the place of the end in a part of a call
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that go over the connection
 
-Wire = tuple[str, int, str]  # a connection, the number of the message on it, and who is at its other end
+Connection = tuple[
+    Sequence[Any], int
+]  # as both ends know it: the client's numeric address, the server's port
+Wire = tuple[Connection, int, str]  # the number of the message on the connection, and who is at its other end
 Thread = tuple[str, int]  # its name, and its number while it lives
 
 
@@ -59,7 +63,7 @@ class Mark:
                 "end": self.end,
                 "peer": self.peer,
                 "call": 0,
-                "wires": list(self.wires),
+                "wires": [_told_wire(wire) for wire in list(self.wires)],
                 "asked": self.asked,
                 "note": self.note,
                 "thread": list(self.thread),
@@ -127,7 +131,7 @@ class CallMark:
             "end": end,
             "peer": MASTER if kind == LOOKUP else "" if unanswered else self.peer,
             "call": self.number,
-            "wires": [self.wire] if self.wire is not None and kind in EXCHANGED else [],
+            "wires": [_told_wire(self.wire)] if self.wire is not None and kind in EXCHANGED else [],
             "asked": 0,
             "note": self.note if kind == self.settled else "",
             "thread": list(self.thread),
@@ -206,6 +210,11 @@ class Recorder:
     def _complete_from(self) -> float:
         full = len(self._over) == self._over.maxlen
         return (self._over[0].end or 0.0) if full else 0.0
+
+
+def _told_wire(wire: Wire) -> list[Any]:
+    (client, port), number, peer = wire
+    return [f"{client[0]}:{client[1]}>{port}", number, peer]
 
 
 def _thread() -> Thread:
