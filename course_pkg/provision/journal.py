@@ -13,6 +13,8 @@ from course_pkg.errors import SetupError
 KEPT_LOGS = 10
 TAIL_LINES = 8
 WATCH_INTERVAL = 0.5  # s
+LEAST = 1 << 20  # bytes, below which a disk counts as full
+FULL = ("No space left on device", "not enough free space")
 
 
 class Journal:
@@ -59,11 +61,16 @@ class Journal:
 
     def _failure(self, command: Sequence[str | Path], status: int, start: int) -> SetupError:
         lines = self._tail(start, 400)
-        if any("No space left on device" in line or "not enough free space" in line for line in lines):
+        if self._is_full() or any(words in line for line in lines for words in FULL):
             return SetupError(f"The disk is full. Make room, and start again. ({self.path})")
         shown = "\n".join(f"  {line}" for line in lines[-TAIL_LINES:])
         name = " ".join(str(word) for word in command if not str(word).startswith("-"))[:80]
         return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole of it: {self.path}")
+
+    def _is_full(self) -> bool:
+        """Say whether the disk of the cache is: not every tool that finds no room says so."""
+        disk = os.statvfs(self.path)
+        return disk.f_bavail * disk.f_frsize < LEAST
 
     def _tail(self, start: int, count: int) -> list[str]:
         with self.path.open("rb") as log:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -29,6 +30,11 @@ LISTS = Path("/var/lib/apt/lists")
 STATUS = Path("/var/lib/dpkg/status")
 FRESH = 24 * 3600  # s that apt's lists are taken for up to date
 APT = "/usr/bin/apt-get"
+AS_ASKED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")  # no questions, and words known here
+LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
+PATIENCE = 600.0  # s; only apt's installing can itself wait for a lock, its update and dpkg give up at once
+AGAIN = 2.0  # s between two attempts
+WAITING = "Another program is installing packages; waiting for it (10 minutes at most)."
 
 
 def missing_packages(wanted: Iterable[str]) -> list[str]:
@@ -53,20 +59,35 @@ def database_state() -> str:
 
 def install_packages(names: Sequence[str], journal: Journal, say: Callable[[str], None]) -> None:
     """Install `names`, waiting for another package manager that is at work."""
-    root = become_root(names)
-    watch = _lock_watcher(say)
-    apt = [*root, "env", "DEBIAN_FRONTEND=noninteractive", APT]
-    journal.run([*root, "dpkg", "--configure", "-a"])
+    root = [*become_root(names), *AS_ASKED]
+
+    def run(*command: str) -> None:
+        _patiently(journal, [*root, *command], say)
+
+    run("dpkg", "--configure", "-a")
     updated = _lists_are_fresh()
     if not updated:
-        journal.run([*apt, "update", "-q"], watch=watch)
+        run(APT, "update", "-q")
     try:
-        journal.run([*apt, "install", *APT_OPTIONS, *names], watch=watch)
+        run(APT, "install", *APT_OPTIONS, *names)
     except SetupError:
         if not updated:
             raise
-        journal.run([*apt, "update", "-q"], watch=watch)  # lists of this morning name files that are gone
-        journal.run([*apt, "install", *APT_OPTIONS, *names], watch=watch)
+        run(APT, "update", "-q")  # lists of this morning name files that are gone
+        run(APT, "install", *APT_OPTIONS, *names)
+
+
+def _patiently(journal: Journal, command: Sequence[str], say: Callable[[str], None]) -> None:
+    """Run `command`, again and again while another program holds a lock that it needs."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return journal.run(command, watch=_lock_watcher(say))
+        except SetupError as error:
+            if not LOCKED.search(str(error)) or time.monotonic() > deadline:
+                raise
+        say(WAITING)
+        time.sleep(AGAIN)
 
 
 def become_root(names: Sequence[str]) -> list[str]:
@@ -98,6 +119,6 @@ def _lists_are_fresh() -> bool:
 def _lock_watcher(say: Callable[[str], None]) -> Callable[[str], None]:
     def watch(line: str) -> None:
         if line.startswith("Waiting for cache lock"):
-            say("Another program is installing packages; waiting for it (10 minutes at most).")
+            say(WAITING)
 
     return watch

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -41,6 +42,44 @@ def test_a_full_disk_is_called_that(journal: Journal) -> None:
     """Whichever tool runs out of room, the message is the same."""
     with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
         journal.run(["sh", "-c", "echo 'write: No space left on device'; exit 1"])
+
+
+def test_a_full_disk_is_called_that_though_nobody_says_so(
+    journal: Journal, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where a tool fails without a word and no room is left, that is the reason given."""
+    monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
+    with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
+        journal.run(["false"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "dpkg: error: dpkg frontend lock was locked by another process with pid 7",
+        "E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)",
+        "E: Unable to acquire the dpkg frontend lock (/var/lib/dpkg/lock-frontend)",
+    ],
+)
+def test_another_package_manager_is_waited_for(
+    words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whichever tool finds the lock taken, it is run again until it is free, and the user hears why once."""
+    monkeypatch.setattr(packages, "AGAIN", 0.0)
+    said: list[str] = []
+    held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
+    packages._patiently(journal, ["sh", "-c", f"echo x >> {tmp_path}/tries; {held}"], said.append)
+    assert set(said) == {packages.WAITING}
+    assert (tmp_path / "tries").read_text().count("x") == 3
+
+
+def test_no_lock_is_waited_for_without_end(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
+    """When the patience is over, and for all else that goes wrong at once, the message is the tool's own."""
+    monkeypatch.setattr(packages, "PATIENCE", 0.0)
+    monkeypatch.setattr(packages, "AGAIN", 0.0)
+    for words in ("Could not get lock /x", "Unable to locate package y"):
+        with pytest.raises(SetupError, match=words):
+            packages._patiently(journal, ["sh", "-c", f"echo '{words}'; exit 100"], lambda _: None)
 
 
 def test_what_is_missing_is_named() -> None:
