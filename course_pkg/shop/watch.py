@@ -73,4 +73,4 @@ class Watch:
                 if customer or rest <= 0:
                     return customer
                 self.changed.wait(min(rest, LOOK))
-        raise CameraSilent
+        raise CameraSilent(f"The camera has said nothing for {silence:g} s.")

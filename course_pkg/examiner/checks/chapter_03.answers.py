@@ -160,6 +160,16 @@ def poll(service, seconds, rate):
     time.sleep(seconds)
     return None
 
+# %% 03.1 wrong: a pause of its own | hint: So seldom a question
+def poll(service, seconds, rate):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        answer = node.call(service, DetectCustomer, after=0, patience=0)
+        if answer.detected:
+            return answer.number
+        time.sleep(0.5)
+    return None
+
 # %% 03.2 right: a set of those who were greeted
 def start_greeting(customers, greetings):
     publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
@@ -293,6 +303,11 @@ def start_greeting(customers, greetings):
 def start_greeting(customers, greetings):
     publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
     node.subscribe("/customers", UInt32, publisher.publish)
+
+# %% 03.2 wrong: the two topics mixed up | hint: It publishes on `customers`
+def start_greeting(customers, greetings):
+    publisher = rospy.Publisher(customers, UInt32, queue_size=10)
+    node.subscribe(greetings, UInt32, publisher.publish)
 
 # %% 03.2 wrong: counts | hint: Publish the number that the message brought
 def start_greeting(customers, greetings):
@@ -484,6 +499,14 @@ def handle_detect(watch, request):
 def handle_detect(watch, request):
     with watch.changed:
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience / 1000)
+    if customer is None:
+        return False, 0, rospy.Time()
+    return True, customer.number, customer.arrived
+
+# %% 03.3 wrong: asks itself, and hands over the answer | hint: wait_for takes a function
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(watch.next(request.after), timeout=request.patience)
     if customer is None:
         return False, 0, rospy.Time()
     return True, customer.number, customer.arrived

@@ -84,6 +84,8 @@ def what_polling_costs(exam: Exam) -> None:
                 rate: "That is the rate. The pause between two questions is 1 / rate.",
                 pause / 2: "That is the mean. Who comes just after a question waits for the whole pause.",
                 1000 * pause: "That is in milliseconds. Return seconds.",
+                stay: "That is how long a customer stays. Think of one who stays long enough to be found.",
+                says(""): "It depends on the rate, and on nothing else: the pause between two questions.",
             },
         )
         exam.expect(

@@ -8,6 +8,11 @@ from course_pkg.examiner.plain import Plain
 
 NUMBER = "std_msgs/UInt32"
 GREETING = 0.2  # s that say_good_day() takes
+MIXED_UP = "It publishes on `customers`. Listen to `customers`, and publish on `greetings`."
+TOO_LATE = (
+    "Make the publisher in start_greeting(), before anybody comes: one that is made for the first greeting "
+    "is not connected yet, and the greeting is lost."
+)
 LOST = (
     "They came while another one was being greeted, and were dropped. A subscriber's queue_size says how "
     "many may wait in line; leave it out, and all of them may."
@@ -28,12 +33,8 @@ def greet_everyone(exam: Exam) -> None:
     first, later = numbers[:5], numbers[5:]
     hearing = exam.hear(greetings, NUMBER)
     exam.run("start_greeting", customers, greetings, within=5.0, hints=_NO_RETURN).value  # noqa: B018
-    hearing.published(
-        hints={
-            says("nobody"): "Make the publisher in start_greeting(), before anybody comes: one that is made "
-            "for the first greeting is not connected yet, and the greeting is lost."
-        }
-    )
+    mixed_up = any(topic.name == customers and topic.publishers for topic in exam.look().topics)
+    hearing.published(hints={says("nobody"): MIXED_UP if mixed_up else TOO_LATE})
     sent = _told(exam, customers, [*first[:2], first[0], *first[2:], first[2]])
     _greeted(exam, hearing, first)
     exam.hold(
@@ -103,7 +104,7 @@ def _greeted(exam: Exam, hearing: Hearing, numbers: list[int]) -> None:
 
 _NO_RETURN = {
     says(
-        "^TimesUp"
+        "^(TimesUp|NothingHeard)"
     ): "start_greeting() has to return, so that the cell goes on: subscribe with a callback, which "
     "rospy calls on a thread of its own for each message.",
 }

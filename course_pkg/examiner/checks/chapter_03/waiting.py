@@ -30,6 +30,10 @@ from std_msgs.msg import UInt32MultiArray
 class Counted(Watch):
     looks = 0
 
+    @property
+    def told(self):
+        return self.silent_for < 60
+
     def next(self, after=0):
         self.looks += 1
         return super().next(after)
@@ -76,6 +80,9 @@ ERRORS = {
     says("'NoneType' object has no attribute"): (
         "When nobody came, watch.next() is None, and has no number: look before you take it."
     ),
+    says("not callable"): (
+        "wait_for takes a function, to call it after each change, such as lambda: watch.next(request.after)."
+    ),
     says("TimesUp"): FOREVER,
 }
 
@@ -110,6 +117,7 @@ class _Shop:
         self._exam, self._counter = exam, counter
         self._saying: Publishing | None = None
         self.there()
+        self._await("told", True)
 
     def there(self, *numbers: int) -> None:
         """Have these at the counter, and nobody else."""
@@ -123,8 +131,11 @@ class _Shop:
 
     def await_sight(self, count: int) -> None:
         """Wait until the student's handler could know that so many are at the counter."""
+        self._await("count", count)
+
+    def _await(self, name: str, value: int) -> None:
         deadline = time.monotonic() + 5.0
-        while self._exam.read("shop.watch.count") != count and time.monotonic() < deadline:
+        while self._exam.read(f"shop.watch.{name}") != value and time.monotonic() < deadline:
             time.sleep(0.02)
 
 
