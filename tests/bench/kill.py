@@ -11,7 +11,7 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -19,8 +19,10 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from course_pkg.lab.ports import free_port
 from tests.lab.commands import alive, below, lab
+from tests.support import eventually
 
 NOTEBOOK = str(next(Path(__file__).parents[2].glob("solutions/*.ipynb")))
+KERNEL, MASTER = b"ipykernel_launcher", b"rosmaster\0--core"
 PATIENCE = 20.0  # s until what is left counts as left
 
 
@@ -45,19 +47,18 @@ def kill_lab(port: int) -> tuple[float, int]:
 
 def kill_master(port: int) -> tuple[float, int]:
     """Kill the master, then end the command as a user does."""
-    return kill_one(port, b"rosmaster\0--core")
+    return kill_one(port, MASTER)
 
 
 def kill_kernel(port: int) -> tuple[float, int]:
     """Kill the kernel, then end the command as a user does."""
-    return kill_one(port, b"ipykernel_launcher")
+    return kill_one(port, KERNEL)
 
 
 def kill_one(port: int, words: bytes) -> tuple[float, int]:
     """Kill the process with `words` in its command line."""
     with started(port) as (process, family):
-        victims = [pid for pid in family if words in Path(f"/proc/{pid}/cmdline").read_bytes()]
-        os.kill(victims[-1], signal.SIGKILL)  # the last is the process itself, before it stands its watcher
+        os.kill(having(words, family)[-1], signal.SIGKILL)  # the process itself, before it stands its watcher
         family += below(process)
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=PATIENCE)
@@ -69,7 +70,23 @@ def started(port: int) -> Iterator[tuple]:  # type: ignore[type-arg]
     """Start `course lab` and wait for its kernel; yield the process, and all below it."""
     with lab("--port", str(port), NOTEBOOK) as (process, address):
         assert urlsplit(address).port == port
-        yield process, below(process)
+        # The address is there before the kernel is: what a page asks meanwhile waits.
+        yield process, eventually(lambda: with_kernel(below(process)))
+
+
+def with_kernel(family: list[int]) -> list[int]:
+    """Return `family` if the kernel and the master are in it, else nothing."""
+    return family if having(KERNEL, family) and having(MASTER, family) else []
+
+
+def having(words: bytes, family: list[int]) -> list[int]:
+    """Return those in whose command line `words` stand."""
+    found = []
+    for pid in family:
+        with suppress(OSError):  # it has ended meanwhile
+            if words in Path(f"/proc/{pid}/cmdline").read_bytes():
+                found.append(pid)
+    return found
 
 
 def cleared(family: list[int], port: int) -> tuple[float, int]:
