@@ -104,7 +104,7 @@ def first_drawing(page: Page, files: dict[str, object]) -> float:
 
 
 def moving(page: Page) -> float:
-    """Return how many frames a second are drawn while the timeline is dragged to and fro."""
+    """Return how many frames a second are drawn while the timeline is dragged back and forth."""
     frames = page.evaluate(PAN, WATCH)
     slow = sorted(frames)[int(0.95 * len(frames))]
     print(f"  frames: median {statistics.median(frames):.1f} ms, 95 % within {slow:.1f} ms")

@@ -66,7 +66,7 @@ def test_a_node_that_is_not_there_or_ends_is_told(master: PrivateMaster) -> None
     started = time.monotonic()
     with Island() as island:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):
-            island.run("course_pkg", "puls")
+            island.run("course_pkg", "pulze")
         with pytest.raises(NodeFailed, match="usage: client"):
             island.run("course_pkg", "client")
     assert time.monotonic() - started < 10

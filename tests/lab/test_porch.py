@@ -49,7 +49,7 @@ def test_all_others_wait_for_the_server_with_what_they_said(listener: socket.soc
 
     So it does with the right question when there is no page to give.
     """
-    words = [QUESTION.replace(b"abc", b"abd") + REST, b"GET /api HTTP/1.1\r\n\r\n", b"G"]
+    words = [QUESTION.replace(b"abc", b"xyz") + REST, b"GET /api HTTP/1.1\r\n\r\n", b"G"]
     words += [] if answer else [QUESTION + REST]
     porch = Porch(listener, QUESTION, answer)
     clients = [asking(listener, said) for said in words] + [socket.create_connection(listener.getsockname())]
