@@ -73,6 +73,8 @@ class Cashier:
                     pass
                 rest = pause
             except (rospy.ServiceException, CourseError) as error:
+                if rospy.is_shutdown():  # which has cancelled the question
+                    return
                 rospy.logwarn_throttle(10, f"No answer, and asking on: {error}")
                 rest = max(pause, AGAIN)
             due = max(due + rest, time.monotonic())
@@ -84,23 +86,23 @@ class Cashier:
             rospy.Service("~report", CashierReport, self.handle_report)
 
     def _ask(self, patience: float) -> bool:
-        """Ask for the next customer; return whether there was one. Raises what a call raises."""
+        """Ask for the next customer; return whether there was a new one. Raises what a call raises."""
         with self._turn:
             self._asked += 1
         answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
-        self._learn(answer.number if answer.detected else 0)
-        return bool(answer.detected)
+        return self._learn(answer.number if answer.detected else 0)
 
-    def _learn(self, number: int) -> None:
-        """Take note that there was news, and greet the customer `number` if there is one not yet greeted."""
+    def _learn(self, number: int) -> bool:
+        """Take note that there was news, and greet the customer `number`; False if they were before."""
         with self._turn:
             now = rospy.Time.now()
             self._learnt.append(now)
             if number <= self._last:
-                return
+                return False
             self._last = number
             self._greeted.append((number, now))
         self._publisher.publish(number)
+        return True
 
 
 def main() -> None:
@@ -120,6 +122,6 @@ def main() -> None:
         elif design == "poll":
             cashier.keep_asking(patience=0.0, pause=1 / rate)
         else:
-            cashier.keep_asking(patience=patience, pause=0.0)
+            cashier.keep_asking(patience=patience, pause=patience)  # which is over when the answer is no
     except rospy.ROSInterruptException:  # shut down while it slept
         return

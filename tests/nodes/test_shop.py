@@ -235,6 +235,22 @@ def test_a_cashier_survives_a_detector_that_is_gone(camera: NodeProcess) -> None
         assert cashier.output().count("No answer") == 1
 
 
+@pytest.mark.parametrize("answer", ["(True, 1, rospy.Time())", "(False, 0, rospy.Time())"])
+@pytest.mark.parametrize("settings", [["_design:=wait", "_patience:=0.5"], ["_design:=poll", "_rate:=2"]])
+def test_a_cashier_does_not_hammer_a_detector_that_answers_at_once(
+    kernel: Kernel, answer: str, settings: list[str]
+) -> None:
+    """A detector that does not wait, or tells of one customer again, is asked twice a second all the same."""
+    kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
+    kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
+    started = time.monotonic()
+    with run("cashier", *settings):
+        eventually(lambda: report().asked >= 4)
+        asked, seconds = report().asked, time.monotonic() - started
+        assert asked <= 2 * seconds + 3
+        assert len(report().greeted) == answer.startswith("(True")
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
