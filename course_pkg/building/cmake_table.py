@@ -95,7 +95,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"package name '(?P<name>[^']*)' in '\S*?/(?P<folder>[^/']+)/package\.xml' does not match current "
         r"PROJECT_NAME '(?P<project>[^']*)'",
         "",
-        "package.xml calls the package {name}, and CMakeLists.txt calls it {project}.",
+        "package.xml has the name {name}, and CMakeLists.txt has {project}.",
         "Write one name in both, in <name> and in project().",
     ),
     (
@@ -108,7 +108,13 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"DEPENDS on the catkin package '(?P<name>[^']+)' which must therefore be listed as a run dependency",
         "",
         "catkin_package names {name}, and package.xml does not say that it is needed to run.",
-        "Add <exec_depend>{name}</exec_depend> to package.xml, or take {name} out of this line.",
+        "Add <exec_depend>{name}</exec_depend> to package.xml, or take {name} out of catkin_package.",
+    ),
+    (
+        r"the catkin package '(?P<name>[^']+)' has been find_package\(\)-ed but is not listed as a build dep",
+        "",
+        "find_package asks for {name}, and package.xml does not say that it is needed to build.",
+        "Add <build_depend>{name}</build_depend> to package.xml.",
     ),
     (
         r"'catkin' must be listed as a buildtool dependency",

@@ -56,8 +56,9 @@ def _matching(table: tuple[Row, ...], text: str, message: Message | None = None)
         if found := re.search(pattern, text, re.DOTALL):
             words = {name: value or "" for name, value in found.groupdict().items()}
             place = (file.format(**words), 0) if file or not message else (message.file, message.line)
-            if file == "package.xml" and (named := _MANIFEST.search(text)):
-                place = (f"{named[1]}/package.xml", 0)
+            if file == "package.xml":
+                named = _MANIFEST.search(text)
+                place = (f"{named[1]}/package.xml" if named else file, int(words.get("line") or 0))
             yield Fault(problem.format(**words), remedy.format(**words), *place)
 
 

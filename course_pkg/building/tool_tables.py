@@ -15,14 +15,15 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"The manifest contains invalid XML:\s*mismatched tag: line (?P<line>\d+)",
         "package.xml",
-        "A tag is not closed, or closed by another name, at line {line} or before.",
+        "A tag is not closed, or closed by another name, in this line or above it.",
         "Close every <tag> by </tag>.",
     ),
     (
-        r"The manifest contains invalid XML:\s*(?P<what>[^\n]*)",
+        r"The manifest contains invalid XML:\s*(?P<what>[^\n]*?): line (?P<line>\d+)",
         "package.xml",
         "It is no XML: {what}.",
-        "Begin with <?xml in the first column of the first line, and close every tag.",
+        "Begin with <?xml in the first column of the first line, close every tag, use straight quotes, and "
+        "write &amp; for &.",
     ),
     (
         r"The manifest .*?\(with format version (?P<format>\d)\) "
@@ -36,6 +37,12 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "The tag {tag} is missing, or there twice.",
         "Write <{tag}>…</{tag}> once.",
+    ),
+    (
+        r"generic dependency on .(?P<name>\w+). is redundant with: (?P<tags>\w+)",
+        "package.xml",
+        "{name} is named by depend, and by {tags} once more.",
+        "Keep depend, which is both to build and to run.",
     ),
     (
         r"must declare at least one maintainer",
@@ -54,6 +61,12 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "{email} is no address of the form name@example.com.",
         "Write a whole address; you@example.com will do.",
+    ),
+    (
+        r'Package name "(?P<package>[^"]*)" does not follow naming conventions',
+        "package.xml",
+        "The name {package} does not do for a package.",
+        "Write it in lower-case letters, digits and _, with a letter first, and no blanks.",
     ),
     (
         r'Package version "(?P<version>[^"]*)" does not follow version conventions',

@@ -57,6 +57,10 @@ class Bench:
         self._open.callback(self._running[-1].stop)
         return {"process": len(self._running) - 1}
 
+    def poll(self, process: int) -> dict[str, Any]:
+        """Return the status of a command that was started, None while it runs."""
+        return {"status": self._running[process].status}
+
     def stop(self, process: int) -> dict[str, Any]:
         """End a command that was started, as Ctrl-C does, and say how it ended (None if it still ran)."""
         return self._running[process].stop()
@@ -76,9 +80,15 @@ class _Running:
         self._leash = Leash(in_folder, output=self._output, env=_environment(folder))
         self._end: dict[str, Any] | None = None
 
+    @property
+    def status(self) -> int | None:
+        """The exit status, None while it runs."""
+        return self._leash.returncode
+
     def stop(self) -> dict[str, Any]:
+        """End it, as Ctrl-C does and then by force; say how it ended, None if it still ran."""
         if self._end is None:
-            status = self._leash.returncode
+            status = self.status
             self._leash.end(GRACE)
             took = time.monotonic() - self._started
             self._end = {"status": status, "out": _text(self._output), "err": "", "took": took}

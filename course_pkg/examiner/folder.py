@@ -28,18 +28,19 @@ class Folder:
         answer = link.ask("folder", timeout=SLACK, files=list(files), texts=dict(texts))
         self._number = answer.get("folder")
 
-    def command(self, *argv: str, within: float = 10.0) -> Finished:
+    def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
         """Run a command here; "python" stands for the kernel's own interpreter. It is ended after `within` s.
 
-        The environment is the course's, without what the student has sourced.
+        The environment is the course's, without what the student has sourced. A report says what was run, or
+        `worded` in its place.
         """
-        self._doing(" ".join(argv))
+        self._doing(worded or " ".join(argv))
         what = {"argv": list(argv), "folder": self._number, "within": within}
         return Finished(self._link.ask("run", timeout=within + SLACK, **what))
 
-    def start(self, *argv: str) -> Running:
+    def start(self, *argv: str, worded: str = "") -> Running:
         """Start a command here that goes on until it is stopped; a context manager."""
-        self._doing(" ".join(argv))
+        self._doing(worded or " ".join(argv))
         answer = self._link.ask("start", timeout=SLACK, argv=list(argv), folder=self._number)
         return Running(self._link, answer.get("process"))
 
@@ -50,6 +51,12 @@ class Running:
     def __init__(self, link: Link, number: object) -> None:
         self._link = link
         self._number = number
+
+    @property
+    def status(self) -> int | None:
+        """The exit status, None while it runs."""
+        status = self._link.ask("poll", timeout=SLACK, process=self._number).get("status")
+        return status if isinstance(status, int) else None
 
     def stop(self) -> Finished:
         """End it; its status is None where it still ran. What it printed is in `out`, both streams."""

@@ -64,6 +64,7 @@ class Hands:
             "folder": self._bench.folder,
             "run": self._bench.run,
             "start": self._bench.start,
+            "poll": self._bench.poll,
             "stop": self._bench.stop,
         }
 

@@ -19,6 +19,7 @@ What can be asked, and what is answered:
     folder   files, texts                 folder (its number: copies of files, over them the judge's texts)
     run      argv, folder, within         status, out, err, took
     start    argv, folder                 process (its number)
+    poll     process                      status, None while it runs
     stop     process                      as run; status is None where it still ran
 
 A line that is too long, that is no JSON object, or that answers another question breaks the link;

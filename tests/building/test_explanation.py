@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from course_pkg.building import explain
-from tests.building.packages import BOX, GOOD, LISTS, build, shell, spoilt, write
+from tests.building.packages import BOX, GOOD, LISTS, MANIFEST, build, shell, spoilt, write
 
 LIST_FILE = "my_services/CMakeLists.txt"
 FIND = "find_package(catkin REQUIRED COMPONENTS message_generation)\n"
@@ -103,12 +103,24 @@ SLIPS = {
     "another name in project": (
         spoilt(C, ("project(my_services)", "project(my_service)")),
         f"{LIST_FILE}, line 9",
-        "package.xml calls the package my_services, and CMakeLists.txt calls it my_service.",
+        "package.xml has the name my_services, and CMakeLists.txt has my_service.",
     ),
     "needed to run, and not said": (
         spoilt(X, ("  <exec_depend>message_runtime</exec_depend>\n", "")),
         f"{LIST_FILE}, line 9",
         "<exec_depend>message_runtime</exec_depend>",
+    ),
+    "needed to build, and not said": (
+        {
+            **spoilt(
+                C,
+                ("COMPONENTS message_generation", "COMPONENTS message_generation std_msgs"),
+                ("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS std_msgs"),
+            ),
+            X: MANIFEST.replace("message_runtime", "std_msgs"),
+        },
+        f"{LIST_FILE}, line 9",
+        "<build_depend>std_msgs</build_depend>",
     ),
     "catkin not named": (
         spoilt(X, ("  <buildtool_depend>catkin</buildtool_depend>\n", "")),
@@ -136,10 +148,10 @@ SLIPS = {
     "a semicolon": (spoilt(S, ("length", "length;")), "", "length; is not a legal"),
     "a name twice": (spoilt(S, ("width", "length")), "", "Duplicate field names"),
     "a mark of Windows in the .srv": ({**GOOD, S: "\ufeff" + BOX}, "", "is not a legal message field type"),
-    "a tag not closed": (spoilt(X, ("</name>", "")), "my_services/package.xml", "Close every"),
+    "a tag not closed": (spoilt(X, ("</name>", "")), "my_services/package.xml, line 12", "Close every"),
     "a line above the XML": (
         {**GOOD, X: "\n" + GOOD[X]},
-        "my_services/package.xml",
+        "my_services/package.xml, line 2",
         "in the first column of the first line",
     ),
     "a tag of format 1": (
@@ -151,6 +163,13 @@ SLIPS = {
         spoilt(X, ("  <version>0.1.0</version>\n", "")),
         "my_services/package.xml",
         "The tag version is missing",
+    ),
+    "named twice": (
+        spoilt(
+            X, ("<build_depend>message_gen", "<depend>message_runtime</depend>\n  <build_depend>message_gen")
+        ),
+        "my_services/package.xml",
+        "Keep depend",
     ),
     "half a version": (spoilt(X, ("0.1.0", "0.1")), "my_services/package.xml", "as in 0.1.0"),
     "nobody maintains it": (

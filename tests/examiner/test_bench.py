@@ -106,7 +106,7 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: Bench) -> None:
     """A server that ends at once is told from one that serves."""
     folder = bench.folder([], {})["folder"]
     process = bench.start(["bash", "-c", "echo no; exit 3"], folder)["process"]
-    eventually(lambda: bench._running[process]._leash.returncode is not None)
+    eventually(lambda: bench.poll(process)["status"] is not None)
     assert bench.stop(process)["status"] == 3
 
 
