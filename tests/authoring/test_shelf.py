@@ -52,6 +52,34 @@ def test_the_answer_is_in_the_solution_alone(root: Path) -> None:
     assert cell["metadata"]["course"] == {"exercise": "05.1", "points": 2}
 
 
+def repair(source: str) -> list[dict[str, Any]]:
+    """Return the cells of a chapter 04 in which only the part with a start of its own is written out."""
+    cells = []
+    for part in parts_of("04"):
+        cells += [exercise(part.check, part.points, source), check(part.check)]
+    return cells
+
+
+def test_something_to_repair_is_handed_out_as_its_check_says(tmp_path: Path) -> None:
+    """A repaired file with its answer taken out would be nothing to repair."""
+    path = "src/lamp_services/CMakeLists.txt"
+    write(tmp_path, book(*repair(f"%%writefile {path}\nproject(lamp_services)")), "04_define_a_service")
+    with pytest.raises(AuthoringError):  # the other parts of the chapter write other files
+        sync(root=tmp_path)
+    derived = json.loads((tmp_path / "notebooks" / "04_define_a_service.ipynb").read_text())
+    cell = next(cell for cell in derived["cells"] if cell["id"] == "exercise-04-4")
+    source = "".join(cell["source"])
+    assert source.startswith(f"%%writefile {path}\n")
+    assert "# generate_messages()" in source
+
+
+def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
+    """Or a student would repair one file, and the check look at another."""
+    write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
+    with pytest.raises(AuthoringError, match=r"exercise-04-4: the check hands out a cell that begins with"):
+        sync(root=tmp_path)
+
+
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
     """A derived notebook is never edited: one byte is seen."""
     sync(root=root)
