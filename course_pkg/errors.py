@@ -25,6 +25,7 @@ CourseError
 │   ├── UnknownCheck: no check has this id
 │   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
 │   └── AnswersBroken: the file of right and wrong answers cannot be read
+├── CameraSilent: the camera of chapter 03's shop says nothing, so nobody can tell who is there
 ├── AuthoringError: a solution notebook cannot be taken as it is
 ├── PanelError: a panel cannot do what a cell asked of it
 │   ├── NothingPicked: no service, or none that has a form
@@ -205,6 +206,10 @@ class LinkSilent(LinkError):
 
 class AnswersBroken(ExamError):
     """The file of right and wrong answers cannot be read."""
+
+
+class CameraSilent(CourseError):
+    """The camera of a shop has said nothing for so long that nobody can tell who is at the counter."""
 
 
 class AuthoringError(CourseError):

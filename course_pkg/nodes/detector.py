@@ -14,10 +14,10 @@ from typing import Any
 import rospy
 from std_msgs.msg import UInt32, UInt32MultiArray
 
-from course_pkg.errors import FieldError
+from course_pkg.errors import CameraSilent, FieldError
 from course_pkg.graph.program import undisturbed
 from course_pkg.graph.stepping import step_onto_graph, wait_until
-from course_pkg.shop.watch import CameraSilent, Customer, Watch
+from course_pkg.shop.watch import Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerResponse
 
 LONGEST = 60.0  # s that a caller may wait

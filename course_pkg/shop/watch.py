@@ -7,11 +7,9 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+from course_pkg.errors import CameraSilent
+
 LOOK = 0.25  # s between looks at whether the camera is still there
-
-
-class CameraSilent(Exception):
-    """The camera has said nothing for so long that nobody can tell who is at the counter."""
 
 
 class Customer(NamedTuple):

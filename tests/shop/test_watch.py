@@ -8,8 +8,8 @@ from itertools import count
 
 import pytest
 
+from course_pkg.errors import CameraSilent
 from course_pkg.shop import Customer, Watch
-from course_pkg.shop.watch import CameraSilent
 from tests.support import eventually
 
 FOR_EVER = 60.0  # s: longer than any test
