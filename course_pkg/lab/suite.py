@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from pathlib import Path
 
 from course_pkg.errors import SetupError
 from course_pkg.provision import Places
@@ -49,7 +50,7 @@ def run_suite(arguments: Sequence[str]) -> int:
 
 def _tests(places: Places, *arguments: str) -> int:
     environ = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
-    command = [places.python, "-m", "pytest", *arguments]
+    command: list[str | Path] = [places.python, "-m", "pytest", *arguments]
     return subprocess.run(command, cwd=places.checkout, env=environ, check=False).returncode
 
 
