@@ -160,6 +160,18 @@ def test_messages_that_are_published_once_wait_for_a_listener(judge: Kernel, stu
     assert student.run("result = [message.data for message in heard.wait(3)]") == [3, 1, 2]
 
 
+def test_a_message_in_a_message_is_a_dict(judge: Kernel) -> None:
+    """What a check publishes it hears again as it was given, also a header with its time."""
+    judge.run("from sensor_msgs.msg import JointState; hearing = hear('/joints', JointState)")
+    judge.run(
+        "said = {'header': {'stamp': {'secs': 5, 'nsecs': 6}}, 'name': ['a'], 'position': [0.5]}\n"
+        "opened.enter_context(Publishing('/joints', JointState, [said], 0.01, True))"
+    )
+    heard = judge.run("result = [arrival.fields for arrival in hearing.wait(1)]")[0]
+    assert (heard["header"]["stamp"], heard["name"]) == ({"secs": 5, "nsecs": 6}, ["a"])
+    assert (heard["position"], heard["velocity"]) == ([0.5], [])
+
+
 def test_the_rate_of_arrivals() -> None:
     """Intervals by time; what cannot be told is 0."""
 
