@@ -24,6 +24,7 @@ from playwright.sync_api import BrowserContext, Page, sync_playwright
 ROOT = Path(__file__).parents[2]
 NOTEBOOK = sys.argv[2:]  # the first chapter unless given
 KEPT = 6.0  # s after which a start has kept what it keeps for the next
+USABLE = 3  # the step that counts
 BAR = 3.0  # s from the command to a usable page
 ADDRESS = re.compile(rb"http://\S+token=\S+")
 FLAGS = [
@@ -44,7 +45,7 @@ def main(runs: int) -> int:
     """
     with lab(*NOTEBOOK):
         time.sleep(KEPT)
-    names = ("address printed", "page asked for", "notebook rendered", "kernel idle")
+    names = ("address printed", "page received", "notebook rendered", "kernel idle", "page at work")
     with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
         rows = []
         for _ in range(runs + 1):
@@ -58,21 +59,26 @@ def main(runs: int) -> int:
     medians = [statistics.median(column) for column in zip(*rows[1:], strict=True)]
     print(f"median of {runs:2}             ", *(f"{value:18.2f}" for value in medians))
     print(
-        f"bar {BAR} s: {'met' if medians[-1] <= BAR else 'MISSED'};",
-        f"all: {[round(row[-1], 2) for row in rows[1:]]}",
+        f"bar {BAR} s: {'met' if medians[USABLE] <= BAR else 'MISSED'};",
+        f"all: {[round(row[USABLE], 2) for row in rows[1:]]}",
     )
+    page = medians[USABLE] - medians[0]
+    print(f"Of the {page:.2f} s from the address on, the page's one thread worked {medians[-1]:.2f} s.")
     return 0
 
 
 def measure(context: BrowserContext) -> list[float]:
-    """Return the seconds from the command to each step on the way to a usable page."""
+    """Return the seconds from the command to each step on the way to a usable page, and the page's own."""
     page = context.new_page()
+    session = context.new_cdp_session(page)
+    session.send("Performance.enable")
     with lab(*NOTEBOOK) as (address, started):
         marks = [time.perf_counter()]
         page.goto(address, wait_until="commit")
         marks.append(time.perf_counter())
         marks += until_usable(page)
-    return [mark - started for mark in marks]
+        metrics = {item["name"]: item["value"] for item in session.send("Performance.getMetrics")["metrics"]}
+    return [*(mark - started for mark in marks), float(metrics["TaskDuration"])]
 
 
 def until_usable(page: Page) -> list[float]:
