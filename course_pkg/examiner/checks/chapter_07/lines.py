@@ -40,7 +40,7 @@ COMPLAINTS = {
     points=2,
     goal="Return the line for a terminal that calls a service with these fields.",
     needs=["call_line"],
-    deadline=60.0,
+    deadline=38.0,
 )
 def type_the_call(exam: Exam) -> None:
     """Have bash run the lines, with values that a shell or YAML take for something else."""
@@ -65,7 +65,7 @@ def type_the_call(exam: Exam) -> None:
 
 def _typed(exam: Exam, question: Question, server: ScriptedServer, line: str) -> None:
     """Hold that bash and rosservice make of the line one call that brings the fields."""
-    done = exam.command("bash", "-c", line, within=20.0)
+    done = exam.command("bash", "-c", line, within=12.0)
     said = f"{done.out}\n{done.err}".strip() or "nothing was said, and nothing was called"
     exam.hold(
         f"{question.what}: the line makes a call",

@@ -28,7 +28,7 @@ class Question:
 
 def questions(exam: Exam) -> list[Question]:
     """Return one after the other, each with something that the one before did not have."""
-    return [_nothing(exam), _numbers(exam), _nested(exam), _texts(exam)]
+    return [_nothing(exam), _numbers(exam), _texts(exam)]
 
 
 def _nothing(exam: Exam) -> Question:
@@ -42,23 +42,19 @@ def _numbers(exam: Exam) -> Question:
     return Question("negative numbers", "course_pkg/AddTwoInts", {"b": b, "a": a}, {"sum": total})
 
 
-def _nested(exam: Exam) -> Question:
-    """Make a message within the request, and one within that, with few of their many fields."""
-    width, height, offset = exam.draw.integers(3, 100, 999)
-    model = exam.draw.word()
-    info = {"width": width, "distortion_model": model, "roi": {"x_offset": offset}, "height": height}
-    return _camera(exam, "a message within", info)
-
-
 def _texts(exam: Exam) -> Question:
-    """Make texts that look like something else: a quote to the shell, and off, which is False to YAML."""
-    info = {"header": {"frame_id": f"{exam.draw.word()}'s own"}, "distortion_model": "off"}
-    return _camera(exam, "texts", info)
-
-
-def _camera(exam: Exam, what: str, info: dict[str, Plain]) -> Question:
+    """Make messages within the request, and texts in them: a quote to the shell, and off, False to YAML."""
+    width, height, offset = exam.draw.integers(3, 100, 999)
+    frame = f"{exam.draw.word()}'s own"
+    info = {
+        "width": width,
+        "header": {"frame_id": frame},
+        "distortion_model": "off",
+        "roi": {"x_offset": offset},
+        "height": height,
+    }
     answer = {"success": True, "status_message": exam.draw.word()}
-    return Question(what, "sensor_msgs/SetCameraInfo", {"camera_info": info}, answer)
+    return Question("messages within", "sensor_msgs/SetCameraInfo", {"camera_info": info}, answer)
 
 
 def _given(fields: Plain, seen: Plain) -> Plain:
