@@ -153,8 +153,17 @@ class Exam:
 
         With `once`, as soon as somebody listens, and each message one time.
         """
-        cls = message_type(kind).cls
-        return self._open.enter_context(Publishing(topic, cls, messages, every, once))
+        return self._open.enter_context(
+            Publishing(
+                self._ledger,
+                topic,
+                message_type(kind).cls,
+                messages,
+                every=every,
+                once=once,
+                label=self._label(topic),
+            )
+        )
 
     def puppet(self, name: str, topic: str, kind: str, *, alive: bool = True) -> Puppet:
         """Have the master list the node `name` as a publisher of `topic`, alive or killed; see puppet.py."""
@@ -167,10 +176,12 @@ class Exam:
 
         A listener that comes late has missed something: hear first, and then run what publishes.
         """
-        label = "the topic" if self.draw.made(topic) else topic
-        return self._open.enter_context(
-            Hearing(self._ledger, self._node, topic, message_type(kind).cls, label)
-        )
+        cls, label = message_type(kind).cls, self._label(topic)
+        return self._open.enter_context(Hearing(self._ledger, self._node, topic, cls, label))
+
+    def _label(self, topic: str) -> str:
+        """Return how rules call a topic: one that was drawn has another name each time."""
+        return "the topic" if self.draw.made(topic) else topic
 
     # -- what the student wrote, in the kernel
 

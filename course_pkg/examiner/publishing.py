@@ -10,7 +10,8 @@ from collections.abc import Iterable
 import genpy
 import rospy
 
-from course_pkg.examiner.plain import Message, Plain
+from course_pkg.examiner.ledger import Hints, Ledger, hint_for
+from course_pkg.examiner.plain import Message, Plain, ServiceClass
 
 LOOK = 0.01  # s between looks at who listens
 
@@ -22,8 +23,23 @@ class Publishing:
     time.monotonic() at which messages went out, in s.
     """
 
-    def __init__(self, topic: str, kind: type, messages: Iterable[Plain], every: float, once: bool) -> None:
+    def __init__(
+        self,
+        ledger: Ledger,
+        topic: str,
+        kind: ServiceClass,
+        messages: Iterable[Plain],
+        *,
+        every: float,
+        once: bool,
+        label: str,
+    ) -> None:
         self.sent: list[float] = []
+        self._ledger, self._label, self._type = (
+            ledger,
+            label,
+            str(kind._type),
+        )  # the label is how rules call it
         self._messages = [_made(kind, fields) for fields in messages]
         self._every = every
         self._once = once
@@ -38,6 +54,17 @@ class Publishing:
             if self._over.wait(LOOK):
                 break
         return bool(self._publisher.get_num_connections())
+
+    def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
+        """Hold that somebody listens to the topic, and return when the connection stands.
+
+        `hints` are for "nobody"; who subscribes in another type is nobody, too.
+        """
+        rule = f"somebody listens to {self._label}"
+        if not self.heard(within):
+            hint = hint_for(hints, "nobody") or f"Make a rospy.Subscriber for it, of type {self._type}."
+            self._ledger.fails(rule, expected="a subscriber", seen="nobody", hint=hint)
+        self._ledger.passes(rule)
 
     def finish(self, within: float = 10.0) -> bool:
         """Wait until the last message is out, with `once`; return whether it is, after `within` s at most."""
@@ -70,7 +97,7 @@ class Publishing:
             pass
 
 
-def _made(kind: type, fields: Plain) -> Message:
+def _made(kind: ServiceClass, fields: Plain) -> Message:
     """Return a message with these fields, in which a message is a dict as well."""
     message = kind()
     genpy.message.fill_message_args(message, [dict(fields)])

@@ -26,9 +26,13 @@ ledger = Ledger()
 def hear(topic, kind=UInt32):
     return opened.enter_context(Hearing(ledger, node, topic, kind, topic))
 
-def broken(hearing, **how):
+def speak(topic, kind, messages):
+    saying = Publishing(ledger, topic, kind, messages, every=0.01, once=True, label=topic)
+    return opened.enter_context(saying)
+
+def broken(one, **how):
     try:
-        hearing.published(**how)
+        one.published(**how) if isinstance(one, Hearing) else one.listened(**how)
     except RuleBroken:
         rule = ledger.rules[-1]
         return [rule.text, rule.seen, rule.hint]
@@ -152,12 +156,24 @@ def test_a_loop_without_its_sleep_is_heard_in_bounded_memory(judge: Kernel, stud
 
 def test_messages_that_are_published_once_wait_for_a_listener(judge: Kernel, student: Kernel) -> None:
     """So that a student's subscriber gets every one of them; the times are those of the publishing."""
-    judge.run("p = Publishing('/few', UInt32, [{'data': n} for n in (3, 1, 2)], 0.01, True)")
-    judge.run("opened.enter_context(p)")
+    judge.run("p = speak('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert judge.run("result = [p.heard(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("heard = node.subscribe('/few', UInt32)")
     assert judge.run("result = [p.heard(5), p.finish(5), len(p.sent)]") == [True, True, 3]
     assert student.run("result = [message.data for message in heard.wait(3)]") == [3, 1, 2]
+
+
+def test_that_nobody_listens_is_told(judge: Kernel, student: Kernel) -> None:
+    """Who subscribes in another type hears nothing, and counts as nobody; the hint says which type it is."""
+    student.run("heard = node.subscribe('/few', Float64)")
+    assert judge.run("p = speak('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
+        "somebody listens to /few",
+        "nobody",
+        "Make a rospy.Subscriber for it, of type std_msgs/UInt32.",
+    ]
+    student.run("heard = node.subscribe('/few', UInt32)")
+    judge.run("p.listened()")
+    assert student.run("result = heard.wait(1)[0].data") == 1
 
 
 def test_a_message_in_a_message_is_a_dict(judge: Kernel) -> None:
@@ -165,7 +181,7 @@ def test_a_message_in_a_message_is_a_dict(judge: Kernel) -> None:
     judge.run("from sensor_msgs.msg import JointState; hearing = hear('/joints', JointState)")
     judge.run(
         "said = {'header': {'stamp': {'secs': 5, 'nsecs': 6}}, 'name': ['a'], 'position': [0.5]}\n"
-        "opened.enter_context(Publishing('/joints', JointState, [said], 0.01, True))"
+        "speak('/joints', JointState, [said])"
     )
     heard = judge.run("result = [arrival.fields for arrival in hearing.wait(1)]")[0]
     assert (heard["header"]["stamp"], heard["name"]) == ({"secs": 5, "nsecs": 6}, ["a"])
