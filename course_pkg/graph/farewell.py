@@ -36,7 +36,8 @@ def say_farewell_at_the_end() -> None:
     manager = registration_manager()
     if manager is not None and not getattr(manager, ASKED, False):
         setattr(manager, ASKED, True)
-        rospy.core.add_shutdown_hook(lambda _reason: _say_farewell())
+        # Without an address, the node has left the graph before, or its master does not answer.
+        rospy.core.add_shutdown_hook(lambda _reason: say_farewell() if manager.master_uri else None)
 
 
 @contextmanager
@@ -58,7 +59,8 @@ def farewells(node: str, uri: str, master: MasterClient) -> Iterator[None]:
                 master.delete_param(parameter, timeout=PATIENCE)
 
 
-def _say_farewell() -> None:
+def say_farewell() -> None:
+    """Hand this node's record over to those who record, if there are any."""
     with suppress(GraphError):
         asked = MasterClient(master_uri(), PATIENCE).get_param(PARAMETER, {})
         uris = {uri for uri in asked.values() if isinstance(uri, str)} if isinstance(asked, dict) else set()

@@ -16,6 +16,7 @@ import rospy
 import course_pkg
 from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined, SetupError
 from course_pkg.graph.calls import settle_keepalive
+from course_pkg.graph.farewell import say_farewell
 from course_pkg.graph.leash import Leash
 from course_pkg.graph.logs import logging_kept
 from course_pkg.graph.master import PrivateMaster, find_or_start_master, master_uri
@@ -100,6 +101,7 @@ class _Kernel:
             node.close(with_master=False)
         else:
             node.close()
+            say_farewell()
             unregister_all(master)
         self._dismiss()
 

@@ -170,12 +170,15 @@ def _event(
         peer=", ".join(peers),
         key=keys[seen.exchange],
         thread=threads[seen.node, ident, name],
-        note=_note(told) if over else "",
+        note=_note(told, over),
     )
 
 
-def _note(told: Told) -> str:
+def _note(told: Told, over: bool) -> str:
+    """Return what is said of it in words; how something ended is not known as long as it has not."""
     if told["kind"] != PUBLISH:
+        return str(told["note"]) if over else ""
+    if not over:
         return str(told["note"])
     asked, sent = told["asked"], len(told["wires"])
     if not asked:

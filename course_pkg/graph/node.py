@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import partial
@@ -16,7 +17,7 @@ from course_pkg.graph.gathering import recorded
 from course_pkg.graph.heard import Heard
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.output import HandlerOutput
-from course_pkg.graph.processes import NodeProcess
+from course_pkg.graph.processes import GRACE, NodeProcess
 from course_pkg.graph.recording import Recording
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.served import Handler, Served
@@ -144,10 +145,11 @@ class Node:
 
     def close(self, *, with_master: bool = True) -> None:
         """End all that was begun here; without a master that answers, nothing is withdrawn from it."""
+        deadline = time.monotonic() + GRACE  # of all together: each was asked to end at the same time
         for process in self._processes.values():
             process.interrupt()
         while self._processes:
-            self._processes.popitem()[1].stop(withdraw=with_master)
+            self._processes.popitem()[1].stop(max(deadline - time.monotonic(), 0.1), withdraw=with_master)
         while self._proxies:
             self._proxies.popitem()[1].close()
         while self._heard:

@@ -18,12 +18,11 @@ from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_service import ServiceImpl, ServiceProxy
 
 from course_pkg.graph.events import CONNECT, ERROR, HANDLER, LOOKUP, REQUEST, RESPONSE, WAIT
-from course_pkg.graph.taps import Method, Tap, Transport
+from course_pkg.graph.taps import MADE_HERE, Method, Tap, Transport, put_all
 from course_pkg.graph.trace import END, CallMark, Connection, Mark, recorder
 
 BLIND = "service calls: this rospy makes and answers them otherwise"
 NO_ANSWER = "ended without an answer"
-MADE_HERE = "TCPROSTransport"  # the name by which both ends make their connections
 
 
 def tap_services() -> bool:
@@ -33,13 +32,10 @@ def tap_services() -> bool:
         Tap(ServiceProxy, "_get_service_uri", ("self", "request"), _looking_up),
         Tap(ServiceImpl, "_handle_request", ("self", "transport", "request"), _handling),
     )
-    if not (all(tap.fits() for tap in taps) and _fits(getattr(tcpros_service, MADE_HERE, None))):
+    done = put_all(taps, tcpros_service, RecordedTransport)
+    if not done:
         recorder().blind.add(BLIND)
-        return False
-    setattr(tcpros_service, MADE_HERE, RecordedTransport)
-    for tap in taps:
-        tap.put()
-    return True
+    return done
 
 
 def service_transport(protocol: Any, name: str) -> TCPROSTransport:  # noqa: ANN401
@@ -181,11 +177,6 @@ def _handling(bare: Method) -> Method:
             recorder().tally.ended(self.resolved_name, caller)
 
     return _handle_request
-
-
-def _fits(transport: Any) -> bool:  # noqa: ANN401
-    """Say whether rospy's own transport is what the recorded one stands on."""
-    return isinstance(transport, type) and issubclass(transport, Transport)
 
 
 def _part(call: CallMark | None, kind: str) -> list[Any]:

@@ -15,6 +15,9 @@ Method = Callable[..., Any]
 Transport: Any = TCPROSTransport  # rospy has no types
 
 
+MADE_HERE = "TCPROSTransport"  # the name by which rospy's modules make their connections
+
+
 class Tap:
     """A method of `owner` and what makes another one of it; `uses` are the globals that it has to look up.
 
@@ -50,3 +53,18 @@ class Tap:
             tapped = wraps(bare)(self._made(bare))
             setattr(tapped, TAPPED, True)
             setattr(self._owner, self._name, tapped)
+
+
+def put_all(taps: Sequence[Tap], module: Any, transport: type, used: Sequence[Tap] = ()) -> bool:  # noqa: ANN401
+    """Put all taps and have `module` make its connections as `transport`; say whether it could be done.
+
+    If one of the taps, or of those that are `used` and stay as they are, does not fit, all is left alone.
+    """
+    bare = getattr(module, MADE_HERE, None)
+    known = isinstance(bare, type) and issubclass(bare, TCPROSTransport)
+    if not known or not all(tap.fits() for tap in (*taps, *used)):
+        return False
+    setattr(module, MADE_HERE, transport)
+    for tap in taps:
+        tap.put()
+    return True

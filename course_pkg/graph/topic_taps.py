@@ -18,12 +18,11 @@ from rospy.impl.tcpros_pubsub import TCPROSHandler, TCPROSSub
 from rospy.topics import _PublisherImpl, _SubscriberImpl
 
 from course_pkg.graph.events import CALLBACK, PUBLISH
-from course_pkg.graph.taps import Method, Tap, Transport
+from course_pkg.graph.taps import MADE_HERE, Method, Tap, Transport, put_all
 from course_pkg.graph.trace import Connection, Mark, Wire, recorder
 
 BLIND = "messages: this rospy publishes and receives them otherwise"
 LEFT_OUT = "/rosout"  # what nodes log is not what a recording is made for, and each call may log
-MADE_HERE = "TCPROSTransport"  # the name by which both ends make their connections
 ARRIVED = "arrived_by_course"  # an attribute of what reads a connection: how many messages have arrived on it
 TO_ONE = "sent to one new subscriber alone"
 
@@ -42,29 +41,16 @@ def tap_topics() -> bool:
         Tap(_SubscriberImpl, "receive_callback", ("self", "msgs", "connection"), _receiving),
         Tap(_SubscriberImpl, "_invoke_callback", ("self", "msg", "cb", "cb_args"), _calling_back),
     )
-    makers = (
-        Tap(
-            TCPROSHandler,
-            "create_transport",
-            ("self", "resolved_name", "pub_uri", "protocol_params"),
-            _same,
-            uses=[MADE_HERE],
-        ),
-        Tap(
-            TCPROSHandler,
-            "topic_connection_handler",
-            ("self", "sock", "client_addr", "header"),
-            _same,
-            uses=[MADE_HERE],
-        ),
+    connects = ("self", "resolved_name", "pub_uri", "protocol_params")
+    accepts = ("self", "sock", "client_addr", "header")
+    used = (
+        Tap(TCPROSHandler, "create_transport", connects, _same, uses=[MADE_HERE]),
+        Tap(TCPROSHandler, "topic_connection_handler", accepts, _same, uses=[MADE_HERE]),
     )
-    if not all(tap.fits() for tap in (*taps, *makers)):
+    done = put_all(taps, tcpros_pubsub, RecordedTopicTransport, used)
+    if not done:
         recorder().blind.add(BLIND)
-        return False
-    setattr(tcpros_pubsub, MADE_HERE, RecordedTopicTransport)
-    for tap in taps:
-        tap.put()
-    return True
+    return done
 
 
 class Stamped(bytes):
@@ -108,12 +94,17 @@ class RecordedTopicTransport(Transport):  # type: ignore[misc]  # rospy has no t
         self.connection = (self.local_endpoint, dest_port)
 
     def write_data(self, data: bytes) -> Any:  # noqa: ANN401
-        """Send a message."""
-        done = super().write_data(data)
+        """Send a message, of which it is on record where it goes before anybody can have it."""
+        if not isinstance(data, Stamped) or self.connection is None:
+            return super().write_data(data)
         self.written += 1
-        if isinstance(data, Stamped) and self.connection is not None:
-            data.mark.wires.append((self.connection, self.written, self.endpoint_id))
-        return done
+        wire = (self.connection, self.written, self.endpoint_id)
+        data.mark.wires.append(wire)
+        try:
+            return super().write_data(data)
+        except BaseException:
+            data.mark.wires.remove(wire)
+            raise
 
 
 class _Batch:
@@ -144,6 +135,7 @@ def _publishing(bare: Method) -> Method:
             return bare(self, message, connection_override)
         mark = recorder().begin(PUBLISH, self.resolved_name, "", [])
         mark.asked = len(self.connections) if connection_override is None else 1
+        mark.note = "" if connection_override is None else TO_ONE
         if type(self.buff) is BytesIO:
             self.buff = StampingBuffer()
         if isinstance(self.buff, StampingBuffer):
@@ -151,7 +143,7 @@ def _publishing(bare: Method) -> Method:
         try:
             return bare(self, message, connection_override)
         finally:
-            recorder().end(mark, "" if connection_override is None else TO_ONE)
+            recorder().end(mark)
 
     return publish
 
