@@ -11,12 +11,18 @@ from tests.lab.commands import lab
 
 @pytest.mark.timeout(300)
 def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page) -> None:
-    """Every cell runs, the first check passes, and the form's answer is the area and the volume."""
+    """Every cell runs, the first check passes, and the form's answer is the area and the volume.
+
+    JupyterLab is left without some of its parts, and none that is there misses one of them.
+    """
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
     page.route("**/api/contents/**", _write_nothing)
     with lab("solutions/05_write_a_server.ipynb") as (_, address):
-        page.goto(address)
+        page.goto(address, timeout=READY)
         expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
         picture(page, "chapter-05-opened")
+        assert [words for words in said if "failed to activate" in words] == []
         page.get_by_role("menuitem", name="Run", exact=True).click()
         page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
         form = panel(page)
