@@ -1,17 +1,16 @@
 /* A scene on a canvas: only what lies in view, with colours taken from the page's style sheet. */
 import { axis } from "../plot/axes.js";
+import { bandsOf } from "./bands.js";
+import { cross, diamond, head, ring, tick, torn } from "./marks.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {{from: number, to: number}} View */
 
 const MARK = 14; // px: what is narrower is a small mark, what is wider a bar with a word in it
-const CLOSE = 3; // px: what is narrower and stands closer is not drawn one by one
 const APART = { message: 8, call: 3 }; // px: arrows of one pair of lanes that stand closer are thinned out
-const MANY = 5; // calls or messages that make a band
 const AXIS = 26; // px
 const COLOURS = ["text", "muted", "line", "ground", "raised", "error", "handler", "handler-edge", "wait-edge", "callback", "callback-edge"];
 const BLOCKED = ["lookup", "connect", "wait"];
-const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 const NAMES = { lookup: "look-up", connect: "connect", request: "request", publish: "publish" };
 
 export class Drawing {
@@ -184,7 +183,7 @@ export class Drawing {
 
   /** Draw what is too small and too close to be told apart as bands with a number; return the events in them. @param {CanvasRenderingContext2D} pen */
   #drawBands(pen) {
-    const bands = this.#bands();
+    const bands = bandsOf(this.scene, (time) => this.x(time), this.width, this.key);
     pen.textAlign = "center";
     for (const { events, left, right, count, what } of bands) {
       const [y, high] = this.scene.place(events[0]);
@@ -209,32 +208,6 @@ export class Drawing {
     pen.globalAlpha = 1;
     if (bands.length) this.thinned = true;
     return new Set(bands.flatMap((band) => band.events));
-  }
-
-  #bands() {
-    const { scene } = this;
-    /** @typedef {{events: number[], left: number, right: number, key: number, count: number, what: string}} Band */
-    /** @type {Map<string, Band>} */
-    const open = new Map();
-    /** @type {Band[]} */
-    const bands = [];
-    for (let each = 0; each < scene.count; each++) {
-      const [left, right] = [this.x(scene.start[each]), this.x(scene.end[each])];
-      const what = BANDS[/** @type {keyof BANDS} */ (scene.kindOf(each))];
-      if (!what || right < -8 || left > this.width + 8 || right - left >= CLOSE || scene.key[each] === this.key) continue;
-      const place = `${scene.lane[each]} ${scene.rows[each]} ${scene.depth[each]} ${what}`;
-      let band = open.get(place);
-      if (!band || left - band.right >= CLOSE) {
-        band = { events: [], left, right, key: -1, count: 0, what };
-        open.set(place, band);
-        bands.push(band);
-      }
-      band.events.push(each);
-      band.right = Math.max(band.right, right);
-      if (band.key !== scene.key[each]) band.count += 1;
-      band.key = scene.key[each];
-    }
-    return bands.filter((band) => band.count >= MANY);
   }
 
   /** @param {CanvasRenderingContext2D} pen @param {number} each @param {number} left @param {number} right */
@@ -351,72 +324,4 @@ function fit(element, width, height, ratio) {
 /** @param {Element} element */
 function font(element) {
   return getComputedStyle(element).fontFamily || "sans-serif";
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {number} x1 @param {number} y1 @param {number} x2 @param {number} y2 */
-function head(pen, x1, y1, x2, y2) {
-  const angle = Math.atan2(y2 - y1, x2 - x1);
-  pen.beginPath();
-  pen.moveTo(x2, y2);
-  for (const turn of [2.72, -2.72]) pen.lineTo(x2 + 7 * Math.cos(angle + turn), y2 + 7 * Math.sin(angle + turn));
-  pen.fill();
-}
-
-/** A bar whose right end is torn off: it went on. @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} wide @param {number} high */
-function torn(pen, x, y, wide, high) {
-  const teeth = Math.max(2, Math.round(high / 6));
-  pen.moveTo(x, y);
-  pen.lineTo(x + wide, y);
-  for (let tooth = 0; tooth < teeth; tooth++) {
-    pen.lineTo(x + wide - 6, y + ((tooth + 0.5) * high) / teeth);
-    pen.lineTo(x + wide, y + ((tooth + 1) * high) / teeth);
-  }
-  pen.lineTo(x, y + high);
-  pen.closePath();
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} high @param {string} colour @param {boolean} [dot] */
-function tick(pen, x, y, high, colour, dot = false) {
-  pen.fillStyle = colour;
-  pen.fillRect(x - 1, y, 2, high);
-  if (!dot) return;
-  pen.beginPath();
-  pen.arc(x, y + 2.5, 2.5, 0, 7);
-  pen.fill();
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {string} colour */
-function cross(pen, x, y, colour) {
-  pen.strokeStyle = colour;
-  pen.lineWidth = 2.5;
-  pen.beginPath();
-  pen.moveTo(x - 4, y - 4);
-  pen.lineTo(x + 4, y + 4);
-  pen.moveTo(x - 4, y + 4);
-  pen.lineTo(x + 4, y - 4);
-  pen.stroke();
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {string} edge @param {string} ground */
-function diamond(pen, x, y, edge, ground) {
-  pen.beginPath();
-  for (const [dx, dy] of [[0, -4], [4, 0], [0, 4], [-4, 0]]) pen.lineTo(x + dx, y + dy);
-  pen.closePath();
-  outlined(pen, edge, ground);
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {string} edge @param {string} ground */
-function ring(pen, x, y, edge, ground) {
-  pen.beginPath();
-  pen.arc(x, y, 3.5, 0, 7);
-  outlined(pen, edge, ground);
-}
-
-/** @param {CanvasRenderingContext2D} pen @param {string} edge @param {string} ground */
-function outlined(pen, edge, ground) {
-  pen.fillStyle = ground;
-  pen.fill();
-  pen.strokeStyle = edge;
-  pen.lineWidth = 1.5;
-  pen.stroke();
 }

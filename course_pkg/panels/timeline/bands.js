@@ -1,0 +1,34 @@
+/* What stands too close to be told apart, gathered into bands: a pure function of a scene and of how wide its time is drawn. */
+
+/** @typedef {{events: number[], left: number, right: number, key: number, count: number, what: string}} Band */
+
+const CLOSE = 3; // px: what is narrower and stands closer is not drawn one by one
+const MANY = 5; // calls or messages that make a band
+const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
+
+/** The bands among what is in view; an exchange that is looked at stays out of them. @param {import("./scene.js").Scene} scene
+ * @param {(time: number) => number} x where a time is drawn @param {number} width px @param {number} chosen the key of that exchange, or -1
+ * @returns {Band[]} */
+export function bandsOf(scene, x, width, chosen) {
+  /** @type {Map<string, Band>} */
+  const open = new Map();
+  /** @type {Band[]} */
+  const bands = [];
+  for (let each = 0; each < scene.count; each++) {
+    const [left, right] = [x(scene.start[each]), x(scene.end[each])];
+    const what = BANDS[/** @type {keyof BANDS} */ (scene.kindOf(each))];
+    if (!what || right < -8 || left > width + 8 || right - left >= CLOSE || scene.key[each] === chosen) continue;
+    const place = `${scene.lane[each]} ${scene.rows[each]} ${scene.depth[each]} ${what}`;
+    let band = open.get(place);
+    if (!band || left - band.right >= CLOSE) {
+      band = { events: [], left, right, key: -1, count: 0, what };
+      open.set(place, band);
+      bands.push(band);
+    }
+    band.events.push(each);
+    band.right = Math.max(band.right, right);
+    if (band.key !== scene.key[each]) band.count += 1;
+    band.key = scene.key[each];
+  }
+  return bands.filter((band) => band.count >= MANY);
+}
