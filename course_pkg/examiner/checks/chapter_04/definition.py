@@ -20,7 +20,7 @@ MARK = "\ufeff"
     points=2,
     goal="Write Lamp.srv as it is described.",
     needs=[f"file:{FILE}"],
-    deadline=90.0,
+    deadline=60.0,
 )
 def the_lamp(exam: Exam) -> None:
     """Read the text as ROS does, hold it against the description, and build it elsewhere."""

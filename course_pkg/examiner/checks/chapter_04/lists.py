@@ -27,7 +27,7 @@ add_service_files(FILES lamp.srv)
     points=2,
     goal="Repair CMakeLists.txt: the build passes, and Python finds the type.",
     needs=[f"file:{FILE}"],
-    deadline=90.0,
+    deadline=60.0,
     start=START,
 )
 def the_list_file(exam: Exam) -> None:

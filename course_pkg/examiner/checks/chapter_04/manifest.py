@@ -29,7 +29,7 @@ START = f"""%%writefile {FILE}
     points=2,
     goal="Repair package.xml: catkin takes it, and it names what the package needs.",
     needs=[f"file:{FILE}"],
-    deadline=90.0,
+    deadline=60.0,
     start=START,
 )
 def the_manifest(exam: Exam) -> None:

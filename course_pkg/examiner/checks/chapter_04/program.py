@@ -35,7 +35,7 @@ START = f"""%%writefile {FILE}
     points=3,
     goal="Write lamp_server.py, which rosrun finds, and which serves /lamp as lamp_services/Lamp.",
     needs=[f"file:{FILE}"],
-    deadline=120.0,
+    deadline=60.0,
     start=START,
 )
 def the_program(exam: Exam) -> None:

@@ -29,7 +29,7 @@ START = f"""\
     points=2,
     goal="Write a launch file that starts a second turtle only where it is asked for.",
     needs=[f"file:{FILE}"],
-    deadline=80.0,
+    deadline=60.0,
     start=START,
 )
 def two_turtles_or_one(exam: Exam) -> None:
