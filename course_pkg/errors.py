@@ -27,6 +27,9 @@ CourseError
 │   └── AnswersBroken: the file of right and wrong answers cannot be read
 ├── CameraSilent: the camera of chapter 03's shop says nothing, so nobody can tell who is there
 ├── AuthoringError: a solution notebook cannot be taken as it is
+├── GradingError: submissions cannot be graded as they are, or not here
+│   ├── WallsMissing: this machine cannot keep a submission from the rest of it
+│   └── WardFailed: the process that runs submissions ended, or never began
 ├── PanelError: a panel cannot do what a cell asked of it
 │   ├── NothingPicked: no service, or none that has a form
 │   ├── CallUnderWay: one call at a time
@@ -214,6 +217,18 @@ class CameraSilent(CourseError):
 
 class AuthoringError(CourseError):
     """A solution notebook cannot be taken as it is."""
+
+
+class GradingError(CourseError):
+    """Submissions cannot be graded as they are, or not here."""
+
+
+class WallsMissing(GradingError):
+    """This machine cannot keep a submission from the rest of it."""
+
+
+class WardFailed(GradingError):
+    """The process that runs submissions ended, or never began."""
 
 
 class PanelError(CourseError):

@@ -21,6 +21,7 @@ class Submission:
     origin: str  # the file's path inside what was handed in
     late: float = 0.0  # days after the deadline
     problem: str = ""
+    notes: tuple[str, ...] = ()  # what was out of the ordinary about how it was handed in
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,7 @@ class Grade:
     factor: float = 1.0  # of the points, for being late
     key: str = ""  # of submission, reference and checks
     origin: str = ""
+    problem: str = ""  # the submission's, where there was one: then nothing was examined
 
     @property
     def earned(self) -> float:
