@@ -1,0 +1,106 @@
+"""What comes from a submission is harmless where it goes."""
+
+from __future__ import annotations
+
+import pytest
+
+from course_pkg.grading import clean
+
+NASTY = {
+    "colours": ("\x1b[31mred\x1b[0m", "red"),
+    "a title for the terminal": ("\x1b]0;owned\x07x", "x"),
+    "a link of the terminal": ("\x1b]8;;http://x.example\x1b\\label\x1b]8;;\x1b\\", "label"),
+    "an eight-bit escape": ("\x9b31mred", "red"),
+    "a lone escape at the end": ("x\x1b", "x"),
+    "control characters": ("a\x00b\x07c\x7fd\x85e", "abcde"),
+    "letters turned round": ("abc\u202efdp.exe\u202c\u2066x\u2069", "abcfdp.exex"),
+    "letters unseen": ("a\u200bb\ufeffc\u00add\U000e0041", "abcd"),
+    "half of a pair": ("a\ud800b", "a\ufffdb"),
+    "no character": ("a\ufffeb\uffffc", "a\ufffdb\ufffdc"),
+    "line ends": ("a\r\nb\rc\u2028d", "a\nb\nc\nd"),
+    "left alone": ("größe → m²\t✓ 👩‍🔬", "größe → m²\t✓ 👩‍🔬"),
+}
+
+
+@pytest.mark.parametrize(("given", "kept"), NASTY.values(), ids=NASTY)
+def test_text_shows_what_it_is(given: str, kept: str) -> None:
+    """Nothing in it steers a terminal, hides or turns letters, or breaks XML or UTF-8."""
+    assert clean.text(given) == kept
+    assert clean.text(clean.text(given)) == kept
+
+
+@pytest.mark.parametrize(
+    "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
+)
+def test_length_is_bounded(given: str) -> None:
+    """However long a text is, little of it is kept; what was cut is cut only once."""
+    kept = clean.text(given)
+    assert len(kept) <= clean.LONG
+    assert kept.count("\n") <= clean.LINES
+    assert clean.text(kept) == kept
+
+
+def test_what_is_cut_says_so() -> None:
+    """A reader is told that there was more."""
+    assert clean.text("x" * 5000).endswith("… (cut)")
+
+
+def test_a_line_is_one_line() -> None:
+    """Line ends and tabs become blanks."""
+    assert clean.line(" a\n\tb\r\nc ") == "a b c"
+
+
+@pytest.mark.parametrize(
+    "start", ["=", "+", "-", "@", "\t=", "\r=", "\n=", " =", "\x00=", "\u200b=", "\uff1d"]
+)
+def test_no_cell_is_a_formula(start: str) -> None:
+    """A spreadsheet shows it as a text, whatever stands in front of the sign."""
+    assert clean.cell(start + "HYPERLINK(1)").startswith("'")
+
+
+def test_markup_is_text() -> None:
+    """A page shows it and does not follow it, in an attribute neither."""
+    assert clean.html("<script>'\"&") == "&lt;script&gt;&#x27;&quot;&amp;"
+
+
+def test_data_of_any_shape_is_cleaned() -> None:
+    """Texts in lists and dicts, the keys as well; numbers stay, and a list has an end."""
+    given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
+    cleaned = clean.data(given)
+    assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
+    assert len(cleaned["n"]) == clean.ITEMS
+
+
+@pytest.mark.parametrize("name", ["s01", "anna.b-c_1", "0"])
+def test_a_plain_name_stays(name: str) -> None:
+    """Nobody has to look for a file under another name."""
+    assert clean.file_name(name) == name
+
+
+WILD = ["../x", "..", ".", "", "/etc/passwd", "C:\\x", "CON", "con", "nul.txt", "com1", "a/b", "a\\b", ".hidden",
+        "a b", "Ä", "\ud800", "x" * 500, "a\x00b", "x.", "a..b", "-rf", "~", "$(id)", "S01", "a:b", "名前"]  # fmt: skip
+
+
+def test_a_wild_name_stays_in_its_folder() -> None:
+    """No separators, no devices, no dots in front, of bearable length; and each has another name."""
+    names = [clean.file_name(name) for name in WILD]
+    for name in names:
+        assert clean.PLAIN_NAME.fullmatch(name), name
+        assert not clean.DEVICES.fullmatch(name)
+        assert ".." not in name
+        assert len(name) <= clean.NAME
+    assert len({name.lower() for name in names}) == len(WILD)
+
+
+def test_a_name_cannot_take_the_place_of_another() -> None:
+    """Who calls themselves as the changed name of another student gets a third name."""
+    changed = clean.file_name("S01")
+    assert changed != clean.file_name("s01")
+    assert clean.file_name(changed) != changed
+
+
+def test_a_student_keeps_the_name() -> None:
+    """As it is written, in one form of Unicode; what had to be taken out still tells two names apart."""
+    assert clean.identity("Größe_12") == clean.identity("Gro\u0308ße_12") == "Größe_12"
+    assert clean.identity("a\x00") != clean.identity("a")
+    assert clean.identity("a\ud800") != clean.identity("a\ud801")
