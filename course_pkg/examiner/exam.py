@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import signal
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -208,7 +209,10 @@ class Exam:
             "kwargs": {key: _wired(value) for key, value in kwargs.items()},
             "within": within,
         }
-        return Outcome(self._ledger, label, self._link.ask("call", timeout=within + SLACK, **what), hints)
+        started = time.monotonic()
+        answer = self._link.ask("call", timeout=within + SLACK, **what)
+        took = time.monotonic() - started  # by this clock: the kernel could say anything
+        return Outcome(self._ledger, label, {**answer, "took": took}, hints)
 
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run `code` of the check's own in the kernel, apart from the student's names.

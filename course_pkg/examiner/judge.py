@@ -45,14 +45,19 @@ def main() -> None:
     os._exit(0)  # rospy's own ending sleeps for 0.6 s; what was registered is unregistered by now
 
 
-def judge(link: Link, results: Path) -> Report:
-    """Carry out the check that the desk asks for; write its record into `results`, then tell the desk."""
+def judge(link: Link, results: Path, only: str = "") -> Report:
+    """Carry out the check that the desk asks for; write its record into `results`, then tell the desk.
+
+    With `only`, no other check than that is carried out.
+    """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
     hello = link.receive(GREETING)
     check = str(hello.get("check"))
     try:
         if hello.get("protocol") != PROTOCOL:
             raise CourseError("The kernel runs another release of the course: restart the kernel.")
+        if only and check != only:
+            raise CourseError(f"The kernel asked for the check {check[:20]!r} where {only!r} is due.")
         report = _examined(find(check), link, seed)
         write_json(results / f"{check}.json", record(report, seed))
     except CourseError as error:

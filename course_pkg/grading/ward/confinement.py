@@ -1,0 +1,109 @@
+"""What a process gives up before it runs what a student wrote."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from typing import NoReturn
+
+from course_pkg.grading import namespaces
+
+STUDENT = 1000  # uid and gid, as the student's code sees them
+MEMORY = 1 << 30  # bytes of addresses a process
+TOGETHER = 768 << 20  # bytes of memory that all processes of a part may use
+PROCESSES = 200  # and threads: a launch file of three nodes has about 60
+DISK = 128 << 20  # bytes below /student, and as much below /tmp
+FILES = 20_000
+FILE = 64 << 20  # bytes of one file
+OPEN = 1024
+PROCESSOR = 120  # s
+
+TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: typing on behalf of somebody else
+FORBIDDEN = (
+    "acct add_key bpf chroot clock_adjtime clock_settime delete_module fanotify_init finit_module fsconfig "
+    "fsmount fsopen fspick init_module io_uring_enter io_uring_register io_uring_setup kexec_file_load "
+    "kexec_load keyctl lookup_dcookie mbind migrate_pages mount mount_setattr move_mount move_pages "
+    "name_to_handle_at open_by_handle_at open_tree perf_event_open personality pidfd_getfd pivot_root "
+    "process_vm_readv process_vm_writev ptrace quotactl reboot request_key setns settimeofday swapoff swapon "
+    "syslog umount2 unshare userfaultfd vhangup"
+).split()
+
+
+def in_cell(work: Callable[[], None], *, may_write: bool) -> NoReturn:
+    """Run `work` as a process with nothing: its own users, processes and memory folders, no privileges.
+
+    Called in a fork of a trusted process that is root of its user namespace. Never returns: when `work` is
+    over, all that it started is over, too. /student is the part's; without `may_write` it is for reading only.
+    """
+    namespaces.die_with_parent()
+    namespaces.unshare(
+        namespaces.USER
+        | namespaces.MOUNT
+        | namespaces.PROCESS
+        | namespaces.IPC
+        | namespaces.HOSTNAME
+        | namespaces.CGROUP
+    )
+    namespaces.become(STUDENT, STUDENT, outside=(0, 0))
+    for folder in ("/tmp", "/dev/shm"):  # noqa: S108 -- of this cell alone
+        namespaces.mount_memory(folder, size=DISK, files=FILES)
+    if not may_write:
+        namespaces.make_read_only("/student")
+    if first := os.fork():
+        _wait_and_exit(first)
+    namespaces.die_with_parent()
+    namespaces.mount_processes()
+    if second := os.fork():
+        _reap_until(second)
+    _without_privileges()
+    try:
+        work()
+    finally:
+        os._exit(0)
+
+
+def _without_privileges() -> None:
+    namespaces.limit(
+        AS=MEMORY,
+        NPROC=PROCESSES,
+        FSIZE=FILE,
+        NOFILE=OPEN,
+        CPU=PROCESSOR,
+        CORE=0,
+        MEMLOCK=0,
+        MSGQUEUE=0,
+    )
+    namespaces.give_up_privileges()
+    _refuse_calls()
+
+
+def _refuse_calls() -> None:
+    """Load a seccomp filter: calls that no exercise needs, and that walls were broken with, are refused."""
+    import errno
+
+    import seccomp
+
+    refused = seccomp.ERRNO(errno.EPERM)
+    rules = seccomp.SyscallFilter(seccomp.ALLOW)
+    for call in FORBIDDEN:
+        rules.add_rule(refused, call)
+    users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
+    rules.add_rule(refused, "clone", users)
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # its flags lie where no filter can look
+    for request in (TIOCSTI, TIOCLINUX):
+        rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
+    rules.load()
+
+
+def _wait_and_exit(child: int) -> NoReturn:
+    os.waitpid(child, 0)
+    os._exit(0)
+
+
+def _reap_until(child: int) -> NoReturn:
+    """Be the first process of a namespace: take in orphans, and end all with `child`."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    while os.wait()[0] != child:
+        pass
+    os._exit(0)

@@ -1,0 +1,54 @@
+"""The process from which submissions are forked: it has everything imported, and has never seen a check."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from contextlib import suppress
+from typing import NoReturn
+
+from course_pkg.examiner import checks
+from course_pkg.graph.leashed import descendants
+from course_pkg.grading import namespaces
+from course_pkg.grading.ward.job import job_from
+from course_pkg.grading.ward.leader import lead
+from course_pkg.grading.ward.student import prepare
+from course_pkg.grading.ward.wire import end, fork, receive, send
+
+
+def tend(sock: socket.socket, *, walls: bool) -> NoReturn:
+    """Fork a leader for each job that comes over `sock`, and say when it and all below it are gone."""
+    namespaces.adopt_orphans()
+    if walls:
+        _forget_checks()
+    shell = prepare()
+    try:
+        send(sock, {"ready": True})
+        while True:
+            _, (job_file, said, errands) = receive(sock)
+            with os.fdopen(job_file, "rb") as file:
+                job = job_from(json.loads(file.read()))
+            leader = fork(lambda: lead(job, shell, sock, said, errands, walls=walls))  # noqa: B023
+            os.close(said)
+            os.close(errands)
+            status = os.waitpid(leader, 0)[1]
+            _clear_away()
+            send(sock, {"over": status})
+    except (EOFError, OSError):
+        os._exit(0)
+
+
+def _forget_checks() -> None:
+    """Cover the folder of the checks: of all that is forked from here, nothing can read it."""
+    namespaces.unshare(namespaces.MOUNT)
+    for folder in checks.__path__:
+        namespaces.mount_memory(folder, read_only=True)
+
+
+def _clear_away() -> None:
+    """End whatever is left below this process, and forget it; behind walls nothing is."""
+    while left := descendants(os.getpid()):
+        end(left)
+        with suppress(ChildProcessError):
+            os.waitpid(-1, 0)
