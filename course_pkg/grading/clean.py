@@ -1,4 +1,4 @@
-"""Whatever comes from a submission, made harmless for where it goes: a page, a table, XML, the name of a file.
+"""Whatever comes from a submission, made harmless for a page, a table, XML and the name of a file.
 
 The one place for it. A text that was cleaned stays as it is when it is cleaned again.
 """

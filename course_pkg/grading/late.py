@@ -25,7 +25,7 @@ LARGEST = 1_000_000  # bytes of a table
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """What lateness costs: `percent` of the points for each day that has begun; nothing is left after `days`."""
+    """What lateness costs: `percent` of the points for each day begun; nothing is left after `days`."""
 
     percent: float = 0.0
     days: float = math.inf
@@ -40,7 +40,7 @@ class LatePolicy:
 
 
 def late_policy(words: str) -> LatePolicy:
-    """Return the policy that `words` say, such as "10% a day, 3 days"; an empty text or "none" costs nothing."""
+    """Return the policy in `words`, such as "10% a day, 3 days"; an empty text or "none" costs nothing."""
     if words.strip().lower() in ("", "none"):
         return LatePolicy()
     found = POLICY.fullmatch(words.strip())

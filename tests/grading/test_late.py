@@ -35,7 +35,7 @@ def _table(folder: Path, content: str | bytes) -> Path:
     ],
 )
 def test_what_lateness_costs(words: str, late: float, factor: float) -> None:
-    """Each day that has begun costs its share; after the last nothing is left, and never less than nothing."""
+    """Each day that has begun costs its share; after the last nothing is left, never less than nothing."""
     assert late_policy(words).factor(late) == pytest.approx(factor)
 
 

@@ -1,0 +1,107 @@
+"""Whose a file is, from the path that an instructor or a platform gave it.
+
+SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
+Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
+lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE if so, -2: handed in three times
+assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
+submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+
+MOODLE = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<rest>.*)")
+CANVAS = re.compile(
+    r"(?P<name>[^_]+(?:_[^_\d][^_]*)*?)(?P<late>_LATE)?_(?P<id>\d{1,19})_(?P<submission>\d{2,19})_(?P<rest>.+)"
+)
+GRADESCOPE = re.compile(r"submission_\d+")
+METADATA = "submission_metadata.yml"
+WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
+AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
+NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)  # some systems add an ending
+Submitters = Mapping[str, Sequence[str]]  # by the name of Gradescope's folder
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A file of a student's, by its path alone."""
+
+    student: str  # empty where nothing tells
+    stem: str  # of the file, as the student named it; empty for what is no notebook
+    attempt: int = 0  # as the platform counts
+    marked_late: bool = False
+
+
+def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
+    """Return whose the file is: one student's, or those of a group."""
+    *folders, name = parts
+    for folder in folders:
+        if GRADESCOPE.fullmatch(folder):
+            return [_claim(student, name) for student in submitters.get(folder, [folder])]
+        if found := MOODLE.fullmatch(folder):
+            return [_claim(f"{found['name']}_{found['id']}", name)]
+    if found := MOODLE.fullmatch(name):
+        return [_claim(f"{found['name']}_{found['id']}", found["rest"])]
+    if not folders and (found := CANVAS.fullmatch(name)):
+        return [_claim(f"{found['name']}_{found['id']}", found["rest"], late=bool(found["late"]))]
+    return [_claim(folders[0] if folders else "", name)]
+
+
+def _claim(student: str, name: str, *, late: bool = False) -> Claim:
+    found = NOTEBOOK.fullmatch(name)
+    if not found:
+        return Claim(clean.identity(student), "", marked_late=late)
+    again = AGAIN.search(found["stem"])
+    attempt = int((again["canvas"] or again["browser"])[:6]) if again else 0
+    return Claim(clean.identity(student), found["stem"] or "notebook", attempt, late)
+
+
+def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
+    """Return how many folders around the students' own there are: none, or one in which all of them lie.
+
+    `archive` is the name of the zip without its ending, and empty for a folder.
+    """
+    inside = [path for path in paths if path]
+    outer = {path[0] for path in inside if len(path) > 1 or NOTEBOOK.fullmatch(path[0])}
+    if len(outer) != 1 or any(len(path) == 1 and NOTEBOOK.fullmatch(path[0]) for path in inside):
+        return 0
+    name = outer.pop()
+    if WRAPPING.fullmatch(name) or (archive and name.lower() == archive.lower()):
+        return 1
+    below = {path[1] for path in inside if len(path) > 2}
+    several = len(below) > 1 and not any(re.match(r"\d\d(\D|$)", each) for each in below)
+    platform = all(MOODLE.fullmatch(path[1]) or CANVAS.fullmatch(path[1]) for path in inside if len(path) > 1)
+    return int(platform or bool(archive and several))
+
+
+def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
+    """Return who handed in each folder of an export: the student number, else the address, else the name.
+
+    The file is YAML with Ruby's symbols for keys. Every scalar is read as a text and no tag is followed.
+    """
+    loader: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+    try:
+        known = yaml.load(content, Loader=loader)  # noqa: S506 -- a base loader makes texts, lists and dicts only
+    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+        raise GradingError(f"{METADATA} cannot be read ({clean.line(error, 120)}); export again") from error
+    return {
+        str(folder): [_submitter(each) or str(folder) for each in record.get(":submitters") or [{}]]
+        for folder, record in (known.items() if isinstance(known, dict) else ())
+        if isinstance(record, dict) and isinstance(record.get(":submitters", []), list)
+    }
+
+
+def _submitter(record: object) -> str:
+    if not isinstance(record, dict):
+        return ""
+    values = [record.get(key) for key in (":sid", ":email", ":name")]
+    return next((value for value in values if isinstance(value, str) and value not in ("", "~", "null")), "")

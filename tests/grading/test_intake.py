@@ -1,0 +1,394 @@
+"""Every way in which notebooks are handed in, and everything that is handed in instead."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import struct
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import AuthoringError, GradingError
+from course_pkg.grading import handed_in
+from course_pkg.grading.grade import Submission
+from course_pkg.grading.intake import LATE, submission_of, submissions
+from tests.grading.handing_in import NAMES, folder, handed_out, raw, zipped
+
+FIVE, SIX = NAMES["05"], NAMES["06"]
+
+
+@pytest.fixture(scope="module")
+def five() -> bytes:
+    """Chapter 05 as it is handed out."""
+    return raw(handed_out("05"))
+
+
+@pytest.fixture(scope="module")
+def six() -> bytes:
+    """Chapter 06 as it is handed out."""
+    return raw(handed_out("06"))
+
+
+def _kept(found: list[Submission]) -> list[tuple[str, str]]:
+    """Return student and chapter of each, and hold that each can be graded."""
+    assert [each.problem for each in found] == [""] * len(found)
+    return [(each.student, each.chapter) for each in found]
+
+
+GRADESCOPE = b"""---
+submission_11:
+  :submitters:
+  - :name: Somebody
+    :sid: '0042'
+    :email: s42@example.com
+  - :name: Else
+    :sid: ''
+    :email: s43@example.com
+  :created_at: !ruby/object:ActiveSupport::TimeWithZone 2026-01-01 10:00:00.1 Z
+  :score: 0.0
+submission_12:
+  :submitters:
+  - :name: Third
+"""
+
+
+def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
+    """Folders by hand, Moodle's two, Canvas's, Gradescope's and nbgrader's; each in a folder and in a zip."""
+    layouts = {
+        "hand": (
+            {f"s02/{FIVE}": five, f"s01/{FIVE}": five, f"s01/{SIX}": six},
+            ["s01 05", "s01 06", "s02 05"],
+        ),
+        "deeper": ({f"s01/work/{FIVE}": five, f"s02/{FIVE}": five}, ["s01 05", "s02 05"]),
+        "one": ({f"s01/{FIVE}": five}, ["s01 05"]),
+        "wrapped": ({f"submissions/s01/{FIVE}": five}, ["s01 05"]),
+        "moodle": (
+            {
+                f"A One_11_assignsubmission_file_/{FIVE}": five,
+                f"Participant_12_assignsubmission_file/{FIVE}": five,
+                f"A Two_13_assignsubmission_file_{FIVE}": five,
+            },
+            ["A One_11 05", "A Two_13 05", "Participant_12 05"],
+        ),
+        "canvas": (
+            {"onea_123_4567_" + FIVE: five, "two-b_LATE_124_4568_05_write_a_server-1.ipynb": five},
+            ["onea_123 05", "two-b_124 05"],
+        ),
+        "gradescope": (
+            {
+                "assignment_9_export/submission_metadata.yml": GRADESCOPE,
+                f"assignment_9_export/submission_11/{FIVE}": five,
+                f"assignment_9_export/submission_12/{FIVE}": five,
+                f"assignment_9_export/submission_13/{FIVE}": five,
+            },
+            ["0042 05", "Third 05", "s43@example.com 05", "submission_13 05"],
+        ),
+        "nbgrader": (
+            {
+                f"submitted/s01/ps5/{FIVE}": five,
+                "submitted/s01/ps5/timestamp.txt": b"2026",
+                f"submitted/s02/ps5/{FIVE}": five,
+            },
+            ["s01 05", "s02 05"],
+        ),
+    }
+    for name, (files, expected) in layouts.items():
+        for source in (folder(tmp_path / name, files), zipped(tmp_path / f"{name}.zip", files)):
+            assert [" ".join(pair) for pair in _kept(submissions(source))] == expected, source.name
+
+
+@pytest.mark.parametrize("name", ["class.zip", "other.zip"])
+def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
+    """The folder that was zipped stands around the students', whatever the zip is called."""
+    files = {f"class/{student}/{FIVE}": five for student in ("s01", "s02")}
+    assert _kept(submissions(zipped(tmp_path / name, files))) == [("s01", "05"), ("s02", "05")]
+
+
+def test_canvas_marks_lateness(tmp_path: Path, five: bytes) -> None:
+    """It says that something is late, and not by how much: that becomes a note."""
+    [found] = submissions(folder(tmp_path, {"one_LATE_1_22_" + FIVE: five}))
+    assert found.notes == (LATE,)
+    assert found.late == 0.0
+
+
+def test_chapters_that_were_not_asked_for_stay_out(tmp_path: Path, five: bytes, six: bytes) -> None:
+    """Only those of `chapters`; one that does not exist is refused."""
+    source = folder(tmp_path, {f"s01/{FIVE}": five, f"s01/{SIX}": six})
+    assert _kept(submissions(source, ["06"])) == [("s01", "06")]
+    with pytest.raises(AuthoringError, match="chapter 77"):
+        submissions(source, ["77"])
+
+
+@pytest.mark.parametrize(
+    "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
+)
+def test_the_cells_tell_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
+    """A renamed notebook is the chapter that its exercises are of."""
+    [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
+    assert (found.chapter, found.problem) == ("05", "")
+    assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
+
+
+def test_a_notebook_with_no_exercise_left(tmp_path: Path) -> None:
+    """The ids of its other cells tell the chapter."""
+    notebook = handed_out("05")
+    notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
+    [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
+    assert (found.chapter, found.problem) == ("05", "")
+
+
+def test_the_last_of_two_is_taken(tmp_path: Path, five: bytes) -> None:
+    """The highest number of a platform, then the newest; the other is named."""
+    source = folder(
+        tmp_path,
+        {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
+    )
+    [found] = submissions(source)
+    assert "server-10" in found.origin
+    assert "server-2" in found.notes[0]
+    source = folder(tmp_path / "again", {"s01/05_a.ipynb": five, "s01/05_b.ipynb": five})
+    os.utime(source / "s01/05_b.ipynb", (1, 1))
+    [found] = submissions(source)
+    assert found.origin == "s01/05_a.ipynb"
+    assert "05_b" in found.notes[0]
+
+
+def test_a_broken_one_does_not_hide_a_good_one(tmp_path: Path, five: bytes) -> None:
+    """Of two files for a chapter the one that can be read is taken, be it the older."""
+    source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
+    [found] = submissions(source)
+    assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
+    assert "(2)" in found.notes[0]
+
+
+def test_litter_is_left_alone(tmp_path: Path, five: bytes) -> None:
+    """What systems and editors leave behind was not handed in."""
+    litter = [
+        "__MACOSX/s01/._" + FIVE,
+        "s01/.ipynb_checkpoints/" + FIVE,
+        "s01/.DS_Store",
+        ".git/x.ipynb",
+        "s01/Thumbs.db",
+    ]
+    files = {f"s01/{FIVE}": five, **dict.fromkeys(litter, b"x")}
+    for source in (folder(tmp_path / "a", files), zipped(tmp_path / "a.zip", files)):
+        assert _kept(submissions(source)) == [("s01", "05")]
+
+
+DEEP = b'{"cells": ' + b"[" * 100_000 + b"]" * 100_000 + b"}"
+BAD = {
+    "empty": (b" \n", "empty"),
+    "not JSON": (b"{", "not JSON"),
+    "not UTF-8": (b'{"cells": ["\xff"]}', "not JSON"),
+    "a number of many digits": (b'{"cells": ' + b"9" * 10_000 + b"}", "not JSON"),
+    "a list": (b"[]", "nothing with cells"),
+    "no cells": (b'{"nbformat": 4}', "no cells"),
+    "cells that are none": (b'{"cells": {"a": 1}}', "no cells"),
+    "nested": (DEEP, "not JSON"),
+    "brackets": (b'{"cells": [' + b"[]," * 500_000 + b"[]]}", "500000"),
+    "many cells": (json.dumps({"cells": [{}] * 50_001}).encode(), "50000"),
+    "a web page": (b"<!DOCTYPE html><html>", "Download"),
+    "merge marks": (b"<<<<<<< HEAD\n{}", "merged"),
+    "a PDF": (b"%PDF-1.7", "PDF"),
+    "a zip": (b"PK\x03\x04", "zip"),
+    "an old one with nothing in it": (b'{"nbformat": 3, "worksheets": 3}', "no cells"),
+    "too large": (b" " * (handed_in.LARGEST + 1), "20 MiB"),
+}
+
+
+@pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
+def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
+    """It is a submission for its chapter, with a problem that names the file and what to do."""
+    for source in (
+        folder(tmp_path / "a", {f"s01/{FIVE}": content}),
+        zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
+    ):
+        [found] = submissions(source)
+        assert (found.student, found.chapter, found.content) == ("s01", "05", b"")
+        assert FIVE in found.problem
+        assert words in found.problem or "some hundred times" in found.problem
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("s01/77_other.ipynb", "no chapter 77"),
+        ("s01/mine.ipynb", "name it as"),
+        ("s01/notes.pdf", "no notebook"),
+        ("s01/all.zip", "archive within"),
+        (FIVE, "nothing tells whose"),
+    ],
+)
+def test_what_cannot_be_placed(tmp_path: Path, name: str, words: str) -> None:
+    """A chapter that does not exist, a file of another kind, and one of nobody's."""
+    [found] = submissions(folder(tmp_path, {name: b'{"cells": []}'}))
+    assert words in found.problem
+    assert found.chapter == ""
+
+
+def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
+    """They stand beside the notebook's own submission, and name what else there was."""
+    others = {f"s01/photo_{number}.png": b"x" for number in range(9)}
+    found = submissions(folder(tmp_path, {f"s01/{FIVE}": five, **others}))
+    assert [each.chapter for each in found] == ["", "05"]
+    assert "5 more" in found[0].problem
+
+
+def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
+    """Neither to a file nor to a folder; and what they point to is not read."""
+    secret = folder(tmp_path / "secret", {f"s09/{FIVE}": five})
+    source = folder(tmp_path / "in", {f"s03/{FIVE}": five})
+    (source / "s01").mkdir()
+    (source / "s01" / FIVE).symlink_to(secret / "s09" / FIVE)
+    (source / "s02").symlink_to(secret / "s09")
+    found = submissions(source)
+    assert [(each.student, bool(each.problem)) for each in found] == [
+        ("", True),
+        ("s01", True),
+        ("s03", False),
+    ]
+    assert "link" in found[1].problem
+    assert not any(each.content for each in found[:2])
+
+
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    """What is no ordinary file is told, at once."""
+    (tmp_path / "s01").mkdir()
+    os.mkfifo(tmp_path / "s01" / FIVE)
+    [found] = submissions(tmp_path)
+    assert "no ordinary file" in found.problem
+
+
+def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The instructor is told to mend its rights."""
+
+    def refuse(*_: object) -> int:
+        raise PermissionError(13, "Permission denied")
+
+    source = folder(tmp_path, {f"s01/{FIVE}": five})
+    monkeypatch.setattr(os, "open", refuse)
+    [found] = submissions(source)
+    assert "Permission denied" in found.problem
+
+
+@pytest.mark.parametrize(
+    "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
+)
+def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
+    """Nothing is written anywhere, and what they name is not graded."""
+    [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
+    assert "leads out" in found.problem
+    assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
+
+
+def test_a_link_in_a_zip(tmp_path: Path) -> None:
+    """It is not followed, for a path is all that it holds."""
+    source = zipped(
+        tmp_path / "a.zip", {f"s01/{FIVE}": b"/etc/passwd"}, external_attr=(stat.S_IFLNK | 0o777) << 16
+    )
+    [found] = submissions(source)
+    assert "link" in found.problem
+
+
+def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
+    """Neither one that says how large it is, nor one that lies; the others are graded."""
+    bomb = b" " * (handed_in.LARGEST - 5)
+    source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
+    bad, good = submissions(source)
+    assert "some hundred times" in bad.problem
+    assert good.content == five
+    liar = zipped(tmp_path / "b.zip", {f"s01/{FIVE}": b" " * (30 << 20)})
+    data = liar.read_bytes().replace(struct.pack("<L", 30 << 20), struct.pack("<L", 1000))
+    liar.write_bytes(data)
+    [found] = submissions(liar)
+    assert found.problem
+
+
+def test_all_that_a_zip_unpacks_to_is_bounded(
+    tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Past the sum the rest is told, and not read."""
+    monkeypatch.setattr(handed_in, "ALTOGETHER", len(five) * 5 // 2)
+    found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
+    assert [bool(each.problem) for each in found] == [False, False, True, True]
+
+
+def test_as_many_members_as_can_be_looked_at(
+    tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """More of them are told of."""
+    monkeypatch.setattr(handed_in, "MEMBERS", 2)
+    found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
+    assert [(each.student, bool(each.problem)) for each in found] == [
+        ("", True),
+        ("s00", False),
+        ("s01", False),
+    ]
+
+
+def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
+    """A wrong checksum, and a password."""
+    source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": five})
+    with zipfile.ZipFile(source) as archive:
+        middle = archive.infolist()[0].compress_size // 2
+    content = bytearray(source.read_bytes())
+    content[middle] ^= 0xFF
+    source.write_bytes(bytes(content))
+    [found] = submissions(source)
+    assert "damaged" in found.problem
+    locked = zipped(tmp_path / "b.zip", {f"s01/{FIVE}": five})
+    with zipfile.ZipFile(locked) as archive:
+        listed = archive.start_dir
+    content = bytearray(locked.read_bytes())
+    content[6] |= 1  # the flag for encryption, in the member's own header and in the list of members
+    content[listed + 8] |= 1
+    locked.write_bytes(bytes(content))
+    [found] = submissions(locked)
+    assert "password" in found.problem
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"x" * 1000, None])
+def test_a_source_that_is_none(tmp_path: Path, content: bytes | None) -> None:
+    """There is nothing to grade, so the instructor learns what to give."""
+    source = tmp_path / "a.zip"
+    if content is not None:
+        source.write_bytes(content)
+    with pytest.raises(GradingError, match="SUBMISSIONS/<student>"):
+        submissions(source)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"{", b"- 1", b"a: [", b"\xff\xfe\x00", b"a: &x [*x]", b"submission_1: {':submitters': 3}", b""],
+)
+def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content: bytes) -> None:
+    """The folders' own names stand in for the students."""
+    files = {"submission_metadata.yml": content, f"submission_1/{FIVE}": five}
+    found = submissions(folder(tmp_path, files))
+    assert [each.student for each in found if not each.problem] == ["submission_1"]
+
+
+def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
+    """It has no submissions, which is no error."""
+    assert submissions(tmp_path) == []
+
+
+def test_one_notebook(tmp_path: Path, five: bytes) -> None:
+    """A single one is its folder's, or whose one says."""
+    source = folder(tmp_path, {f"s01/{FIVE}": five}) / "s01" / FIVE
+    assert _kept([submission_of(source), submission_of(source, "s07")]) == [("s01", "05"), ("s07", "05")]
+    with pytest.raises(GradingError, match="There is no"):
+        submission_of(tmp_path / "s01" / "none.ipynb")
+
+
+def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
+    """Each goes into a record, and none of them into another's."""
+    names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
+    found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
+    assert len({each.student for each in found}) == len(names)
+    json.dumps([each.student for each in found]).encode()
+    for each in found:
+        (each.student + each.origin).encode()
