@@ -85,6 +85,32 @@ def sync_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def site(options: SimpleNamespace) -> int:
+    """Write the course as a static site."""
+    from course_pkg.site import run_site
+
+    return run_site(
+        options.out,
+        student=options.student,
+        chapters=tuple(options.chapters),
+        execute=options.execute,
+        check=options.check,
+        pdf=options.pdf,
+        binder=options.binder,
+    )
+
+
+def site_arguments(parser: ArgumentParser) -> None:
+    """Declare what `course site` takes."""
+    parser.add_argument("chapters", nargs="*", metavar="CHAPTER", help="run only these if need be (all)")
+    parser.add_argument("--out", metavar="DIR", help="the folder to write to (one in the cache; it is named)")
+    parser.add_argument("--student", action="store_true", help="of the notebooks without answers")
+    parser.add_argument("--check", action="store_true", help="then look for dead links and what lacks words")
+    parser.add_argument("--pdf", action="store_true", help="then print all of it as a book, by Chromium")
+    parser.add_argument("--stored", dest="execute", action="store_false", help="run nothing anew")
+    parser.add_argument("--binder", metavar="URL", help="the address under which Binder opens the repository")
+
+
 def lock(_options: SimpleNamespace) -> int:
     """Pin every library."""
     from course_pkg.provision import Places
@@ -114,6 +140,12 @@ COMMANDS = {
         sync,
         frozenset({"course", "libraries"}),
         sync_arguments,
+    ),
+    "site": Command(
+        "write the course as pages that need no network and no kernel",
+        site,
+        frozenset({"course", "libraries"}),
+        site_arguments,
     ),
     "lock": Command("pin every library that pyproject.toml needs", lock),
 }

@@ -39,6 +39,7 @@ CourseError
 │   ├── NotAChoice: a case expects what is no option, or stands there twice
 │   ├── NotATopic: this cannot be the name of a topic
 │   └── NotAnImage: what should be shown is no picture, or not one that can be shown
+├── SiteError: the site cannot be built, or what was built is not as it should be
 └── (each subpackage adds its branch below, and to this picture)
 
 A message says what happened, where, and what to do next.
@@ -265,3 +266,7 @@ class NotATopic(PanelError):
 
 class NotAnImage(PanelError, TypeError):
     """What should be shown is no sensor_msgs/Image, or not one that can be shown."""
+
+
+class SiteError(CourseError):
+    """The site cannot be built, or is not as it should be."""

@@ -1,0 +1,1 @@
+(()=>{var o="course-theme",n=["system","light","dark"];function t(){try{let e=localStorage.getItem(o);return e&&n.includes(e)?e:"system"}catch{return"system"}}function s(e){e==="system"?delete document.documentElement.dataset.theme:document.documentElement.dataset.theme=e}s(t());})();

@@ -1,0 +1,35 @@
+/* The table of contents follows the reader: the section at the top of the window is the current one. */
+
+export function followContents() {
+  const links = [...document.querySelectorAll(".contents a")];
+  const sections = links.map((link) => document.getElementById(decodeURIComponent(link.hash.slice(1))));
+  if (!links.length) return;
+  const mark = () => {
+    const passed = sections.findLastIndex((section) => section && section.getBoundingClientRect().top < innerHeight / 4);
+    links.forEach((link, index) => {
+      if (index === passed) link.setAttribute("aria-current", "true");
+      else link.removeAttribute("aria-current");
+    });
+    reveal(links[passed]);
+  };
+  let waiting = false;
+  addEventListener("scroll", () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      mark();
+    });
+  }, { passive: true });
+  mark();
+}
+
+/** Keep the current link in sight, where the list is longer than the window. */
+function reveal(link) {
+  const list = link?.closest(".contents");
+  if (!list || list.scrollHeight <= list.clientHeight) return;
+  const { top, bottom } = link.getBoundingClientRect();
+  const box = list.getBoundingClientRect();
+  if (top < box.top) list.scrollTop -= box.top - top + 24;
+  else if (bottom > box.bottom) list.scrollTop += bottom - box.bottom + 24;
+}

@@ -1,0 +1,76 @@
+/* What a page gets that only makes sense with a script: links at headings, copy buttons, and scrolling by keyboard. */
+
+export function linkHeadings() {
+  for (const heading of document.querySelectorAll("article :is(h2, h3, h4)[id]")) {
+    const link = document.createElement("a");
+    link.className = "anchor";
+    link.href = `#${heading.id}`;
+    link.textContent = "#";
+    link.setAttribute("aria-label", `Link to “${heading.textContent}”`);
+    heading.append(" ", link);
+  }
+}
+
+export function copyButtons() {
+  for (const code of document.querySelectorAll("pre.in, pre.code")) {
+    const text = code.textContent ?? "";
+    const button = document.createElement("button");
+    button.type = "button";
+    button.className = "copy";
+    button.textContent = "Copy";
+    button.setAttribute("aria-label", "Copy this code");
+    button.addEventListener("click", async () => {
+      button.textContent = (await copied(text, button)) ? "Copied" : "Ctrl+C";
+      setTimeout(() => {
+        button.textContent = "Copy";
+      }, 1500);
+    });
+    const frame = document.createElement("div");
+    frame.className = "copied";
+    code.replaceWith(frame);
+    frame.append(code, button);
+  }
+}
+
+async function copied(text, button) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return bySelection(text, button); // a page in a folder, or one without https, has no clipboard
+  }
+}
+
+function bySelection(text, button) {
+  const area = document.createElement("textarea");
+  area.value = text;
+  area.className = "aside";
+  document.body.append(area);
+  area.select();
+  const done = document.execCommand("copy");
+  area.remove();
+  button.focus();
+  return done;
+}
+
+/** Whatever is wider than the page can be scrolled by keyboard, and has a name. */
+export function scrollable() {
+  const watched = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target)));
+  for (const box of document.querySelectorAll("pre, .wide")) watched.observe(box);
+}
+
+function reach(box) {
+  const over = box.scrollWidth > box.clientWidth || box.scrollHeight > box.clientHeight;
+  if (over === box.hasAttribute("tabindex")) return;
+  for (const [name, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", nameOf(box)]]) {
+    if (over) box.setAttribute(name, value);
+    else box.removeAttribute(name);
+  }
+}
+
+/** Regions want names that tell them apart. */
+function nameOf(box) {
+  const what = box.matches(".in") ? "Code" : box.matches(".out") ? "Output" : box.matches("pre") ? "Example" : "Table";
+  const peers = [...document.querySelectorAll("pre, .wide")];
+  return `${what} ${peers.indexOf(box) + 1}`;
+}

@@ -1,0 +1,46 @@
+/* Light, dark, or what the system says. A page in a folder may have no storage: then a choice lasts for the page. */
+
+const KEY = "course-theme";
+export const THEMES = ["system", "light", "dark"];
+
+/** @returns {string} */
+export function chosen() {
+  try {
+    const kept = localStorage.getItem(KEY);
+    return kept && THEMES.includes(kept) ? kept : "system";
+  } catch {
+    return "system";
+  }
+}
+
+/** @param {string} theme */
+export function show(theme) {
+  if (theme === "system") delete document.documentElement.dataset.theme;
+  else document.documentElement.dataset.theme = theme;
+}
+
+/** @param {string} theme */
+function keep(theme) {
+  try {
+    localStorage.setItem(KEY, theme);
+  } catch {
+    // no storage here
+  }
+}
+
+/** Let a button go round the themes. @param {HTMLButtonElement} button */
+export function themeButton(button) {
+  let theme = chosen();
+  const say = () => {
+    button.textContent = { system: "Auto", light: "Light", dark: "Dark" }[theme] ?? "";
+    button.setAttribute("aria-label", `Colours: ${theme === "system" ? "as the system has them" : theme}`);
+  };
+  button.addEventListener("click", () => {
+    theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
+    show(theme);
+    keep(theme);
+    say();
+  });
+  button.hidden = false;
+  say();
+}

@@ -1,0 +1,70 @@
+"""What the site says about a chapter before anybody opens it, read out of its notebook."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from course_pkg.authoring.cells import Notebook, code_cells, exercise_of, points_of
+
+LABEL = re.compile(r"\*\*(?P<label>You will|You need|Time)\*\*:?\s*(?P<text>.*?)(?=\n\n|\Z)", re.DOTALL)
+TITLE = re.compile(r"# (?P<title>.+)")
+MINUTES = re.compile(r"(?P<minutes>\d+) minutes")
+
+
+class Chapter(NamedTuple):
+    """A chapter as the syllabus lists it. `lead`, `will` and `need` are Markdown, `minutes` 0 if untold."""
+
+    name: str  # of its files: 05_write_a_server
+    title: str
+    lead: str
+    will: str
+    need: str
+    minutes: int
+    points: tuple[int, ...]  # of its exercises
+
+    @property
+    def number(self) -> str:
+        """Its number as two digits."""
+        return self.name[:2]
+
+    @property
+    def page(self) -> str:
+        """The file of its page."""
+        return f"{self.name}.html"
+
+    @property
+    def full_title(self) -> str:
+        """Its number and its title, as links name it."""
+        return f"{self.number} {self.title}"
+
+
+def chapter_of(name: str, notebook: Notebook) -> Chapter:
+    """Return what the notebook called `name` says about itself in its first cell and its exercises."""
+    first = str(notebook["cells"][0]["source"]) if notebook["cells"] else ""
+    title = TITLE.match(first)
+    labels = {found["label"]: found["text"].strip() for found in LABEL.finditer(first)}
+    minutes = MINUTES.search(labels.get("Time", ""))
+    points = (points_of(cell) or 0 for cell in code_cells(notebook) if exercise_of(cell))
+    return Chapter(
+        name,
+        title["title"].strip() if title else name,
+        _lead(first),
+        labels.get("You will", ""),
+        labels.get("You need", ""),
+        int(minutes["minutes"]) if minutes else 0,
+        tuple(points),
+    )
+
+
+def hours(chapters: Sequence[Chapter]) -> str:
+    """Return how long `chapters` take together, in words."""
+    total = sum(chapter.minutes for chapter in chapters)
+    whole, rest = divmod(total, 60)
+    return f"{whole} hours" + (f" and {rest} minutes" if rest else "") if whole else f"{rest} minutes"
+
+
+def _lead(first: str) -> str:
+    paragraphs = first.split("\n\n")[1:]
+    return next((text for text in paragraphs if not text.startswith("**")), "")

@@ -1,0 +1,93 @@
+"""Code as HTML, with as little markup as its colours need: a page is mostly code."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from html import escape
+from itertools import groupby
+
+from pygments.lexer import Lexer
+from pygments.lexers import get_lexer_by_name, get_lexer_for_filename
+from pygments.token import Comment, Keyword, Name, Number, Operator, String, Token, _TokenType
+from pygments.util import ClassNotFound
+
+# What gets a colour, the narrower kind first; the letters are classes in site.css.
+COLOURS = (
+    (Comment, "c"),
+    (String.Doc, "c"),
+    (String, "s"),
+    (Number, "m"),
+    (Keyword, "k"),
+    (Operator.Word, "k"),
+    (Name.Function, "f"),
+    (Name.Class, "f"),
+    (Name.Decorator, "f"),
+    (Name.Tag, "k"),
+    (Name.Attribute, "f"),
+    (Name.Builtin, "b"),
+    (Name.Exception, "b"),
+)
+MAGIC = re.compile(r"%%(?P<name>\w+)[ \t]*(?P<rest>.*)\n")
+SHELLS = ("bash", "sh", "script")
+FILES = {".srv": "text", ".msg": "text", ".launch": "xml"}  # what Pygments knows by no name
+
+
+class Highlighter:
+    """Colours cells and fenced blocks; a lexer is made once for each language."""
+
+    def __init__(self) -> None:
+        self._lexers: dict[str, Lexer] = {}
+
+    def cell(self, source: str) -> str:
+        """Return a code cell as HTML: Python, or what its magic in the first line says that it holds."""
+        magic = MAGIC.match(source)
+        if not magic:
+            return self.block(source, "ipython3")
+        first, rest = source[: magic.end()], source[magic.end() :]
+        return f'<span class="k">{escape(first, quote=False)}</span>' + self.block(rest, _language(magic))
+
+    def block(self, source: str, language: str) -> str:
+        """Return `source` as HTML, coloured where its language is known."""
+        lexer = self._lexer(language)
+        coloured = ((_colour(kind), text) for kind, text in lexer.get_tokens(source.rstrip("\n")))
+        return "".join(_runs(coloured)).rstrip("\n")
+
+    def _lexer(self, language: str) -> Lexer:
+        if language not in self._lexers:
+            self._lexers[language] = _lexer_of(language)
+        return self._lexers[language]
+
+
+def _language(magic: re.Match[str]) -> str:
+    if magic["name"] == "writefile":
+        return f"file {magic['rest'].split()[-1]}" if magic["rest"].strip() else "text"
+    return "bash" if magic["name"] in SHELLS else "ipython3"
+
+
+def _lexer_of(language: str) -> Lexer:
+    file = language.removeprefix("file ")
+    suffix = f".{file.rpartition('.')[2]}"
+    try:
+        if file == language:
+            return get_lexer_by_name(language, stripnl=False)
+        return (
+            get_lexer_by_name(FILES[suffix])
+            if suffix in FILES
+            else get_lexer_for_filename(file, stripnl=False)
+        )
+    except ClassNotFound:
+        return get_lexer_by_name("text", stripnl=False)
+
+
+def _colour(kind: _TokenType) -> str:
+    return (
+        next((name for coloured, name in COLOURS if kind in coloured), "") if kind is not Token.Text else ""
+    )
+
+
+def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
+    """Join neighbours of one colour; blanks have none."""
+    for name, run in groupby(coloured, key=lambda pair: pair[0]):
+        text = escape("".join(text for _, text in run), quote=False)
+        yield f'<span class="{name}">{text}</span>' if name else text

@@ -1,0 +1,91 @@
+"""A notebook as the body of a page, by nbconvert's exporter and a template of our own."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
+
+import nbformat
+from nbconvert.exporters.html import HTMLExporter
+from nbconvert.exporters.templateexporter import TemplateExporter
+from nbconvert.filters import ansi2html
+from traitlets.config import Config
+
+from course_pkg.authoring.cells import Notebook, check_of, exercise_of
+from course_pkg.site.clean import Purifier
+from course_pkg.site.code import Highlighter
+from course_pkg.site.exhibits import EXHIBIT
+from course_pkg.site.prose import Prose, attribute
+
+HERE = Path(__file__).parent
+SHOWN = [EXHIBIT, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
+CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
+
+
+class Body(NamedTuple):
+    """The body of a page, and its headings: (level, anchor, text)."""
+
+    html: str
+    headings: list[tuple[int, str, str]]
+
+
+class Exporter(HTMLExporter):
+    """Exports the cells alone; `frame.html` puts a page around them. Cleans every output."""
+
+    template_data: ClassVar[Path] = HERE / "template"
+
+    def __init__(self) -> None:
+        settings = Config({"TemplateExporter": {"extra_template_basedirs": [str(self.template_data)]}})
+        super().__init__(config=settings, template_name="course")
+        self.highlight = Highlighter()
+        self._clean = Purifier()
+        self.register_filter("code", self.highlight.cell)
+        self.register_filter("clean", self._clean)
+        self.register_filter("terminal", terminal)
+        self.register_filter("exhibit", exhibit)
+        self.register_filter("picture", picture)
+        self.register_filter("exercise", exercise_of)
+        self.register_filter("check", check_of)
+
+    @property
+    def default_config(self) -> Config:
+        """Say which kinds of output a page can show, the best first; scripts are none of them."""
+        own = Config(
+            {"NbConvertBase": {"display_data_priority": SHOWN}, "Exporter": {"default_preprocessors": []}}
+        )
+        inherited = super().default_config.copy()
+        inherited.merge(own)
+        return inherited
+
+    def body(self, notebook: Notebook, prefix: str = "") -> Body:
+        """Return the cells of `notebook` as HTML; anchors begin with `prefix`."""
+        prose = Prose(self.highlight.block, prefix)
+        self.register_filter("prose", prose)
+        resources = {"prefix": prefix}
+        # HTMLExporter would parse the page once more, only to mend pictures without a description.
+        html, _ = TemplateExporter.from_notebook_node(self, nbformat.from_dict(notebook), resources)
+        return Body(str(html).strip(), prose.headings)
+
+
+def exhibit(data: dict[str, Any]) -> str:
+    """Return a panel's state as JSON that can stand inside a <script> element."""
+    text = json.dumps(data["state"], ensure_ascii=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c")
+
+
+def picture(data: str, kind: str, metadata: dict[str, Any]) -> str:
+    """Return a picture that the page carries in itself; as <img>, no script in an SVG can run."""
+    code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
+    about = metadata.get(kind, {})
+    size = "".join(f' {name}="{int(about[name])}"' for name in ("width", "height") if name in about)
+    alt = f' alt="{attribute(about["alt"])}"' if about.get("alt") else ""
+    return f'<img src="data:{kind};base64,{code}"{alt}{size}>'
+
+
+def terminal(text: str) -> str:
+    """Return what a terminal printed: its colours kept, its other controls carried out or dropped."""
+    lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
+    return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")

@@ -1,0 +1,77 @@
+"""The glossary: the words of the course, each with a link to where it first stands in bold."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import NamedTuple
+
+from course_pkg.authoring.cells import Notebook
+from course_pkg.site.chapters import Chapter
+from course_pkg.site.pages import Page, Press
+from course_pkg.site.texts import Heading, Section
+
+HERE = Path(__file__).parent
+
+
+class Entry(NamedTuple):
+    """A word, what it means, and the page and the name of the section that explains it, where one does."""
+
+    term: str
+    meaning: str
+    anchor: str
+    page: str
+    where: str
+
+
+class Glossary:
+    """All entries, in the order of the alphabet."""
+
+    def __init__(self, entries: Sequence[Entry]) -> None:
+        self.entries = sorted(entries, key=lambda entry: entry.term.lower())
+
+    @classmethod
+    def of(cls, texts: Sequence[tuple[Chapter, Notebook, Sequence[Heading]]]) -> Glossary:
+        """Return the glossary, its links leading into the chapters given."""
+        written: dict[str, str] = json.loads((HERE / "glossary.json").read_text("utf-8"))
+        return cls([_entry(term, meaning, texts) for term, meaning in written.items()])
+
+    def page(self, press: Press) -> Page:
+        """Return the glossary as a page."""
+        groups = groupby(self.entries, key=lambda entry: entry.term[0].upper())
+        letters = [(letter, list(entries)) for letter, entries in groups]
+        html = press.part("glossary.html.j2", letters=letters)
+        contents = [(2, letter.lower(), letter) for letter, _ in letters]
+        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", html, contents)
+
+    def sections(self) -> Iterator[Section]:
+        """Yield what the search looks through."""
+        for entry in self.entries:
+            yield Section("Glossary", f"glossary.html#{entry.anchor}", entry.term, entry.meaning)
+
+
+def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Sequence[Heading]]]) -> Entry:
+    anchor = "term-" + re.sub(r"[^a-z0-9]+", "-", term.lower()).strip("-")
+    for chapter, notebook, headings in texts:
+        if heading := _explained(term, notebook, headings):
+            return Entry(term, meaning, anchor, f"{chapter.page}#{heading[1]}", f"Chapter {chapter.number}")
+    return Entry(term, meaning, anchor, "", "")
+
+
+def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
+    """Return the heading of the section in which `term` first stands in bold."""
+    coming = iter(headings)
+    current = None
+    bold = re.compile(rf"\*\*{re.escape(term)}s?\*\*", re.IGNORECASE)
+    for cell in notebook["cells"]:
+        if cell["cell_type"] != "markdown":
+            continue
+        for line in cell["source"].split("\n"):
+            if re.match(r"#{1,4} ", line):
+                current = next(coming, current)
+            if bold.search(line):
+                return current
+    return None

@@ -1,0 +1,80 @@
+"""Markdown as the pages show it: no raw HTML, headings that can be linked to, links that lead to pages."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from html import escape, unescape
+from typing import Any
+
+from mistune import HTMLRenderer, create_markdown
+
+PLUGINS = ["strikethrough", "table", "task_lists", "def_list"]
+TAG = re.compile(r"<[^>]*>")
+NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
+
+
+class Prose:
+    """Renders the Markdown of one page; its headings get anchors of their own."""
+
+    def __init__(self, highlight: Callable[[str, str], str], prefix: str = "") -> None:
+        self.headings: list[tuple[int, str, str]] = []  # level, anchor, text
+        self._render = create_markdown(renderer=_Renderer(self, highlight), plugins=PLUGINS)
+        self._taken: set[str] = set()
+        self._prefix = prefix
+
+    def __call__(self, source: str) -> str:
+        """Return `source` as HTML."""
+        return str(self._render(source)).strip()
+
+    def heading(self, html: str, level: int) -> str:
+        """Note a heading, and return its anchor."""
+        text = words(html)
+        anchor = self._prefix + _anchor(text)
+        anchor = next(name for name in _numbered(anchor) if name not in self._taken)
+        self._taken.add(anchor)
+        self.headings.append((level, anchor, text))
+        return anchor
+
+
+class _Renderer(HTMLRenderer):
+    def __init__(self, page: Prose, highlight: Callable[[str, str], str]) -> None:
+        super().__init__(escape=True, allow_harmful_protocols=False)
+        self._page, self._highlight = page, highlight
+
+    def heading(self, text: str, level: int, **_attrs: Any) -> str:  # noqa: ANN401 -- mistune's
+        return f'<h{level} id="{self._page.heading(text, level)}">{text}</h{level}>\n'
+
+    def block_code(self, code: str, info: str | None = None) -> str:
+        return f'<pre class="code">{self._highlight(code, (info or "text").split()[0])}</pre>\n'
+
+    def link(self, text: str, url: str, title: str | None = None) -> str:
+        return super().link(text, page_of(url), title)
+
+
+def page_of(url: str) -> str:
+    """Return where a link of a notebook leads on the site: a chapter is a page."""
+    notebook = NOTEBOOK.fullmatch(url)
+    return f"{notebook['name']}.html{notebook['anchor'] or ''}" if notebook else url
+
+
+def words(html: str) -> str:
+    """Return the text of a piece of HTML."""
+    return unescape(TAG.sub("", html))
+
+
+def attribute(text: str) -> str:
+    """Return `text` as it stands between the quotes of an attribute."""
+    return escape(text, quote=True)
+
+
+def _anchor(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") or "section"
+
+
+def _numbered(name: str) -> Iterator[str]:
+    yield name
+    number = 2
+    while True:
+        yield f"{name}-{number}"
+        number += 1

@@ -1,0 +1,69 @@
+"""The front ends of all panels as one classic script, as a page in a folder loads no module."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import course_pkg
+
+PANELS = Path(course_pkg.__file__).parent / "panels"
+IMPORT = re.compile(r'^import \{(?P<names>[^}]*)\} from "(?P<from>\.{1,2}/[^"]+)";\n', re.MULTILINE)
+EXPORT = re.compile(r"^export (?P<rest>(?:async )?(?:function\*?|const|class) (?P<name>\w+))", re.MULTILINE)
+DEFAULT = re.compile(r"^export default \{ render \};\n?", re.MULTILINE)
+JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
+
+
+def panels_script(folder: Path = PANELS) -> str:
+    """Return a script that sets `coursePanels`: for each panel's name its front end, `{ render }`.
+
+    Every module of the panels becomes a function's scope, and stands there once, after those it imports.
+    """
+    modules = _Modules(folder)
+    fronts = {path.parent.name: path for path in sorted(folder.glob("*/*.js")) if DEFAULT.search(_text(path))}
+    bodies = "".join(text for path in fronts.values() for text in modules.needed(path))
+    table = ", ".join(f"{name}: {modules.name(path)}" for name, path in fronts.items())
+    return f'"use strict";\n{{\n{bodies}globalThis.coursePanels = {{ {table} }};\n}}\n'
+
+
+def panels_sheet(folder: Path = PANELS) -> str:
+    """Return the sheets of all panels, what they share first."""
+    return "\n".join(_text(path) for path in (folder / "look.css", *sorted(folder.glob("*/*.css"))))
+
+
+class _Modules:
+    """The modules of a folder, each given once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder.resolve()
+        self._given: set[Path] = set()
+
+    def name(self, path: Path) -> str:
+        """Return the constant that holds what the module at `path` exports."""
+        return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
+
+    def needed(self, path: Path) -> Iterator[str]:
+        """Yield the module at `path` after all that it imports, but none a second time."""
+        path = path.resolve()
+        if path in self._given:
+            return
+        self._given.add(path)
+        source = _text(path)
+        for found in IMPORT.finditer(source):
+            yield from self.needed(path.parent / found["from"])
+        yield self._scoped(path, source)
+
+    def _scoped(self, path: Path, source: str) -> str:
+        names = ["render"] if DEFAULT.search(source) else [found["name"] for found in EXPORT.finditer(source)]
+        body = IMPORT.sub(lambda found: self._bound(path, found), source)
+        body = JSDOC.sub("", DEFAULT.sub("", EXPORT.sub(r"\g<rest>", body)))
+        return f"const {self.name(path)} = (() => {{\n{body}\nreturn {{ {', '.join(names)} }};\n}})();\n"
+
+    def _bound(self, path: Path, found: re.Match[str]) -> str:
+        names = found["names"].replace(" as ", ": ")
+        return f"const {{{names}}} = {self.name(path.parent / found['from'])};\n"
+
+
+def _text(path: Path) -> str:
+    return path.read_text("utf-8")
