@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
 
 
+UNSAFE = "--unsafe-no-sandbox"
 INSIDE = "COURSE_INSIDE"  # set while the course's own interpreter runs this module
 
 
@@ -26,7 +27,7 @@ class Command(NamedTuple):
 
     summary: str
     run: Callable[[SimpleNamespace], int]
-    needs: frozenset[str] = frozenset({"course"})  # and "test"; "libraries" if it imports what is installed
+    needs: frozenset[str] = frozenset({"course"})  # and "grade", "test"; "libraries" if it imports some
     arguments: Callable[[ArgumentParser], None] | None = None
     rest: str = ""  # the words after such a command are another program's, and are handed on as they are
 
@@ -85,6 +86,75 @@ def sync_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def grade(options: SimpleNamespace) -> int:
+    """Grade what was handed in."""
+    from pathlib import Path
+
+    from course_pkg.grading.command import Options
+    from course_pkg.grading.command import grade as run_all
+
+    return run_all(
+        Options(
+            Path(options.submissions),
+            Path(options.out),
+            tuple(filter(None, options.chapters.split(","))),
+            options.jobs,
+            options.scheduler,
+            options.fresh,
+            options.walls,
+            Path(options.private) if options.private else None,
+            Path(options.late) if options.late else None,
+            options.late_policy,
+            options.validate,
+        )
+    )
+
+
+def grade_arguments(parser: ArgumentParser) -> None:
+    """Declare what `course grade` takes."""
+    parser.add_argument("submissions", help="a folder with STUDENT/NN_topic.ipynb, or a zip, or a platform's download")
+    parser.add_argument("--chapters", default="", metavar="05,06", help="only these chapters")
+    parser.add_argument("--out", default="grades", help="the folder for the reports (grades)")
+    parser.add_argument("--jobs", type=int, default=0, help="notebooks at once (two for each core)")
+    parser.add_argument("--scheduler", default="", metavar="tcp://…", help="a dask scheduler, for many machines")
+    parser.add_argument("--late", metavar="TABLE", help="a CSV file: student,days or student,chapter,days")
+    parser.add_argument("--late-policy", default="", metavar="WORDS", help="such as '10%% a day, 3 days'")
+    parser.add_argument(
+        "--validate",
+        choices=("none", "missing", "all"),
+        default="missing",
+        help="whose notebooks nbval runs, for feedback: those with points missing (the default), all, or none",
+    )
+    again = parser.add_mutually_exclusive_group()
+    again.add_argument("--resume", dest="fresh", action="store_false", help="go on where a run stopped (always)")
+    again.add_argument("--fresh", action="store_true", help="forget what was graded before")
+    _how_arguments(parser)
+
+
+def grade_one(options: SimpleNamespace) -> int:
+    """Grade one notebook."""
+    from pathlib import Path
+
+    from course_pkg.grading.command import grade_one as run_one
+
+    private = Path(options.private) if options.private else None
+    return run_one(Path(options.notebook), Path(options.out), walls=options.walls, private=private)
+
+
+def grade_one_arguments(parser: ArgumentParser) -> None:
+    """Declare what `course grade-one` takes."""
+    parser.add_argument("notebook", help="the notebook that was handed in")
+    parser.add_argument("--out", required=True, metavar="FILE", help="the JSON file for its grade")
+    _how_arguments(parser)
+
+
+def _how_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("--private", metavar="DIR", help="further checks and other points, which students never see")
+    parser.add_argument(
+        UNSAFE, dest="walls", action="store_false", help="run what students wrote with nothing around it"
+    )
+
+
 def site(options: SimpleNamespace) -> int:
     """Write the course as a static site."""
     from course_pkg.site import run_site
@@ -140,6 +210,18 @@ COMMANDS = {
         sync,
         frozenset({"course", "libraries"}),
         sync_arguments,
+    ),
+    "grade": Command(
+        "grade what students handed in, and write the reports",
+        grade,
+        frozenset({"course", "grade", "libraries"}),
+        grade_arguments,
+    ),
+    "grade-one": Command(
+        "grade one notebook into one file, for a cluster's array of jobs",
+        grade_one,
+        frozenset({"course", "grade", "libraries"}),
+        grade_one_arguments,
     ),
     "site": Command(
         "write the course as pages that need no network and no kernel",
@@ -205,7 +287,8 @@ def _enter_environment(command: Command, words: Sequence[str]) -> None:
     places = Places.of()
     if os.environ.get(INSIDE) == str(places.python):
         return
-    ensure(places, test="test" in command.needs)
+    walls = "grade" in command.needs and UNSAFE not in words
+    ensure(places, grade=walls, test="test" in command.needs)
     environment.apply(places)
     if "libraries" in command.needs:
         os.environ[INSIDE] = str(places.python)

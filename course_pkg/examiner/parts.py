@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from course_pkg.examiner.exam import Exam
 
 CHECKS = "course_pkg.examiner.checks"
+PRIVATE = "private_"  # modules of an instructor's own begin so, instead of with chapter_
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,16 @@ def part(
     return declare
 
 
+def exercise_of(check: str) -> str:
+    """Return the exercise that a part examines: "05.1" for itself, and for a private part such as "05.1.1"."""
+    return ".".join(check.split(".")[:2])
+
+
+def add_private(folder: str) -> None:
+    """Have the modules private_NN.py in `folder` declare parts, too: "05.1.1" is one more for exercise 05.1."""
+    importlib.import_module(CHECKS).__path__.append(folder)
+
+
 def chapters() -> list[str]:
     """Return the chapters that have checks, such as ["00", "05"]."""
     package = importlib.import_module(CHECKS)
@@ -68,9 +79,12 @@ def parts_of(chapter: str) -> list[Part]:
     """Return the parts of a chapter, such as "05", in the order of their ids."""
     if chapter not in chapters():
         raise UnknownCheck(f"no chapter {chapter!r} has checks: there are {', '.join(chapters()) or 'none'}")
-    module = importlib.import_module(f"{CHECKS}.chapter_{chapter}")
-    found = [value for value in vars(module).values() if isinstance(value, Part)]
-    _refuse_doubles(found, module.__name__)
+    package = importlib.import_module(CHECKS)
+    names = [f"chapter_{chapter}", f"{PRIVATE}{chapter}"]
+    there = {module.name for module in pkgutil.iter_modules(package.__path__)}
+    modules = [importlib.import_module(f"{CHECKS}.{name}") for name in names if name in there]
+    found = [value for module in modules for value in vars(module).values() if isinstance(value, Part)]
+    _refuse_doubles(found, modules[0].__name__)
     return sorted(found, key=lambda item: [int(number) for number in item.check.split(".")])
 
 

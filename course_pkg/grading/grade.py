@@ -5,7 +5,7 @@ Everything here goes through JSON unchanged: a record on the disk is all that a 
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from course_pkg.examiner.report import Report, report_from
@@ -48,6 +48,7 @@ class Grade:
     key: str = ""  # of submission, reference and checks
     origin: str = ""
     problem: str = ""  # the submission's, where there was one: then nothing was examined
+    private: tuple[str, ...] = ()  # parts of which students see the points alone
 
     @property
     def earned(self) -> float:
@@ -58,6 +59,16 @@ class Grade:
     def possible(self) -> int:
         """The points that there were to earn."""
         return sum(report.possible for report in self.reports)
+
+    def for_student(self) -> Grade:
+        """Return the grade with nothing in it that would tell how a private part is examined."""
+        shown = (
+            replace(report, goal="A further check.", rules=(), note="", printed="")
+            if report.check in self.private
+            else report
+            for report in self.reports
+        )
+        return replace(self, reports=tuple(shown))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the grade as plain data."""
@@ -71,5 +82,6 @@ def grade_from(data: dict[str, Any]) -> Grade:
         "reports": tuple(report_from(each) for each in data["reports"]),
         "cells": tuple(CellOutcome(**each) for each in data["cells"]),
         "notes": tuple(data["notes"]),
+        "private": tuple(data["private"]),
     }
     return Grade(**known)

@@ -46,14 +46,14 @@ def enter(descriptor: int, kind: int) -> None:
 
 
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
-    """In a user namespace just made, be `uid` and `gid`; `outside` is who this process is seen from there."""
+    """In a user namespace just made, be `uid` and `gid`; `outside` are those it had before."""
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
     Path("/proc/self/uid_map").write_text(f"{uid} {outside[0]} 1")
 
 
 def become_root() -> None:
-    """Be root of a user namespace of one's own, with mounts that nobody else sees; power over nothing else."""
+    """Turn into root of a user namespace of one's own, with mounts of one's own, and power over nothing else."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)
@@ -125,7 +125,7 @@ def give_up_privileges() -> None:
 
 
 def limit(**soft_and_hard: int) -> None:
-    """Set limits of this process and its children, by their names in `resource`: limit(NPROC=64)."""
+    """Set limits of this process and its children; NPROC=64 stands for RLIMIT_NPROC."""
     for name, value in soft_and_hard.items():
         which = getattr(resource, f"RLIMIT_{name}")
         _, hard = resource.getrlimit(which)

@@ -1,4 +1,4 @@
-"""A ward as the grader sees it: a process behind walls that is given the parts of submissions, one at a time."""
+"""A ward as the grader sees it: a process behind walls that is given parts, one at a time."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 from types import TracebackType
 from typing import IO
 
@@ -24,11 +25,13 @@ SLACK = 45.0  # s beyond a part's own limit until the ward itself is given up
 class Ward:
     """Runs parts; a context manager. After WardFailed it starts anew with the next part.
 
-    Leave it in the thread that entered it: what stands behind the wall ends with that thread.
+    What stands behind the wall ends with the thread that gave it its first part. `private` is the folder of an
+    instructor's extras, which no submission sees.
     """
 
-    def __init__(self, *, walls: bool = True) -> None:
+    def __init__(self, *, walls: bool = True, private: str = "") -> None:
         self._walls = walls
+        self._private = private
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
         self._heard = b""
@@ -63,15 +66,12 @@ class Ward:
 
     def _started(self) -> subprocess.Popen[bytes]:
         if self._process is None:
-            command = [
-                sys.executable,
-                "-m",
-                "course_pkg.grading.ward.main",
-                "walls" if self._walls else "none",
-            ]
+            command = [sys.executable, "-m", "course_pkg.grading.ward.main"]
+            command += ["walls" if self._walls else "none", self._private]
+            readable = [Path(self._private)] if self._private else []
             self._log, self._heard = tempfile.TemporaryFile(), b""  # noqa: SIM115 -- closed by close()
             self._process = subprocess.Popen(
-                enclosed(command) if self._walls else command,
+                enclosed(command, readable=readable) if self._walls else command,
                 env={} if self._walls else environment.merged(Places.of(), os.environ),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,

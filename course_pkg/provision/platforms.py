@@ -18,6 +18,7 @@ class Platform(NamedTuple):
     name: str
     bootstrap: tuple[str, ...]
     course: tuple[str, ...]
+    grade: tuple[str, ...]
     test: tuple[str, ...]
 
 
@@ -32,7 +33,8 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
                 entry["name"],
                 tuple(data["bootstrap"]),
                 (*data["course"], *entry["course"]),
-                tuple(entry["test"]),
+                tuple(data["grade"]),
+                (*data["grade"], *entry["test"]),
             )
     names = ", ".join(entry["name"] for entry in data["distributions"].values())
     raise SetupError(

@@ -26,9 +26,9 @@ class Step(NamedTuple):
     makes: Path | None = None
 
 
-def ensure(places: Places, *, test: bool = False) -> None:
+def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
     """Set up what is missing; where nothing is, this takes a few milliseconds and prints nothing."""
-    stages = steps_of(places, test=test)
+    stages = steps_of(places, grade=grade, test=test)
     if all(step.is_done() for stage in stages for step in stage):
         return
     places.make_cache()
@@ -46,16 +46,15 @@ def ensure(places: Places, *, test: bool = False) -> None:
         raise
 
 
-def steps_of(places: Places, *, test: bool = False) -> list[list[Step]]:
-    """Return the steps in stages; those of one stage do not depend on one another."""
+def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
+    """Return the steps in stages; those of one stage do not depend on one another. Tests need all."""
     stamps = Stamps(places.stamps)
-    names = ["course", "test"] if test else ["course"]
-    libraries = _library_step(places, stamps, names[-1])
+    libraries = _library_step(places, stamps, "test" if test else "course")
     catkin = _workspace_step(places, stamps)
     if places.conda:  # environment.yml has all that the packages and the libraries would be
         return [[catkin]]
     platform = read_platform(places.checkout)
-    wanted = [name for part in names for name in getattr(platform, part)]
+    wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
     return [
         [_bootstrap_step(platform.bootstrap, libraries)],
         [_package_step(f"ROS and tools from {platform.name}", wanted, stamps), libraries],

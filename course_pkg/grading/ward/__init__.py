@@ -1,4 +1,4 @@
-"""Where submissions run: a warm process behind walls forks what each part needs, and nothing is imported twice.
+"""Where submissions run: a warm process behind walls forks what a part needs; nothing is imported twice.
 
     course grade                    outside of every wall; trusts nothing but records
     └─ bwrap                        no network, no home, no solutions, a root that cannot be written

@@ -20,21 +20,24 @@ OPEN = 1024
 PROCESSOR = 120  # s
 
 TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: typing on behalf of somebody else
+# fmt: off
 FORBIDDEN = (
-    "acct add_key bpf chroot clock_adjtime clock_settime delete_module fanotify_init finit_module fsconfig "
-    "fsmount fsopen fspick init_module io_uring_enter io_uring_register io_uring_setup kexec_file_load "
-    "kexec_load keyctl lookup_dcookie mbind migrate_pages mount mount_setattr move_mount move_pages "
-    "name_to_handle_at open_by_handle_at open_tree perf_event_open personality pidfd_getfd pivot_root "
-    "process_vm_readv process_vm_writev ptrace quotactl reboot request_key setns settimeofday swapoff swapon "
-    "syslog umount2 unshare userfaultfd vhangup"
-).split()
+    "acct", "add_key", "bpf", "chroot", "clock_adjtime", "clock_settime", "delete_module", "fanotify_init",
+    "finit_module", "fsconfig", "fsmount", "fsopen", "fspick", "init_module", "io_uring_enter",
+    "io_uring_register", "io_uring_setup", "kexec_file_load", "kexec_load", "keyctl", "lookup_dcookie",
+    "mbind", "migrate_pages", "mount", "mount_setattr", "move_mount", "move_pages", "name_to_handle_at",
+    "open_by_handle_at", "open_tree", "perf_event_open", "personality", "pidfd_getfd", "pivot_root",
+    "process_vm_readv", "process_vm_writev", "ptrace", "quotactl", "reboot", "request_key", "setns",
+    "settimeofday", "swapoff", "swapon", "syslog", "umount2", "unshare", "userfaultfd", "vhangup",
+)
+# fmt: on
 
 
 def in_cell(work: Callable[[], None], *, may_write: bool) -> NoReturn:
     """Run `work` as a process with nothing: its own users, processes and memory folders, no privileges.
 
     Called in a fork of a trusted process that is root of its user namespace. Never returns: when `work` is
-    over, all that it started is over, too. /student is the part's; without `may_write` it is for reading only.
+    over, all that it started is over, too. /student is the part's, for reading only without `may_write`.
     """
     namespaces.die_with_parent()
     namespaces.unshare(

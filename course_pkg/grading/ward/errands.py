@@ -1,7 +1,7 @@
 """What a judge has done beside the kernel, in grading: commands run where the student's kernel cannot reach.
 
-In class the desk runs them. Here a kernel could say of a build that it went well, or of a program that it printed what
-it did not; so another process behind walls of its own does it, with the part's folder to read from.
+In class the desk runs them. Here a kernel could say of a build that it went well, or of a program that it
+printed what it did not; so another process behind walls of its own does it, and reads the part's folder.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ERRANDS = frozenset({"folder", "run", "start", "poll", "stop"})
 
 
 class SplitLink(Link):
-    """The judge's end of the wire, in two: commands go to the errand process, all else to the kernel's desk."""
+    """The judge's end of the wire, in two: commands go to the errands, all else to the kernel's desk."""
 
     def __init__(self, desk: socket.socket, errands: socket.socket) -> None:
         super().__init__(desk)

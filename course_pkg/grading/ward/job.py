@@ -22,11 +22,13 @@ class PartJob:
     after: str
     seed: int
     deadline: float  # s, of the check itself
+    settling: float = SETTLING
+    patience: float = ANSWER
 
     @property
     def limit(self) -> float:
         """Return after how many seconds everything of this part is ended."""
-        return SETTLING + ANSWER * len(self.answers) + self.deadline
+        return self.settling + self.patience * len(self.answers) + self.deadline
 
     def as_dict(self) -> dict[str, Any]:
         """Return the job as plain data."""

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from course_pkg.examiner.scripted import closed_port
-from course_pkg.graph.leashed import descendants
 from course_pkg.grading import namespaces
 from course_pkg.grading.ward import confinement
 from course_pkg.grading.ward.errands import run_errands
 from course_pkg.grading.ward.job import PartJob
 from course_pkg.grading.ward.student import attend, speaker
 from course_pkg.grading.ward.wire import end, fork, send
+from course_pkg.graph.leashed import descendants
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -34,7 +34,7 @@ TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # how a leader ends; told as it
 def lead(
     job: PartJob, shell: InteractiveShell, nursery: socket.socket, said: int, errands: int, *, walls: bool
 ) -> NoReturn:
-    """Start master, errands and student, and stay until the student has ended or somebody asks for the end."""
+    """Start master, errands and student; stay until the student has ended or somebody asks for the end."""
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     namespaces.adopt_orphans()
     folder = _place(walls=walls)

@@ -1,6 +1,7 @@
 """The trusted process of a ward: takes one job a line, and answers each with its outcome, a line.
 
-Started behind the outer wall with "walls" as its argument, or with "none" without one.
+Started behind the outer wall with "walls" as its first argument, or with "none" without one; the second is
+the folder of an instructor's private parts, or empty.
 """
 
 from __future__ import annotations
@@ -34,14 +35,14 @@ ENDINGS = {
 
 def main() -> None:
     """Serve jobs from stdin until it ends."""
-    walls = sys.argv[1] == "walls"
+    walls, private = sys.argv[1] == "walls", sys.argv[2]
     if walls:
         namespaces.become_root()
     ours, theirs = pair()
-    child = fork(lambda: _nursery(theirs, ours, walls=walls))
+    child = fork(lambda: _nursery(theirs, ours, private, walls=walls))
     theirs.close()
     receive(ours, STARTING)
-    _import_checks()
+    _import_checks(private)
     sys.stdout.write('{"ready": true}\n')
     sys.stdout.flush()
     for line in sys.stdin:
@@ -51,16 +52,18 @@ def main() -> None:
     end([child])
 
 
-def _nursery(theirs: socket.socket, ours: socket.socket, *, walls: bool) -> None:
+def _nursery(theirs: socket.socket, ours: socket.socket, private: str, *, walls: bool) -> None:
     ours.close()
     namespaces.die_with_parent()
-    nursery.tend(theirs, walls=walls)
+    nursery.tend(theirs, private, walls=walls)
 
 
-def _import_checks() -> None:
-    """Have every check imported, so that a judge costs a fork; the nursery was forked before, without them."""
-    from course_pkg.examiner.parts import every_part
+def _import_checks(private: str) -> None:
+    """Have every check imported, so that a judge costs a fork; the nursery, forked before, has none."""
+    from course_pkg.examiner.parts import add_private, every_part
 
+    if private:
+        add_private(private)
     list(every_part())
 
 
@@ -141,7 +144,7 @@ class Session:
         judge_part(self._job, network, port, desk, errands, out, walls=self._walls)
 
     def _wait(self, files: list[Any]) -> list[Any]:
-        """Wait for one of `files`, until the leader has ended or the time of the job is over."""
+        """Wait for one of `files`, until the leader has ended or the job's time is over."""
         left = self._began + self._job.limit - time.monotonic()
         ready = select.select([*files, self._nursery], [], [], max(left, 0.0))[0]
         if self._nursery in ready:

@@ -9,19 +9,19 @@ from contextlib import suppress
 from typing import NoReturn
 
 from course_pkg.examiner import checks
-from course_pkg.graph.leashed import descendants
 from course_pkg.grading import namespaces
 from course_pkg.grading.ward.job import job_from
 from course_pkg.grading.ward.leader import lead
 from course_pkg.grading.ward.student import prepare
 from course_pkg.grading.ward.wire import end, fork, receive, send
+from course_pkg.graph.leashed import descendants
 
 
-def tend(sock: socket.socket, *, walls: bool) -> NoReturn:
+def tend(sock: socket.socket, private: str, *, walls: bool) -> NoReturn:
     """Fork a leader for each job that comes over `sock`, and say when it and all below it are gone."""
     namespaces.adopt_orphans()
     if walls:
-        _forget_checks()
+        _forget_checks(private)
     shell = prepare()
     try:
         send(sock, {"ready": True})
@@ -39,10 +39,10 @@ def tend(sock: socket.socket, *, walls: bool) -> NoReturn:
         os._exit(0)
 
 
-def _forget_checks() -> None:
+def _forget_checks(private: str) -> None:
     """Cover the folder of the checks: of all that is forked from here, nothing can read it."""
     namespaces.unshare(namespaces.MOUNT)
-    for folder in checks.__path__:
+    for folder in filter(None, [*checks.__path__, private]):
         namespaces.mount_memory(folder, read_only=True)
 
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from course_pkg.grading.ward.job import ANSWER, SETTLING, PartJob
+from course_pkg.grading.ward.job import PartJob
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -34,28 +35,27 @@ def prepare() -> InteractiveShell:
     from IPython.core.history import HistoryManager
     from IPython.core.interactiveshell import InteractiveShell
 
-    import course_pkg.turtlesim
     from course_pkg import ServicePanel, check, join, predict  # noqa: F401
     from course_pkg.graph import Island, NodeProcess  # noqa: F401
     from course_pkg.interfaces import message_type, service_type
 
-    HistoryManager.enabled = False  # no file, no thread
+    HistoryManager.enabled = False  # type: ignore[assignment] # no file, no thread
     for kind in ("geometry_msgs/Twist", "sensor_msgs/Image", "std_msgs/Float64", "turtlesim/Pose"):
         message_type(kind)
     for kind in ("std_srvs/SetBool", "course_pkg/geometry", "turtlesim/Spawn"):
         service_type(kind)
     shell = InteractiveShell.instance(colors="NoColor")
-    shell.run_cell("import rospy\ndel rospy", store_history=False)  # what is made at the first cell
+    shell.run_cell("import rospy\ndel rospy", store_history=False)
     return shell
 
 
 def attend(job: PartJob, shell: InteractiveShell, say: Say) -> None:
     """Run the cells of `job`, then its check; errors of cells are said, and stop nothing."""
     _reseed()
-    _run(shell, "before", job.before, SETTLING, say)
+    _run(shell, "before", job.before, job.settling, say)
     for number, source in enumerate(job.answers, 1):
-        _run(shell, f"answer {number}", source, ANSWER, say)
-    _run(shell, "after", job.after, SETTLING, say)
+        _run(shell, f"answer {number}", source, job.patience, say)
+    _run(shell, "after", job.after, job.settling, say)
     from course_pkg.examiner.desk import check
 
     check(job.check)
@@ -99,11 +99,4 @@ def _alarm(seconds: float) -> Iterator[None]:
 
 def _reseed() -> None:
     """Draw chance anew: every fork would begin with the same."""
-    import random
-    import sys
-
     random.seed()
-    if "numpy" in sys.modules:
-        import numpy as np
-
-        np.random.seed()  # noqa: NPY002 -- the legacy one is what students use

@@ -28,11 +28,15 @@ def main() -> None:
 
 def _inside(writing: int) -> None:
     try:
-        confinement.in_cell(lambda: bool(os.write(writing, b"here")), may_write=True)
+        confinement.in_cell(lambda: _say(writing, "here"), may_write=True)
     except (OSError, ImportError) as error:
-        os.write(writing, str(error).encode())
+        _say(writing, str(error))
     finally:
         os._exit(0)
+
+
+def _say(writing: int, words: str) -> None:
+    os.write(writing, words.encode())
 
 
 if __name__ == "__main__":

@@ -1,0 +1,71 @@
+"""Which other cells of a notebook an answer needs, told from the names in them.
+
+An answer is run with what its check needs (see examiner/answers.py) and nothing else. A student may have used
+more: an import of a cell above, or a function from an earlier answer. So the cells that first give such
+names come along, and what they need in turn.
+"""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Sequence
+from contextlib import suppress
+
+KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
+
+
+def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
+    """Return those of the sources `above` that `answer` needs, in their order; `before` is run anyway."""
+    given = set(KNOWN | _binds(before))
+    chosen: set[int] = set()
+    todo = [(answer, len(above))]
+    while todo:
+        source, end = todo.pop()
+        for name in _uses(source) - given:
+            found = next((n for n in range(end - 1, -1, -1) if name in _binds(above[n])), None)
+            if found is not None and found not in chosen:
+                chosen.add(found)
+                todo.append((above[found], found))
+    return tuple(above[number] for number in sorted(chosen))
+
+
+def _tree(source: str) -> ast.Module:
+    """Return the tree of a cell, as IPython reads it; of one that is no Python, an empty tree."""
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.parse(TransformerManager().transform_cell(source))
+    return ast.Module(body=[], type_ignores=[])
+
+
+def _binds(source: str) -> frozenset[str]:
+    """Return the names that a cell gives to what comes after it."""
+    names = set()
+    for statement in _tree(source).body:
+        for node in ast.walk(statement) if not _opens(statement) else [statement]:
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                names.add(node.name)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                names.add(node.id)
+    return frozenset(names)
+
+
+def _opens(statement: ast.stmt) -> bool:
+    """Return whether names inside of `statement` are its own."""
+    return isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+
+
+def _uses(source: str) -> frozenset[str]:
+    """Return the names that a cell looks up and does not give itself."""
+    tree = _tree(source)
+    loaded = {
+        node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
+    }
+    own = {
+        node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+    return frozenset(loaded - own - arguments) - _binds(source)

@@ -1,0 +1,72 @@
+"""What an instructor adds in a folder of their own, never shown to students.
+
+    private_05.py     further parts for exercises of chapter 05, declared like those in examiner/checks, with ids such
+                      as "05.1.1": they are examined after the student's cells of exercise 05.1
+    points.json       other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part out of the sum
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+from course_pkg.examiner.parts import add_private, chapters, parts_of
+from course_pkg.examiner.report import Report
+
+
+@dataclass(frozen=True)
+class Extras:
+    """The folder, if there is one, and the points in it."""
+
+    folder: Path | None = None
+    points: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def digest(self) -> str:
+        """What changes with any file of the folder."""
+        files = sorted(self.folder.glob("*.py")) if self.folder else []
+        texts = [f"{path.name}\0{path.read_text('utf-8')}" for path in files]
+        return hashlib.sha256("\0".join([*texts, json.dumps(dict(self.points))]).encode()).hexdigest()
+
+    def weighed(self, report: Report) -> Report:
+        """Return `report` with the points that the instructor gives to its part."""
+        if report.check not in self.points:
+            return report
+        possible = self.points[report.check]
+        return replace(report, points=possible if report.points else 0, possible=possible)
+
+
+def read_extras(folder: Path | None) -> Extras:
+    """Return what is in `folder`, its parts declared from now on; raise GradingError for what makes no sense."""
+    if folder is None:
+        return Extras()
+    if not folder.is_dir():
+        raise GradingError(f"{folder} is no folder: give the one that holds private_NN.py and points.json.")
+    folder = folder.resolve()
+    add_private(str(folder))
+    try:
+        known = {part.check for chapter in chapters() for part in parts_of(chapter)}
+    except Exception as error:
+        raise GradingError(
+            f"The private parts in {folder} cannot be read: {type(error).__name__}: {error}"
+        ) from error
+    return Extras(folder, _points(folder / "points.json", known))
+
+
+def _points(path: Path, known: set[str]) -> dict[str, int]:
+    if not path.exists():
+        return {}
+    try:
+        points = json.loads(path.read_text("utf-8"))
+        assert all(type(value) is int and value >= 0 for value in points.values())
+    except (ValueError, AttributeError, AssertionError) as error:
+        raise GradingError(
+            f'{path} is not a table of points: it should be like {{"05.1": 4}}, whole numbers by part.'
+        ) from error
+    if unknown := sorted(set(points) - known):
+        raise GradingError(f"{path} gives points to {', '.join(unknown)}, and there is no such part.")
+    return {str(check): int(value) for check, value in points.items()}

@@ -1,0 +1,69 @@
+"""What is examined in a chapter, and with what around it: worked out once, for every submission."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import course_pkg
+from course_pkg.authoring.cells import Notebook
+from course_pkg.authoring.shelf import Shelf, read
+from course_pkg.examiner.answers import around
+from course_pkg.examiner.parts import Part, exercise_of, parts_of
+
+
+@dataclass(frozen=True)
+class PartPlan:
+    """One part: its check, and the cells of the reference to run before and after the answer."""
+
+    part: Part
+    before: str
+    after: str
+
+    @property
+    def exercise(self) -> str:
+        """The exercise whose answer is examined."""
+        return exercise_of(self.part.check)
+
+    @property
+    def private(self) -> bool:
+        """Whether it is an instructor's own."""
+        return self.exercise != self.part.check
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A chapter: its reference notebook and its parts, in order."""
+
+    chapter: str
+    reference: Notebook
+    parts: tuple[PartPlan, ...]
+
+
+def plan(chapter: str) -> Plan:
+    """Return the plan of a chapter, such as "05"."""
+    reference = read(Shelf().solutions([chapter])[0])
+    return Plan(chapter, reference, tuple(map(_planned, parts_of(chapter))))
+
+
+def _planned(part: Part) -> PartPlan:
+    before, after = around(exercise_of(part.check))
+    return PartPlan(part, before, after)
+
+
+@cache
+def course_digest() -> str:
+    """Return what changes with any file that a grade depends on: the course's code, checks, types, solutions."""
+    root = Path(course_pkg.__file__).parent
+    folders = [root, root.parent / "srv", root.parent / "solutions", root.parent / "launch"]
+    digest = hashlib.sha256()
+    for path in sorted(path for folder in folders for path in folder.rglob("*") if _counts(path)):
+        digest.update(f"{path.relative_to(root.parent)}\0".encode())
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def _counts(path: Path) -> bool:
+    return path.is_file() and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}

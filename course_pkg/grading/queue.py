@@ -1,0 +1,99 @@
+"""Many submissions, a few at a time: by threads of this machine, or by the workers of a dask cluster.
+
+The code is the same for both: what is handed on is a `Task`, plain data, to something with the interface of
+concurrent.futures.Executor, and what comes back is a grade as plain data.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from course_pkg.errors import GradingError
+from course_pkg.examiner.parts import chapters
+from course_pkg.grading.extras import Extras, read_extras
+from course_pkg.grading.grade import Grade, Submission, grade_from
+from course_pkg.grading.marking import mark
+from course_pkg.grading.plan import Plan, plan
+from course_pkg.grading.wards import Ward
+
+AHEAD = 2  # tasks handed on for each that is under way: the memory does not grow with their number
+
+
+@dataclass(frozen=True)
+class Task:
+    """One submission, and how it is to be graded."""
+
+    submission: Submission
+    secret: str
+    walls: bool
+    private: str = ""  # the folder of an instructor's extras
+
+    def grade(self) -> dict[str, Any]:
+        """Grade it in this process, in the ward of this thread."""
+        tools = _tools(os.getpid(), threading.get_ident(), self.walls, self.private)
+        extras = _extras(os.getpid(), self.private)
+        return mark(
+            self.submission,
+            _plan(self.submission.chapter),
+            extras,
+            tools.run,
+            self.secret,
+            walls=self.walls,
+        ).as_dict()
+
+
+def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterator[Grade]:
+    """Yield the grades of `tasks` as they come, at most `workers` at work and few more handed on."""
+    todo, under_way = deque(tasks), set[Future[dict[str, Any]]]()
+    while todo or under_way:
+        while todo and len(under_way) < workers * AHEAD:
+            under_way.add(executor.submit(Task.grade, todo.popleft()))
+        done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+        yield from (grade_from(future.result()) for future in done)
+
+
+@contextmanager
+def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
+    """Yield what runs tasks, and how many at once: threads here, or the cluster at the address `scheduler`."""
+    if not scheduler:
+        with ThreadPoolExecutor(jobs, thread_name_prefix="grading") as pool:
+            yield pool, jobs
+        return
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise GradingError(
+            "--scheduler needs dask.distributed, which is not installed here. Type: "
+            "./course run python -m pip install distributed"
+        ) from error
+    try:
+        client = Client(scheduler, timeout=20)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise GradingError(f"No dask scheduler answers at {scheduler}: {error}.") from error
+    with client, client.get_executor(pure=False) as pool:
+        yield pool, jobs or max(1, sum(client.ncores().values()))
+
+
+@cache
+def _tools(_pid: int, _thread: int, walls: bool, private: str) -> Ward:
+    """Return the ward of one thread of one process; it ends with that thread."""
+    return Ward(walls=walls, private=private)
+
+
+@cache
+def _extras(_pid: int, private: str) -> Extras:
+    return read_extras(Path(private) if private else None)
+
+
+@cache
+def _plan(chapter: str) -> Plan:
+    return plan(chapter) if chapter in chapters() else Plan(chapter, {}, ())  # a problem, and nothing to examine

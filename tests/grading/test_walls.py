@@ -1,0 +1,228 @@
+"""What a submission cannot reach, tried from inside: each probe raises BREACH where it gets through."""
+
+from __future__ import annotations
+
+import os
+import socket
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import course_pkg
+from course_pkg.examiner.answers import every_answer
+from course_pkg.examiner.parts import find
+from course_pkg.grading import walls
+from course_pkg.grading.ward.job import PartJob
+from course_pkg.grading.wards import Ward
+
+CHECKOUT = Path(course_pkg.__file__).resolve().parent.parent
+READ = [
+    CHECKOUT / "solutions",
+    CHECKOUT / "tests",
+    CHECKOUT / "notebooks",
+    CHECKOUT / ".git",
+    CHECKOUT / "course_pkg" / "examiner" / "checks" / "chapter_05",
+    CHECKOUT / "course_pkg" / "examiner" / "checks" / "chapter_05.answers.py",
+    Path.home() / ".cache",
+    Path("/etc/shadow"),
+    Path("/root"),
+    Path("/var"),
+    Path("/proc/1/environ"),
+    Path("/proc/1/root"),
+    Path("/proc/kcore"),
+]
+WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT), str(CHECKOUT / "course_pkg")]
+CALLS = {  # a call that gets through returns 0, or a number that stands for something
+    "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
+    "unshare users": "libc.unshare(0x10000000)",
+    "unshare network": "libc.unshare(0x40000000)",
+    "mount": "libc.mount(b'none', b'/tmp', b'tmpfs', 0, None)",
+    "umount": "libc.umount2(b'/student', 2)",
+    "setuid": "libc.setuid(0)",
+    "setgid": "libc.setgid(0)",
+    "chroot": "libc.chroot(b'/tmp')",
+    "mknod": "libc.mknod(b'/student/memory', 0o020666, (1 << 8) | 1)",
+    "bpf": "libc.syscall(321, 0, 0, 0)",
+    "keyctl": "libc.syscall(250, 0, -3, 0)",
+    "perf_event_open": "libc.syscall(298, 0, 0, -1, -1, 0)",
+    "io_uring": "libc.syscall(425, 1, 0)",
+    "a new user namespace by clone": "libc.syscall(56, 0x10000000 | 17, 0, 0, 0, 0)",
+    "a new user namespace by clone3": "libc.syscall(435, b'\\0' * 88, 88)",
+    "setns": "libc.setns(os.open('/proc/self/ns/net', 0), 0)",
+    "another process's memory": "libc.syscall(310, 1, 0, 0, 0, 0, 0)",
+    "typing for somebody else": "libc.ioctl(0, 0x5412, b'x')",
+    "reboot": "libc.reboot(0x89ABCDEF)",
+    "the clock": "libc.settimeofday(b'\\0' * 16, None)",
+}
+
+
+@pytest.fixture(scope="module")
+def ward() -> Iterator[Ward]:
+    """One ward for all probes."""
+    with Ward() as behind_walls:
+        yield behind_walls
+
+
+def told(ward: Ward, source: str) -> str:
+    """Return what a cell of a submission says, as an error that it raises."""
+    job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
+    said = [words["error"] for words in ward.run(job).said if words["cell"].startswith("answer")]
+    assert said, "the probe came to no end"
+    return str(said[0])
+
+
+def test_nothing_of_the_instructors_can_be_read(ward: Ward) -> None:
+    """No solution, check, test, home or secret of the machine is there, and nobody else's environment."""
+    paths = [str(path) for path in READ]
+    words = told(
+        ward,
+        f"""
+        import os
+        seen = []
+        for path in {paths!r}:
+            try:
+                seen += [path] if (os.listdir(path) if os.path.isdir(path) else open(path, "rb").read(1)) else []
+            except OSError:
+                pass
+        raise RuntimeError(f"seen: {{seen}}")
+        """,
+    )
+    assert words == "RuntimeError: seen: []"
+
+
+def test_no_check_is_in_memory(ward: Ward) -> None:
+    """What was forked from a warm process has never seen a check: no module, no part, no hint."""
+    hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)
+    words = told(
+        ward,
+        f"""
+        import gc, sys
+        modules = [name for name in sys.modules if name.startswith("course_pkg.examiner.checks.")]
+        half = {hint[: len(hint) // 2]!r}
+        texts = [value for value in gc.get_objects() if isinstance(value, dict)
+                 for value in value.values() if type(value) is str and half in value and len(value) > len(half) + 5]
+        raise RuntimeError(f"{{modules}} {{[text for text in texts if 'gc.get_objects' not in text]}}")
+        """,
+    )
+    assert words == "RuntimeError: [] []"
+
+
+def test_nothing_can_be_written_but_its_own(ward: Ward) -> None:
+    """Only the work folder and the memory folders of the part itself take files."""
+    words = told(
+        ward,
+        f"""
+        import os
+        written = []
+        for folder in {WRITE!r}:
+            try:
+                open(os.path.join(folder, "planted"), "w").close()
+                written.append(folder)
+            except OSError:
+                pass
+        raise RuntimeError(f"{{written}}, {{os.access('/student', os.W_OK), os.access('/tmp', os.W_OK)}}")
+        """,
+    )
+    assert words == "RuntimeError: [], (True, True)"
+
+
+def test_no_network_but_its_own(ward: Ward) -> None:
+    """A server of this machine cannot be reached, nor anything beyond; only one's own loopback is there."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+        words = told(
+            ward,
+            f"""
+            import socket
+            reached = []
+            for address in (("127.0.0.1", {port}), ("192.0.2.1", 80), ("::1", {port})):
+                try:
+                    socket.create_connection(address, timeout=1).close()
+                    reached.append(address)
+                except OSError:
+                    pass
+            raise RuntimeError(f"{{reached}} {{[name for _, name in socket.if_nameindex()]}}")
+            """,
+        )
+    assert words == "RuntimeError: [] ['lo']"
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_call_that_walls_were_broken_with_is_refused(ward: Ward, call: str) -> None:
+    """The kernel of Linux refuses it, whatever the reason that it gives."""
+    if os.uname().machine != "x86_64" and "syscall" in CALLS[call]:
+        pytest.skip("the numbers of the calls are those of x86-64")
+    words = told(
+        ward,
+        f"""
+        import ctypes, os
+        libc = ctypes.CDLL(None, use_errno=True)
+        status = {CALLS[call]}
+        if status == 0 and {call!r}.startswith("a new user"):
+            os._exit(0)
+        raise RuntimeError("refused" if status == -1 else f"BREACH: {{status}}")
+        """,
+    )
+    assert words == "RuntimeError: refused"
+
+
+def test_it_has_no_privileges_and_sees_itself_alone(ward: Ward) -> None:
+    """No capability, none to be gained, a filter on, and no process of anybody else's."""
+    words = told(
+        ward,
+        """
+        import os
+        status = dict(line.split(":", 1) for line in open("/proc/self/status").read().splitlines())
+        names = ("CapEff", "CapPrm", "CapBnd", "CapAmb", "NoNewPrivs", "Seccomp")
+        pids = [name for name in os.listdir("/proc") if name.isdigit()]
+        raise RuntimeError([int(status[name], 16) for name in names] + [len(pids) <= 2, os.getuid(), os.uname().nodename])
+        """,
+    )
+    assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
+
+
+def test_a_part_finds_nothing_of_the_one_before(ward: Ward) -> None:
+    """Files, processes, and names of one part are not there for the next."""
+    leave = """
+    import os
+    open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()
+    if os.fork() == 0:
+        os.setsid()
+        import time; time.sleep(100)
+    kept = 1
+    raise RuntimeError("left")
+    """
+    look = """
+    import os
+    left = [path for path in ("/student/note", "/tmp/note", "/dev/shm/note") if os.path.exists(path)]
+    pids = [name for name in os.listdir("/proc") if name.isdigit()]
+    raise RuntimeError([left, len(pids) <= 2, "kept" in globals()])
+    """
+    assert told(ward, leave) == "RuntimeError: left"
+    assert told(ward, look) == "RuntimeError: [[], True, False]"
+
+
+def test_a_build_is_not_believed_when_the_kernel_says_so(ward: Ward) -> None:
+    """Commands of a check run beside the kernel, not in it: a kernel that says of a build that it went well earns nothing."""
+    wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
+    forged = """
+from course_pkg.examiner.bench import Bench
+from course_pkg.examiner.hands import Hands
+Bench.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took": 0.1}
+"""
+    job = PartJob(
+        wrong.check, wrong.before + forged, (wrong.source,), wrong.after, 1, find(wrong.check).deadline
+    )
+    outcome = ward.run(job)
+    assert outcome.record is not None
+    assert outcome.record["verdict"] == "not yet"
+    assert outcome.record["points"] == 0
+
+
+def test_without_bubblewrap_it_is_refused_and_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No wall, no grading, unless the instructor says so."""
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(walls.WallsMissing, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"):
+        walls.require_walls()
