@@ -7,7 +7,9 @@ the magic on its first line. Both would decide whether an answer is looked at at
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias, cast
 
 from IPython.core.inputtransformer2 import TransformerManager
 
@@ -20,6 +22,9 @@ MARKERS = (  # nbval 0.11, plugin.py, comment_markers
 )
 TAGS = (*(marker.lower().replace("_", "-") for marker in MARKERS), "raises-exception", "skip-execution")
 WRITES = re.compile(r"%%(?:writefile|file)\s+(?:-a\s+|--append\s+)?(?P<path>.*?)\s*")
+
+
+Transform: TypeAlias = Callable[[list[str]], list[str]]
 
 
 @dataclass(frozen=True)
@@ -56,7 +61,7 @@ def _as_ipython_reads(source: str) -> list[str]:
     """Return the lines that IPython looks for a magic in: blank lines, indentation and prompts are gone."""
     lines = (source.rstrip() + "\n").splitlines(keepends=True)
     for transform in TransformerManager().cleanup_transforms:
-        lines = transform(lines)
+        lines = cast(Transform, transform)(lines)
     return lines
 
 

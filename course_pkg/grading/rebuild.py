@@ -11,7 +11,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.defusing import defuse
 from course_pkg.grading.matching import Match, Matching
 from course_pkg.grading.reading import StudentCell, read_cells
-from course_pkg.grading.wanted import Wanted, defined, every_wanted, used
+from course_pkg.grading.wanted import defined, every_wanted, used
 
 NOTES = 40  # more than these say nothing new
 
@@ -33,54 +33,63 @@ class Rebuilt:
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
     """Return the notebook that is run and graded for a student who handed in `content`.
 
-    `reference` is a solution, as `authoring.shelf.read` reads it. Where an answer is missing the cell is as
-    it was handed out: no solution is left in the notebook in place of an answer.
+    `reference` is a solution, as `authoring.shelf.read` reads it.
     """
-    wanted = every_wanted(reference)
-    try:
-        cells = read_cells(content)
-    except GradingError as error:
-        problem = f"The notebook could not be read: {error}."
-        blanks = {each.part: each.blank for each in wanted}
-        return Rebuilt(_placed(reference, blanks), {}, dict.fromkeys(blanks, problem), problem=problem)
-    matching = Matching(cells, wanted, _given(reference))
-    matches = {each.part: matching.match(each) for each in wanted}
-    return _rebuilt(reference, wanted, matches, _lent(cells, matching, matches))
+    return Rebuilder(reference).rebuild(content)
 
 
-def _rebuilt(
-    reference: Notebook, wanted: Sequence[Wanted], matches: Mapping[str, Match], elsewhere: set[str]
-) -> Rebuilt:
-    answers, missing, untouched, notes = {}, {}, set(), []
-    for each in wanted:
-        match = matches[each.part]
-        about = list(match.notes)
-        if match.missing:
-            missing[each.part] = match.missing
-        elif each.is_blank(match.source):
-            answers[each.part] = each.blank
-            untouched.add(each.part)
-        else:
-            made = defuse(match.source, each.first_line)
-            answers[each.part] = made.source
-            about += [*made.notes, *_about_names(made.source, elsewhere)]
-        notes += [f"{each.part}: {note}" for note in about]
-    blanks = {each.part: each.blank for each in wanted}
-    notebook = _placed(reference, {**blanks, **answers})
-    return Rebuilt(notebook, answers, missing, frozenset(untouched), tuple(notes[:NOTES]))
+class Rebuilder:
+    """One reference, for as many students as there are.
+
+    Where an answer is missing the cell is as it was handed out: no solution is left in the notebook in place
+    of an answer. What is rebuilt shares the outputs of the given cells with the reference.
+    """
+
+    def __init__(self, reference: Notebook) -> None:
+        self._reference = reference
+        self._wanted = every_wanted(reference)
+        self._blanks = {each.part: each.blank for each in self._wanted}
+        self._given = {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
+
+    def rebuild(self, content: bytes) -> Rebuilt:
+        """Return what is graded of the notebook `content`."""
+        try:
+            cells = read_cells(content)
+        except GradingError as error:
+            problem = f"The notebook could not be read: {error}."
+            missing = dict.fromkeys(self._blanks, problem)
+            return Rebuilt(_placed(self._reference, self._blanks), {}, missing, problem=problem)
+        matching = Matching(cells, self._wanted, self._given)
+        matches = {each.part: matching.match(each) for each in self._wanted}
+        return self._rebuilt(matches, _lent(cells, matching, matches))
+
+    def _rebuilt(self, matches: Mapping[str, Match], elsewhere: set[str]) -> Rebuilt:
+        answers, missing, untouched, notes = {}, {}, set(), []
+        for each in self._wanted:
+            match = matches[each.part]
+            about = list(match.notes)
+            if match.missing:
+                missing[each.part] = match.missing
+            elif each.is_blank(match.source):
+                answers[each.part] = each.blank
+                untouched.add(each.part)
+            else:
+                made = defuse(match.source, each.first_line)
+                answers[each.part] = made.source
+                about += [*made.notes, *_about_names(made.source, elsewhere)]
+            notes += [f"{each.part}: {note}" for note in about]
+        notebook = _placed(self._reference, {**self._blanks, **answers})
+        return Rebuilt(notebook, answers, missing, frozenset(untouched), tuple(notes[:NOTES]))
 
 
 def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
     """Return the reference with these sources; nbval compares no output of a cell that has no number."""
-    notebook = copy.deepcopy(reference)
+    notebook = copy.copy(reference)
+    notebook["cells"] = [copy.copy(cell) for cell in reference["cells"]]
     for cell in notebook["cells"]:
         if part := exercise_of(cell):
             cell.update(source=sources[part], outputs=[], execution_count=None)
     return notebook
-
-
-def _given(reference: Notebook) -> dict[str, str]:
-    return {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:

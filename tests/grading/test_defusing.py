@@ -36,7 +36,7 @@ def test_the_markers_are_those_of_nbval() -> None:
     ],
 )
 def test_markers_have_no_effect(marker: str, shape: str) -> None:
-    """None is found by nbval in what is left, however the line is written; the student is told."""
+    """None is found by nbval in what is left, however the line is written; a note says so."""
     made = defuse(shape.replace("{}", marker))
     assert list(find_comment_markers(made.source)) == []
     assert any(marker in note for note in made.notes)
@@ -52,7 +52,7 @@ BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
 @pytest.mark.parametrize("magic", MAGICS)
 @pytest.mark.parametrize("before", BEFORE)
 def test_no_magic_takes_the_cell(magic: str, before: str) -> None:
-    """What is left is the answer, run as Python, whatever IPython would have read away in front of the magic."""
+    """What is left is the answer, run as Python, whatever IPython would have read away before the magic."""
     made = defuse(f"{before}{magic}\n{DEF}")
     code = TransformerManager().transform_cell(made.source)
     assert "run_cell_magic" not in code
