@@ -7,14 +7,16 @@ from itertools import count
 import rospy
 from std_msgs.msg import UInt32
 
-from course_pkg.graph.preparation import prepare_node
+from course_pkg.graph.program import undisturbed
+from course_pkg.graph.stepping import step_onto_graph
 
 
 def main() -> None:
     """Publish 0, 1, 2, … until the node is shut down, `~rate` (default 2) of them a second."""
-    rospy.init_node("pulse")
-    prepare_node()
-    publisher = rospy.Publisher("pulse", UInt32, queue_size=1)
+    if not step_onto_graph("pulse"):
+        return
+    with undisturbed():
+        publisher = rospy.Publisher("pulse", UInt32, queue_size=1)
     rate = rospy.Rate(rospy.get_param("~rate", 2.0))
     for number in count():
         if rospy.is_shutdown():

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import rospy
 from sensor_msgs.msg import JointState
 
+from course_pkg.graph.program import undisturbed
 from course_pkg.graph.stepping import number_parameter, step_onto_graph
 
 RATE = 20.0  # Hz
@@ -44,7 +45,8 @@ def main() -> None:
     if not step_onto_graph("robot"):
         return
     rate = rospy.Rate(number_parameter("~rate", RATE, 0.1, 1000.0))
-    publisher = rospy.Publisher("joint_states", JointState, queue_size=10, tcp_nodelay=True)
+    with undisturbed():
+        publisher = rospy.Publisher("joint_states", JointState, queue_size=10, tcp_nodelay=True)
     started = time.monotonic()
     while not rospy.is_shutdown():
         message = stance(time.monotonic() - started)

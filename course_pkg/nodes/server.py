@@ -7,21 +7,18 @@ from typing import Any
 
 import rospy
 
-from course_pkg.graph.master import await_master
-from course_pkg.graph.preparation import prepare_node
+from course_pkg.graph.program import undisturbed
+from course_pkg.graph.stepping import step_onto_graph
 from course_pkg.srv import geometry, geometryResponse
 
 
 def main() -> None:
     """Serve until the node is shut down."""
-    try:
-        await_master(rospy.logwarn)
-    except KeyboardInterrupt:
+    if not step_onto_graph("SERVER_NODE"):
         return
-    rospy.init_node("SERVER_NODE")
-    prepare_node()
-    service = rospy.Service("getGeometry", geometry, measure)
-    rospy.loginfo("Ready to measure boxes on %s", service.resolved_name)
+    with undisturbed():
+        service = rospy.Service("getGeometry", geometry, measure)
+        rospy.loginfo("Ready to measure boxes on %s", service.resolved_name)
     rospy.spin()
 
 

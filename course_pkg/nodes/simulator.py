@@ -14,6 +14,7 @@ import rospy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import UInt32
 
+from course_pkg.graph.program import undisturbed
 from course_pkg.graph.stepping import number_parameter, step_onto_graph
 
 DRAWING = 0.4  # s that it spends on a picture
@@ -47,8 +48,12 @@ class Simulator:
 
 def main() -> None:
     """Mirror what the robot says, and draw, `~drawing` (default 0.4) s a picture."""
-    if step_onto_graph("simulator"):
-        Simulator().draw(number_parameter("~drawing", DRAWING, 0.01, 60.0))
+    if not step_onto_graph("simulator"):
+        return
+    seconds = number_parameter("~drawing", DRAWING, 0.01, 60.0)
+    with undisturbed():
+        simulator = Simulator()
+    simulator.draw(seconds)
 
 
 def mirrored(message: JointState) -> JointState:

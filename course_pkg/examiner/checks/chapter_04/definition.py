@@ -120,7 +120,7 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
         return f"{where}is one value here. An array has brackets behind its type: {wanted}."
     if wanted.endswith("[]") and "[" in found and not found.endswith("[]"):
         return f"{where}has a fixed length here. Empty brackets take any number: {wanted}."
-    if "[" in wanted and found.endswith("[]"):
+    if "[" in wanted and not wanted.endswith("[]") and found.endswith("[]"):
         return f"{where}may have any length here. Exactly three is {wanted}."
     if "[" in found and "[" not in wanted:
         return f"{where}is an array here, and one value is asked for: {wanted}."
