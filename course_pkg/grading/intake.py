@@ -14,6 +14,7 @@ from course_pkg.grading.grade import Submission
 from course_pkg.grading.handed_in import Entry, leads_out, opened
 from course_pkg.grading.naming import (
     METADATA,
+    NOTEBOOK,
     Claim,
     Submitters,
     claims,
@@ -43,10 +44,12 @@ class _Found:
 def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = None) -> list[Submission]:
     """Return what was handed in for `chapters`, or for all of them, in the order of students and chapters.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, or what a platform offers for download (see
-    naming.py); `root` is the checkout with the solutions. Whatever cannot be used is a submission with a
-    `problem`; GradingError is raised only when `source` itself can be neither listed nor opened.
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, what a platform offers for download (see
+    naming.py), or one notebook; `root` is the checkout with the solutions. Whatever cannot be used is a
+    submission with a `problem`; GradingError is raised only when `source` can be neither listed nor opened.
     """
+    if source.is_file() and NOTEBOOK.fullmatch(source.name):
+        return [submission_of(source, root=root)]
     Shelf(root).solutions(chapters)  # which knows no other chapters, and says so
     references = References(root)
     with opened(source) as entries:

@@ -379,6 +379,7 @@ def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
 def test_one_notebook(tmp_path: Path, five: bytes) -> None:
     """A single one is its folder's, or whose one says."""
     source = folder(tmp_path, {f"s01/{FIVE}": five}) / "s01" / FIVE
+    assert submissions(source) == [submission_of(source)]
     assert _kept([submission_of(source), submission_of(source, "s07")]) == [("s01", "05"), ("s07", "05")]
     with pytest.raises(GradingError, match="There is no"):
         submission_of(tmp_path / "s01" / "none.ipynb")

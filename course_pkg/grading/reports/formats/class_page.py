@@ -1,0 +1,169 @@
+"""class.html: how a class did, part by part, which hints it was given, and who needs a look."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from course_pkg.examiner.report import Verdict
+from course_pkg.grading import clean
+from course_pkg.grading.reports.book import (
+    WITHOUT_WALLS,
+    Book,
+    Column,
+    attention,
+    name_of,
+    notes,
+    of_points,
+    points,
+    report_of,
+)
+from course_pkg.grading.reports.files import put
+from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, table, text
+
+HINTS = 12
+UNWALLED = (
+    "Run without walls: nothing kept submissions from this machine, from their examiner or from one another. "
+    "Its points prove little."
+)
+ABSENT = "\N{EN DASH}"
+
+
+def write(book: Book, out: Path) -> None:
+    """Write class.html."""
+    put(out / "class.html", Frame().page("How the class did", _body(book)))
+
+
+def _body(book: Book) -> Iterator[str]:
+    yield "<h1>How the class did</h1>"
+    yield paragraph(_summary(book), "lead")
+    yield "" if book.walls else banner("Not safe to rely on", [UNWALLED])
+    if not book.grades:
+        yield paragraph("Nothing was handed in, so there is nothing to show.")
+        return
+    yield "<h2>Part by part</h2>"
+    yield _key()
+    for chapter in book.chapters:
+        for column in book.columns_of(chapter):
+            yield _spread(book, column)
+    yield "<h2>Hints given most often</h2>"
+    yield _hints(book)
+    yield "<h2>Who needs a look</h2>"
+    yield _looks(book)
+    yield "<h2>Everybody</h2>"
+    yield _everybody(book)
+
+
+def _summary(book: Book) -> str:
+    count = len([student for student in book.students if student])
+    if not book.total:
+        return f"{count} students"
+    shares = [book.earned(student) / book.total for student in book.students if student]
+    mean = f", {sum(shares) / len(shares):.0%} of {book.total} points on average" if shares else ""
+    named = f"Chapter {book.chapters[0]}" if len(book.chapters) == 1 else f"{len(book.chapters)} chapters"
+    return f"{clean.line(named)}: {count} {'student' if count == 1 else 'students'}{mean}"
+
+
+def _key() -> str:
+    items = "".join(f'<li class="{kind}-mark">{verdict.value}</li>' for verdict, (kind, _) in KINDS.items())
+    return f'<ul class="key" aria-label="What the colours mean">{items}</ul>'
+
+
+def _spread(book: Book, column: Column) -> str:
+    """Return how a part went: a bar for the eye, the numbers in words."""
+    reports = [report_of(book.grade(student, column.chapter), column.check) for student in book.students]
+    verdicts = Counter(report.verdict for report in reports if report)
+    there = sum(verdicts.values())
+    words = ", ".join(f"{verdicts[verdict]} {verdict.value}" for verdict in Verdict if verdicts[verdict])
+    mean = sum(report.points for report in reports if report) / max(1, there)
+    label = text(f"{column.check}: {words}")
+    return (
+        f'<div class="spread"><h3>{text(column.check)}</h3>{paragraph(column.goal)}'
+        f'<svg class="bar" role="img" aria-label="{label}">{_rects(verdicts, there)}</svg>'
+        f'<p class="counts">{text(words)}; {of_points(mean, column.possible)} on average</p></div>'
+    )
+
+
+def _rects(verdicts: Counter[Verdict], there: int) -> str:
+    made, start = [], 0.0
+    for verdict, (kind, _) in KINDS.items():
+        width = 100 * verdicts[verdict] / max(1, there)
+        if width:
+            shown = max(width - 0.3, 0.3)  # a gap, so that two colours never touch
+            made.append(f'<rect class="{kind}-mark" x="{start:.2f}%" width="{shown:.2f}%" height="100%"/>')
+        start += width
+    return "".join(made)
+
+
+def _hints(book: Book) -> str:
+    """Return the hints that most students were given; a student counts once for each."""
+    counts = Counter(
+        hint
+        for student in book.students
+        for hint in {
+            (report.check, clean.line(rule.hint))
+            for grade in book.of(student)
+            for report in grade.reports
+            for rule in report.rules
+            if rule.hint and not rule.holds
+        }
+    )
+    if not counts:
+        return paragraph("No hint was given.")
+    ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:HINTS]
+    rows = [(text(check), text(hint), str(count)) for (check, hint), count in ranked]
+    return table("Each student counts once for each hint.", ["Part", "Hint", "Students"], rows, 1)
+
+
+def _looks(book: Book) -> str:
+    """Return who needs a look, the gravest first; then, folded away, notes about the others."""
+    found = [(student, attention(book, student)) for student in book.students]
+    grave = {student: reasons for student, reasons in found if reasons}
+    ranked = sorted(grave, key=lambda student: (-_gravity(book, student), student))
+    items = "".join(
+        f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
+    )
+    looks = (
+        f'<ul class="looks">{items}</ul>' if items else paragraph("Nobody: everything went its ordinary way.")
+    )
+    others = [student for student in book.students if student not in grave and _known(book, student)]
+    if not others:
+        return looks
+    items = "".join(f"<li>{_link(student)}{_listed(_known(book, student))}</li>" for student in others)
+    count = f"{len(others)} other {'notebook' if len(others) == 1 else 'notebooks'}"
+    return f'{looks}<details><summary>Notes about {count}</summary><ul class="looks">{items}</ul></details>'
+
+
+def _gravity(book: Book, student: str) -> int:
+    if any(grade.problem for grade in book.of(student)):
+        return 2
+    return int(
+        any(report.verdict is Verdict.UNDECIDED for grade in book.of(student) for report in grade.reports)
+    )
+
+
+def _known(book: Book, student: str) -> list[str]:
+    return [note for note in notes(book, student) if note != WITHOUT_WALLS]
+
+
+def _listed(reasons: Sequence[str]) -> str:
+    return f"<ul>{''.join(f'<li>{text(reason, 600)}</li>' for reason in reasons)}</ul>"
+
+
+def _link(student: str) -> str:
+    """Return a link to the feedback page, whose name holds no letter that a link could misread."""
+    return f'<a href="feedback/{clean.file_name(student or "nobody")}.html">{text(name_of(student))}</a>'
+
+
+def _everybody(book: Book) -> str:
+    chapters = book.chapters if len(book.chapters) > 1 else ()
+    head = ["Student", *(f"Chapter {chapter}" for chapter in chapters), "Points"]
+    rows = [_row(book, student, chapters) for student in book.students]
+    return table(f"Points, of {book.total}", head, rows, len(chapters) + 1)
+
+
+def _row(book: Book, student: str, chapters: Sequence[str]) -> list[str]:
+    grades = [book.grade(student, chapter) for chapter in chapters]
+    cells = [ABSENT if grade is None else points(grade.earned) for grade in grades]
+    return [_link(student), *cells, points(book.earned(student))]

@@ -1,0 +1,99 @@
+"""feedback/<student>.html: what a student learns from the grade."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from course_pkg.examiner.report import Report, Rule, Verdict
+from course_pkg.grading import clean
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports.book import Book, about_lateness, name_of, of_points
+from course_pkg.grading.reports.files import put
+from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
+
+CELLS = 20  # of nbval's run that are listed
+
+
+def write(book: Book, out: Path) -> None:
+    """Write a page for each student."""
+    frame = Frame()
+    for student in book.students:
+        grades = [grade.for_student() for grade in book.of(student)]
+        title = f"Feedback for {name_of(student)}"
+        path = out / "feedback" / f"{clean.file_name(student or 'nobody')}.html"
+        put(path, frame.page(title, _body(title, grades)))
+
+
+def _body(title: str, grades: list[Grade]) -> Iterator[str]:
+    yield f"<h1>{text(title)}</h1>"
+    if len([grade for grade in grades if grade.reports]) > 1:
+        earned, possible = sum(grade.earned for grade in grades), sum(grade.possible for grade in grades)
+        yield paragraph(of_points(earned, possible), "lead")
+    for grade in grades:
+        yield f"<section>{''.join(_chapter(grade))}</section>"
+
+
+def _chapter(grade: Grade) -> Iterator[str]:
+    title = f"Chapter {grade.chapter}" if grade.chapter else "Other files"
+    score = f": {of_points(grade.earned, grade.possible)}" if grade.reports else ""
+    yield f"<h2>{text(title + score)}</h2>"
+    yield paragraph(about_lateness(grade))
+    yield banner("This could not be graded", [grade.problem])
+    yield banner("About what you handed in", grade.notes)
+    for report in grade.reports:
+        yield _part(report)
+    yield from _cells(grade)
+
+
+def _part(report: Report) -> str:
+    kind, sign = KINDS[report.verdict]
+    score = of_points(report.points, report.possible) if report.possible else ""
+    rules = "".join(map(_rule, report.rules))
+    head = f"<h3>{text(report.check)} <span>{sign} {report.verdict.value}</span></h3>"
+    return (
+        f'<article class="part {kind}"><header>{head}<span class="muted">{score}</span></header>'
+        f"{paragraph(report.goal)}{f'<ul class=rules>{rules}</ul>' if rules else ''}"
+        f"{paragraph(report.note)}{_printed(report)}</article>"
+    )
+
+
+def _rule(rule: Rule) -> str:
+    kind, sign, word = ("holds", "✓", "holds") if rule.holds else ("broken", "✗", "does not hold")
+    pairs = "".join(f"<dt>{label}</dt><dd>{_value(label, value)}</dd>" for label, value in rule.details())
+    details = f"<dl>{pairs}</dl>" if pairs else ""
+    return (
+        f'<li class="{kind}"><span class="mark" aria-hidden="true">{sign}</span>'
+        f'<span class="unseen">{word}: </span>{text(rule.text, 600)}{details}</li>'
+    )
+
+
+def _value(label: str, value: str) -> str:
+    return text(value, 1000) if label == "hint" else f"<code>{clean.html(value, 1000)}</code>"
+
+
+def _printed(report: Report) -> str:
+    if report.verdict is Verdict.PASSED or not report.printed.strip():
+        return ""
+    return f"<details><summary>Printed meanwhile</summary><pre>{clean.html(report.printed)}</pre></details>"
+
+
+def _cells(grade: Grade) -> Iterator[str]:
+    """Yield how the notebook ran from top to bottom, and which cells went otherwise than in the reference."""
+    if not grade.cells:
+        return
+    others = [cell for cell in grade.cells if cell.outcome != "passed"]
+    passed = len(grade.cells) - len(others)
+    yield "<h3>Your answers in the whole notebook</h3>"
+    yield paragraph(
+        f"The chapter's notebook was run from top to bottom with your answers in it. {passed} of "
+        f"{len(grade.cells)} cells did what they do with the right answers. This earns no points; it shows "
+        "where an answer matters later on."
+    )
+    for cell in others[:CELLS]:
+        yield (
+            f"<details><summary>Cell <code>{text(cell.cell, 80)}</code>: {text(cell.outcome, 20)}</summary>"
+            f"<pre>{clean.html(cell.words or 'Nothing was recorded.', 2000)}</pre></details>"
+        )
+    if len(others) > CELLS:
+        yield paragraph(f"{len(others) - CELLS} more cells did not.", "muted")

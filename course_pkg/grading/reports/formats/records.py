@@ -1,0 +1,14 @@
+"""results/<student>/NN.json: the grades themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course_pkg.grading.reports.book import Book
+from course_pkg.grading.reports.records import write_record
+
+
+def write(book: Book, out: Path) -> None:
+    """Write the record of each grade."""
+    for grade in book.grades:
+        write_record(out, grade)

@@ -1,0 +1,36 @@
+"""grades.csv: a row a student, a column a part, for a spreadsheet."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course_pkg.grading import clean
+from course_pkg.grading.reports.book import Book, about_lateness, attention, name_of, notes, points, report_of
+from course_pkg.grading.reports.files import put_table
+
+
+def write(book: Book, out: Path) -> None:
+    """Write grades.csv; its mark at the beginning tells a spreadsheet that it is UTF-8."""
+    head = ["student"]
+    for chapter in book.chapters:
+        head += [
+            *(column.check for column in book.columns_of(chapter)),
+            f"{chapter} days late",
+            f"{chapter} total",
+        ]
+    rows = [[*map(clean.cell, head), "earned", "possible", "notes"]]
+    rows += [_row(book, student) for student in book.students]
+    put_table(out / "grades.csv", rows, "utf-8-sig")
+
+
+def _row(book: Book, student: str) -> list[str]:
+    """Return a student's row; what was not handed in is empty, lateness is taken off the totals alone."""
+    cells = [clean.cell(name_of(student))]
+    for chapter in book.chapters:
+        grade = book.grade(student, chapter)
+        reports = [report_of(grade, column.check) for column in book.columns_of(chapter)]
+        cells += ["" if report is None else points(report.points) for report in reports]
+        cells += [points(grade.late), points(grade.earned)] if grade else ["", ""]
+    late = [about_lateness(grade) for grade in book.of(student)]
+    words = " | ".join(text for text in [*late, *attention(book, student), *notes(book, student)] if text)
+    return [*cells, points(book.earned(student)), points(book.total), clean.cell(words, 3000)]

@@ -1,0 +1,86 @@
+"""The frame of a page that stands alone: nothing is loaded or run, and only its own style is let in."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from course_pkg.examiner.report import Verdict
+from course_pkg.grading import clean
+
+KINDS = {  # how a verdict is marked: in a class of the style, and by a sign beside the word
+    Verdict.PASSED: ("passed", "✓"),
+    Verdict.FAILED: ("failed", "✗"),
+    Verdict.NOT_ATTEMPTED: ("untried", "○"),
+    Verdict.UNDECIDED: ("open", "?"),
+}
+
+
+class Frame:
+    """The head that all pages share; its style is read once."""
+
+    def __init__(self) -> None:
+        style = Path(__file__).with_name("page.css").read_text("utf-8")
+        digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+        policy = f"default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'"
+        self._head = (
+            '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+            f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            '<meta name="referrer" content="no-referrer">\n<meta name="robots" content="noindex">\n'
+            f"<style>{style}</style>\n"
+        )
+
+    def page(self, title: str, body: Iterable[str]) -> str:
+        """Return a page; `body` is HTML that is clean, `title` any text."""
+        inside = "\n".join(body)
+        title = f"<title>{clean.html(clean.line(title))}</title>"
+        return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
+
+
+def text(value: object, limit: int = clean.SHORT) -> str:
+    """Return one line for a page."""
+    return clean.html(clean.line(value, limit))
+
+
+def paragraph(value: object, kind: str = "") -> str:
+    """Return a paragraph of one text; nothing for an empty one."""
+    shown = text(value, 1000)
+    attribute = f' class="{kind}"' if kind else ""
+    return f"<p{attribute}>{shown}</p>" if shown else ""
+
+
+def banner(title: str, sentences: Sequence[str]) -> str:
+    """Return sentences that nobody should miss; nothing for none."""
+    shown = [sentence for value in sentences if (sentence := text(value, 1000))]
+    if not shown:
+        return ""
+    items = "".join(f"<li>{sentence}</li>" for sentence in shown)
+    return f'<div class="banner" role="note"><p><strong>{text(title)}</strong></p><ul>{items}</ul></div>'
+
+
+def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
+    """Return a table; the first cell of a row is its header, the last `numbers` columns are numbers.
+
+    The cells of `rows` are HTML, `caption` and `head` any text.
+    """
+    numeric = len(head) - numbers
+
+    def cells(values: Sequence[str], first: str, other: str) -> str:
+        made = []
+        for place, value in enumerate(values):
+            tag = first if place == 0 else other
+            name = tag.partition(" ")[0]
+            kind = ' class="number"' if place >= numeric else ""
+            made.append(f"<{tag}{kind}>{value}</{name}>")
+        return f"<tr>{''.join(made)}</tr>"
+
+    top = cells([text(value) for value in head], 'th scope="col"', 'th scope="col"')
+    body = "\n".join(cells(row, 'th scope="row"', "td") for row in rows)
+    name = text(caption)
+    return (
+        f'<div class="wide" role="region" aria-label="{name}" tabindex="0"><table><caption>{name}</caption>'
+        f"<thead>{top}</thead>\n<tbody>{body}</tbody></table></div>"
+    )

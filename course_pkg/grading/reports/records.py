@@ -1,0 +1,45 @@
+"""The record of a grade: `results/<student>/NN.json`, from which every report is made."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.grade import Grade, grade_from
+from course_pkg.state import write_json
+
+RESULTS = "results"
+
+
+def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path:
+    """Return where the record of a grade lies; `origin` tells those apart that are of no chapter."""
+    name = clean.file_name(chapter) if chapter else f"none-{hashlib.sha256(origin.encode()).hexdigest()[:10]}"
+    return out / RESULTS / clean.file_name(student or "nobody") / f"{name}.json"
+
+
+def write_record(out: Path, grade: Grade) -> Path:
+    """Write the record of a grade, whole or not at all, with nothing harmful in it; return where."""
+    path = record_path(out, grade.student, grade.chapter, grade.origin)
+    write_json(path, clean.data(grade.as_dict()))
+    return path
+
+
+def read_grades(out: Path) -> list[Grade]:
+    """Return the grades below `out`, in the order of students and chapters."""
+    paths = sorted((out / RESULTS).glob("*/*.json"))
+    return sorted(
+        (_read(path) for path in paths if not path.name.startswith(".")),
+        key=lambda grade: (grade.student, grade.chapter, grade.origin),
+    )
+
+
+def _read(path: Path) -> Grade:
+    try:
+        return grade_from(json.loads(path.read_text("utf-8")))
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        raise GradingError(
+            f"{path} is no record of a grade: {error!r}. Delete it, and grade once more."
+        ) from error

@@ -1,0 +1,37 @@
+"""All reports of a class, in one go."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports import formats
+from course_pkg.grading.reports.book import Book
+
+Writer = Callable[[Book, Path], None]
+
+
+def write_reports(grades: Sequence[Grade], out: Path) -> None:
+    """Write every report about `grades` into the folder `out`.
+
+    Each module in `formats` is one of them: its `write(book, out)` is all that a further format needs.
+    """
+    book = Book(grades)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for write in _writers():
+            write(book, out)
+    except OSError as error:
+        raise GradingError(
+            f"The reports cannot be written into {out}: {error.strerror or error}. Give another folder with "
+            "--out; what was graded is not lost."
+        ) from error
+
+
+def _writers() -> list[Writer]:
+    names = sorted(module.name for module in pkgutil.iter_modules(formats.__path__))
+    return [importlib.import_module(f"{formats.__name__}.{name}").write for name in names]

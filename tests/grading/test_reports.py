@@ -1,0 +1,367 @@
+"""Every report says what was earned and why, to whoever reads it, and carries nothing harmful along."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from course_pkg.errors import GradingError
+from course_pkg.examiner.report import Verdict
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports import read_grades, record_path, write_record, write_reports
+from course_pkg.grading.reports.book import WITHOUT_WALLS, Book, attention
+from tests.grading.grades import HINTS, NASTY, class_of, nasty, refused, report
+
+OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # tags that nothing closes
+
+
+class Outline(HTMLParser):
+    """What a page consists of; a tag that closes another than the last open one is noted."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.text: list[str] = []
+        self.wrong: list[str] = []
+        self._open: list[str] = []
+        self.feed(page)
+        self.close()
+        self.wrong += self._open
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Note a tag."""
+        self.tags.append((tag, dict(attrs)))
+        if tag not in OPEN:
+            self._open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Note a tag that closes itself."""
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        """Hold that the last open tag is closed."""
+        if not self._open or self._open.pop() != tag:
+            self.wrong.append(tag)
+
+    def handle_data(self, data: str) -> None:
+        """Keep the text."""
+        self.text.append(data)
+
+    def all(self, *names: str) -> list[dict[str, str | None]]:
+        """Return the attributes of all tags of these names."""
+        return [attributes for tag, attributes in self.tags if tag in names]
+
+
+def _rows(path: Path) -> list[list[str]]:
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        return list(csv.reader(file))
+
+
+def _files(out: Path) -> Iterator[Path]:
+    yield from (path for path in sorted(out.rglob("*")) if path.is_file())
+
+
+def _two() -> list[Grade]:
+    """Return two students: all right but late, and one of each verdict and nothing for chapter 06."""
+    verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
+    mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
+    full = tuple(report(f"05.{number}") for number in range(1, 6))
+    other = tuple(report(f"06.{number}") for number in range(1, 3))
+    return [
+        Grade("s01", "05", full, late=1.0, factor=0.9),
+        Grade("s01", "06", other),
+        Grade("s02", "05", mixed, notes=("05.1: split.",)),
+    ]
+
+
+def test_the_table(tmp_path: Path) -> None:
+    """A row a student, a column a part; what was not handed in is empty; lateness is taken off the totals."""
+    write_reports(_two(), tmp_path)
+    head, first, second = _rows(tmp_path / "grades.csv")
+    five = ["05.1", "05.2", "05.3", "05.4", "05.5", "05 days late", "05 total"]
+    assert head == [
+        "student",
+        *five,
+        "06.1",
+        "06.2",
+        "06 days late",
+        "06 total",
+        "earned",
+        "possible",
+        "notes",
+    ]
+    assert first[:-1] == ["s01", "2", "2", "2", "2", "1", "1", "8.1", "2", "2", "0", "4", "12.1", "13"]
+    assert second[:-1] == ["s02", "2", "0", "0", "0", "1", "0", "3", "", "", "", "", "3", "13"]
+    assert "90%" in first[-1]
+    for words in ("05.4 not examined", "05.1: split.", "Nothing was handed in for chapter 06."):
+        assert words in second[-1]
+
+
+def test_the_records(tmp_path: Path) -> None:
+    """They hold the grades, whole, under names that are the students'."""
+    grades = [*_two(), refused("s03", "", "x.pdf is no notebook."), refused("s03", "06")]
+    write_reports(grades, tmp_path)
+    assert read_grades(tmp_path) == sorted(grades, key=lambda grade: (grade.student, grade.chapter))
+    assert (tmp_path / "results/s01/05.json").exists()
+    assert record_path(tmp_path, "s01", "05") == tmp_path / "results/s01/05.json"
+
+
+def test_reports_from_records(tmp_path: Path) -> None:
+    """What was graded before a run was killed is enough to report on."""
+    for grade in class_of(3):
+        write_record(tmp_path, grade)
+    write_reports(read_grades(tmp_path), tmp_path)
+    assert len(_rows(tmp_path / "grades.csv")) == 4
+
+
+@pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
+def test_a_record_that_is_none(tmp_path: Path, content: str) -> None:
+    """The instructor learns which file it is."""
+    path = record_path(tmp_path, "s01", "05")
+    path.parent.mkdir(parents=True)
+    path.write_text(content)
+    with pytest.raises(GradingError, match=r"05\.json is no record"):
+        read_grades(tmp_path)
+
+
+def test_gradescope(tmp_path: Path) -> None:
+    """As its specification has it: tests with scores and words, and a score that lateness is taken off."""
+    write_reports(_two(), tmp_path)
+    results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
+    assert results["score"] == 12.1
+    assert "90%" in results["output"]
+    assert [(test["number"], test["score"], test["max_score"]) for test in results["tests"]][4:6] == [
+        ("05.5", 1, 1),
+        ("06.1", 2, 2),
+    ]
+    tests = json.loads((tmp_path / "gradescope/s02/results.json").read_text())["tests"]
+    assert [test["status"] for test in tests] == ["passed", "failed", "failed", "failed", "passed"]
+    assert HINTS["05.2"] in " ".join(tests[1]["output"].split())
+    for test in tests:
+        assert (test["output_format"], test["visibility"]) == ("text", "visible")
+
+
+def test_canvas(tmp_path: Path) -> None:
+    """The columns that it finds a student by, the points possible, and no grade for what is missing."""
+    grades = [*_two(), replace(_two()[0], student="lastfirst_4711")]
+    write_reports(grades, tmp_path)
+    assert _rows(tmp_path / "canvas.csv") == [
+        ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Chapter 05", "Chapter 06"],
+        ["    Points Possible", "", "", "", "", "9", "4"],
+        ["lastfirst", "4711", "", "", "", "8.1", ""],
+        ["s01", "", "", "s01", "", "8.1", "4"],
+        ["s02", "", "", "s02", "", "3", ""],
+    ]
+
+
+def test_moodle(tmp_path: Path) -> None:
+    """By user name, address or full name; each grade with its feedback."""
+    five = _two()[2]
+    write_reports(
+        [five, replace(five, student="a@b.example"), replace(five, student="Full Name_12")], tmp_path
+    )
+    head, full, address, user = _rows(tmp_path / "moodle.csv")
+    assert head == ["username", "email", "full name", "identifier", "Chapter 05", "Chapter 05 feedback"]
+    assert full[:5] == ["", "", "Full Name", "Participant 12", "3"]
+    assert address[:5] == ["", "a@b.example", "", "", "3"]
+    assert user[:5] == ["s02", "", "", "", "3"]
+    assert HINTS["05.2"] in user[5]
+
+
+def test_junit(tmp_path: Path) -> None:
+    """A part that was not examined is an error, and none is skipped."""
+    write_reports([*_two(), refused("s03", "")], tmp_path)
+    root = ElementTree.parse(tmp_path / "junit.xml").getroot()  # noqa: S314 -- our own file
+    assert {key: root.get(key) for key in ("tests", "failures", "errors")} == {
+        "tests": "13",
+        "failures": "2",
+        "errors": "2",
+    }
+    assert [suite.get("name") for suite in root] == [
+        "s01 chapter 05",
+        "s01 chapter 06",
+        "s02 chapter 05",
+        "s03 chapter ?",
+    ]
+    assert HINTS["05.2"] in " ".join("".join(root.itertext()).split())
+
+
+def test_feedback_teaches(tmp_path: Path) -> None:
+    """Rule, what was asked, expected and seen, and the hint; and what was out of the ordinary."""
+    write_reports(_two(), tmp_path)
+    page = " ".join("".join(Outline((tmp_path / "feedback/s02.html").read_text()).text).split())
+    for words in (
+        "3 of 9 points",
+        "area is width times length",
+        "5.25",
+        HINTS["05.2"],
+        "05.1: split.",
+        "more than 512 MB",
+    ):
+        assert words in page
+    assert "12.1 of 13 points" in (tmp_path / "feedback/s01.html").read_text()
+
+
+def test_the_class_page(tmp_path: Path) -> None:
+    """How each part went in words, the hints by how many were given them, and who needs a look."""
+    write_reports([*class_of(30), refused("s31")], tmp_path)
+    outline = Outline((tmp_path / "class.html").read_text())
+    page = " ".join("".join(outline.text).split())
+    labels = [svg["aria-label"] for svg in outline.all("svg")]
+    assert len(labels) == 5
+    for label in labels:
+        assert sum(int(number) for number in re.findall(r"(\d+) (?:passed|not)", str(label))) == 31
+    counts = [int(number) for number in re.findall(r"\. (\d+) (?=05\.)", page)]
+    assert counts == sorted(counts, reverse=True)
+    assert "05_write_a_server.ipynb was not graded" in page
+    assert "feedback/s31.html" in [link["href"] for link in outline.all("a")]
+
+
+def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
+    """However many rules gave it."""
+    failed = report("05.1", Verdict.FAILED)
+    twice = replace(failed, rules=(*failed.rules, failed.rules[-1]))
+    write_reports([Grade("s01", "05", (twice,)), Grade("s02", "05", (failed,))], tmp_path)
+    page = (tmp_path / "class.html").read_text()
+    assert re.search(rf"{re.escape(HINTS['05.1'])}</td><td class=\"number\">2<", page)
+
+
+def test_nobody_and_nothing(tmp_path: Path) -> None:
+    """A class of nobody, and files of nobody's."""
+    write_reports([], tmp_path)
+    assert "nothing to show" in (tmp_path / "class.html").read_text()
+    write_reports([refused("", "", "x.ipynb: nothing tells whose it is.")], tmp_path)
+    assert "(nobody)" in (tmp_path / "class.html").read_text()
+    assert "nothing tells whose" in (tmp_path / "feedback/nobody.html").read_text()
+    assert len(_rows(tmp_path / "canvas.csv")) == 2
+
+
+def test_who_needs_a_look() -> None:
+    """Problems, what was not examined, nothing at all, and nothing earned; not a late or an odd notebook."""
+    empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
+    book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
+    assert attention(book, "s01") == []
+    assert attention(book, "s02")[0].startswith("05.4 not examined: The kernel ended")
+    assert attention(book, "s03")[0].startswith("05_write_a_server.ipynb was not graded")
+    assert "No point in chapter 05." in attention(book, "s05")
+
+
+def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
+    """In words; be it one submission of many."""
+    write_reports([replace(grade, walls=False) for grade in class_of(2)], tmp_path)
+    for path in _files(tmp_path):
+        assert "without walls" in path.read_text().replace("Run without walls", "run without walls"), path
+    assert WITHOUT_WALLS in read_grades(tmp_path)[0].notes
+    write_reports(read_grades(tmp_path), tmp_path)
+    assert read_grades(tmp_path)[0].notes.count(WITHOUT_WALLS) == 1
+
+
+def test_private_parts_stay_private(tmp_path: Path) -> None:
+    """What a student sees tells nothing of how they are examined; what an instructor sees does."""
+    secret = report("05.1", Verdict.FAILED, goal="secret goal", note="secret note", printed="secret print")
+    secret = replace(
+        secret, rules=tuple(replace(rule, text="secret rule", hint="secret hint") for rule in secret.rules)
+    )
+    write_reports([Grade("s01", "05", (secret,), private=("05.1",))], tmp_path)
+    for name in ("feedback/s01.html", "gradescope/s01/results.json", "moodle.csv", "canvas.csv"):
+        assert "secret" not in (tmp_path / name).read_text()
+    for name in ("class.html", "junit.xml", "results/s01/05.json"):
+        assert "secret" in (tmp_path / name).read_text()
+
+
+def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
+    """No control character, no turned letter, no markup, no formula, nothing outside the folder; all UTF-8."""
+    out = tmp_path / "deep" / "out"
+    write_reports([nasty(), nasty("=cmd()"), nasty("CON"), nasty("con"), nasty("s01")], out)
+    assert [path.name for path in tmp_path.iterdir()] == ["deep"]
+    assert [path.name for path in (tmp_path / "deep").iterdir()] == ["out"]
+    assert len(list((out / "results").iterdir())) == 5
+    for path in _files(out):
+        content = path.read_bytes().decode("utf-8-sig")
+        assert not re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\ufffe]", content), path
+        if path.suffix == ".json":
+            assert "\\u001b" not in content
+            assert "\\ud800" not in content
+            json.loads(content)
+        if path.suffix == ".csv":
+            assert not [cell for row in _rows(path) for cell in row if cell.startswith(tuple("=+-@\t\r"))], (
+                path
+            )
+        if path.suffix == ".html":
+            assert "<script" not in content
+    ElementTree.parse(out / "junit.xml")  # noqa: S314 -- our own file
+
+
+def test_names_that_could_meet_stay_apart(tmp_path: Path) -> None:
+    """Each student has a page and a record, also where capitals do not count."""
+    names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
+    write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
+    for folder in ("results", "feedback", "gradescope"):
+        assert len({path.name.lower() for path in (tmp_path / folder).iterdir()}) == len(names)
+
+
+def _pages(out: Path) -> list[str]:
+    write_reports([*class_of(12, ("05", "06")), refused("s31"), nasty()], out)
+    return [path.read_text() for path in _files(out) if path.suffix == ".html"]
+
+
+def test_pages_stand_alone(tmp_path: Path) -> None:
+    """No script, nothing from elsewhere; the policy lets in the page's own style, and nothing else."""
+    for page in _pages(tmp_path):
+        outline = Outline(page)
+        names = {tag for tag, _ in outline.tags}
+        assert not names & {"script", "link", "iframe", "img", "object", "embed", "form", "base"}
+        for _, attributes in outline.tags:
+            assert not [key for key in attributes if key == "style" or key.startswith("on") or key == "src"]
+            assert not re.match(r"\w+:|//", attributes.get("href") or "")
+        [policy] = [str(each["content"]) for each in outline.all("meta") if each.get("http-equiv")]
+        assert policy.startswith("default-src 'none'; style-src 'sha256-")
+        assert "unsafe" not in policy
+
+
+def test_pages_can_be_read_by_everybody(tmp_path: Path) -> None:
+    """Language, title, one main part, headings in steps, headers with a scope, labels; tags that close."""
+    for page in _pages(tmp_path):
+        outline = Outline(page)
+        assert outline.wrong == []
+        assert outline.all("html")[0]["lang"] == "en"
+        assert len(outline.all("main")) == len(outline.all("title")) == len(outline.all("h1")) == 1
+        levels = [int(tag[1]) for tag, _ in outline.tags if re.fullmatch(r"h[1-6]", tag)]
+        assert levels[0] == 1
+        assert all(after <= before + 1 for before, after in pairwise(levels))
+        assert all(cell.get("scope") for cell in outline.all("th"))
+        assert all(svg["role"] == "img" and svg["aria-label"] for svg in outline.all("svg"))
+        assert len(outline.all("caption")) == len(outline.all("table"))
+        assert "width=device-width" in page
+
+
+def test_names_stay_out_of_what_is_said(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    """Writing reports prints nothing and logs nothing."""
+    write_reports([*class_of(3), nasty()], tmp_path)
+    assert capfd.readouterr() == ("", "")
+    assert caplog.records == []
+
+
+def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
+    """The instructor learns which, and that nothing is lost."""
+    (tmp_path / "out").write_text("")
+    with pytest.raises(GradingError, match="not lost"):
+        write_reports(class_of(1), tmp_path / "out")
+
+
+def test_long_texts_are_cut(tmp_path: Path) -> None:
+    """A flood in a submission is none in its reports."""
+    flood = report("05.1", Verdict.FAILED, printed=NASTY * 100_000, note="x" * 1_000_000)
+    write_reports([Grade("s01", "05", (flood,), notes=("y" * 1_000_000,))], tmp_path)
+    assert max(path.stat().st_size for path in _files(tmp_path)) < 60_000
