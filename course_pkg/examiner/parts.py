@@ -59,12 +59,12 @@ def part(
 
 
 def exercise_of(check: str) -> str:
-    """Return the exercise that a part examines: "05.1" for itself, and for a private part such as "05.1.1"."""
+    """Return the exercise that a part examines: "05.1" for itself, and for one such as "05.1.1"."""
     return ".".join(check.split(".")[:2])
 
 
 def add_private(folder: str) -> None:
-    """Have the modules private_NN.py in `folder` declare parts, too: "05.1.1" is one more for exercise 05.1."""
+    """Have the modules private_NN.py in `folder` declare parts, too; "05.1.1" is one for exercise 05.1."""
     importlib.import_module(CHECKS).__path__.append(folder)
 
 

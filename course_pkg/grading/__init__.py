@@ -1,1 +1,1 @@
-"""Grading: what students handed in is placed into the reference, run behind walls, and examined from outside."""
+"""Grading: what was handed in is placed into the reference, run behind walls, and examined from outside."""

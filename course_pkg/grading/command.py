@@ -68,7 +68,9 @@ def grade_one(notebook: Path, out: Path, *, walls: bool = True, private: Path | 
         raise GradingError(f"{notebook} is no notebook of this course.")
     if walls:
         require_walls()
-    task = Task(found[0], os.urandom(16).hex(), walls, str(private.resolve()) if private else "")
+    key = key_of(found[0], read_extras(private), "missing", walls=walls)
+    folder = str(private.resolve()) if private else ""
+    task = Task(found[0], os.urandom(16).hex(), key, walls, folder, "missing")
     write_json(out, task.grade())
     return 0
 
@@ -77,20 +79,18 @@ def _handed_in(options: Options, table: LateTable | None) -> list[Submission]:
     found = submissions(options.source, options.chapters)
     if not found:
         raise GradingError(
-            f"There is nothing to grade in {options.source}: it should hold STUDENT/NN_topic.ipynb, or be a zip "
-            "of that."
+            f"There is nothing to grade in {options.source}: it should hold STUDENT/NN_topic.ipynb, or be a "
+            "zip of that."
         )
     return table.applied(found) if table else found
 
 
-def _graded(
-    options: Options, found: Sequence[Submission], extras: Extras, store: Store
-) -> Iterator[Grade]:
+def _graded(options: Options, found: Sequence[Submission], extras: Extras, store: Store) -> Iterator[Grade]:
     """Yield a grade for each submission: those that are kept, then the others as they come."""
     todo: dict[str, list[Submission]] = {}
     progress = Progress(len(found))
     for submission in found:
-        key = key_of(submission, extras, walls=options.walls)
+        key = key_of(submission, extras, options.validate, walls=options.walls)
         kept = store.find(key, submission)
         if kept is not None:
             yield kept
@@ -99,7 +99,10 @@ def _graded(
     progress.begin(kept=len(found) - sum(map(len, todo.values())))
     jobs = options.jobs or (0 if options.scheduler else A_CORE * (os.cpu_count() or 1))
     private = str(options.private.resolve()) if options.private else ""
-    tasks = [Task(alike[0], store.secret, options.walls, private) for alike in todo.values()]
+    tasks = [
+        Task(alike[0], store.secret, key, options.walls, private, options.validate)
+        for key, alike in todo.items()
+    ]
     with executor_of(options.scheduler, jobs) as (executor, workers):
         for graded in grade_all(tasks, executor, workers):
             store.keep(graded)

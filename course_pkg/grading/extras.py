@@ -1,8 +1,8 @@
 """What an instructor adds in a folder of their own, never shown to students.
 
-    private_05.py     further parts for exercises of chapter 05, declared like those in examiner/checks, with ids such
-                      as "05.1.1": they are examined after the student's cells of exercise 05.1
-    points.json       other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part out of the sum
+private_05.py   further parts for exercises of chapter 05, declared as in examiner/checks, with ids such as
+                "05.1.1": they are examined after the student's cell of exercise 05.1
+points.json     other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part out of the sum
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Extras:
 
 
 def read_extras(folder: Path | None) -> Extras:
-    """Return what is in `folder`, its parts declared from now on; raise GradingError for what makes no sense."""
+    """Return what is in `folder`, its parts declared from now on; raise GradingError for nonsense in it."""
     if folder is None:
         return Extras()
     if not folder.is_dir():

@@ -60,6 +60,14 @@ def opened(source: Path) -> Iterator[list[Entry]]:
         yield list(_Archive(archive).entries())
 
 
+def one_file(path: Path) -> Entry:
+    """Return a single file; raise GradingError when there is none."""
+    try:
+        return Entry(path.name, path.lstat().st_mtime, partial(_read_file, path))
+    except OSError as error:
+        raise GradingError(f"There is no {path}: {error.strerror}. Give the path of a notebook.") from error
+
+
 def is_litter(parts: tuple[str, ...]) -> bool:
     """Return whether a system or an editor left the file there, and nobody handed it in."""
     return any(part.lower() in LITTER or (part.startswith(".") and part not in ("..", ".")) for part in parts)

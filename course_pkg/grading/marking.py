@@ -1,4 +1,4 @@
-"""From a submission to its grade: rebuilt, run part by part behind walls, and worth what the judge's record says."""
+"""From a submission to its grade: rebuilt, run part by part behind walls, worth what the judge recorded."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
-from course_pkg.errors import GradingError
-from course_pkg.examiner.report import Report, Verdict, report_from
+from course_pkg.examiner.report import Report, Verdict
 from course_pkg.grading.context import needed
 from course_pkg.grading.extras import Extras
 from course_pkg.grading.grade import Grade, Submission
@@ -20,17 +19,25 @@ Run = Callable[[PartJob], PartOutcome]
 TRIES = 2  # of a part whose place to run in was lost: that is never the answer's doing alone
 
 
-def key_of(submission: Submission, extras: Extras, *, walls: bool) -> str:
-    """Return the name under which this grade is kept: of all that it depends on, and of nothing else."""
+def key_of(submission: Submission, extras: Extras, validate: str, *, walls: bool) -> str:
+    """Return the name that this grade is kept under: of all that it depends on, and of nothing else."""
     digest = hashlib.sha256(submission.content)
-    for text in (submission.chapter, submission.problem, course_digest(), extras.digest, str(walls)):
+    for text in (
+        submission.chapter,
+        submission.problem,
+        course_digest(),
+        extras.digest,
+        str(walls),
+        validate,
+    ):
         digest.update(b"\0" + text.encode())
     return digest.hexdigest()[:32]
 
 
-def mark(submission: Submission, plan: Plan, extras: Extras, run: Run, secret: str, *, walls: bool) -> Grade:
-    """Return the grade of one submission. `secret` makes inputs that nobody can know, the same if run again."""
-    key = key_of(submission, extras, walls=walls)
+def mark(
+    submission: Submission, plan: Plan, extras: Extras, run: Run, secret: str, key: str, *, walls: bool
+) -> Grade:
+    """Return the grade of one submission. `secret` makes inputs that nobody knows, the same if run again."""
     grade = Grade(
         submission.student,
         submission.chapter,
@@ -43,10 +50,9 @@ def mark(submission: Submission, plan: Plan, extras: Extras, run: Run, secret: s
     )
     if submission.problem:
         return _nothing(grade, plan, extras, submission.problem)
-    try:
-        rebuilt = rebuild(plan.reference, submission.content)
-    except GradingError as error:
-        return _nothing(grade, plan, extras, str(error))
+    rebuilt = rebuild(plan.reference, submission.content)
+    if rebuilt.problem:
+        return _nothing(grade, plan, extras, rebuilt.problem)
     reports = [
         extras.weighed(_examined(each, rebuilt, run, _seed(secret, key, each.part.check)))
         for each in plan.parts
@@ -65,16 +71,19 @@ def _not_attempted(planned: PartPlan, note: str) -> Report:
 
 
 def _examined(planned: PartPlan, rebuilt: Rebuilt, run: Run, seed: int) -> Report:
-    answer = rebuilt.answers.get(planned.exercise)
-    if answer is None:
-        return _not_attempted(planned, "The exercise's cell is not in the notebook that was handed in.")
-    above = needed(answer, planned.before, _above(rebuilt.notebook, planned.exercise))
+    exercise = planned.exercise
+    if exercise in rebuilt.missing:
+        return _not_attempted(planned, rebuilt.missing[exercise])
+    if exercise in rebuilt.untouched:
+        return _not_attempted(planned, "The cell is as it was handed out.")
+    answer = rebuilt.answers[exercise]
+    above = needed(answer, planned.before, _above(rebuilt.notebook, exercise))
     job = PartJob(
         planned.part.check, planned.before, (*above, answer), planned.after, seed, planned.part.deadline
     )
     for _ in range(TRIES):
         outcome = run(job)
-        if outcome.record is not None and outcome.record.get("verdict") != Verdict.UNDECIDED.value:
+        if outcome.report is not None and outcome.report.verdict is not Verdict.UNDECIDED:
             break
         if outcome.took > job.limit / 2:
             break  # an answer that hangs would hang again
@@ -93,20 +102,19 @@ def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
 
 def _reported(planned: PartPlan, outcome: PartOutcome) -> Report:
     """Return the judge's report, with what the student's cell said for itself where it did not pass."""
-    part = planned.part
-    if outcome.record is None:
+    part, report = planned.part, outcome.report
+    if report is None:
         return Report(
             part.check, Verdict.FAILED, part.goal, 0, part.points, note=f"Nothing earned: {outcome.ending}."
         )
-    known = {key: outcome.record[key] for key in Report.__dataclass_fields__ if key in outcome.record}
-    report = report_from(known)
     if report.verdict is Verdict.PASSED:
         return report
-    said = [str(each.get("error", "")) for each in outcome.said if str(each.get("cell", "")).startswith("answer")]
+    said = [
+        str(each.get("error", "")) for each in outcome.said if str(each.get("cell", "")).startswith("answer")
+    ]
     note = " ".join(filter(None, [report.note, *(f"The cell raised {words}" for words in said[-1:])]))
     return replace(report, note=note)
 
 
 def _seed(secret: str, key: str, check: str) -> int:
     return int.from_bytes(hashlib.sha256(f"{secret}\0{key}\0{check}".encode()).digest()[:4], "big")
-

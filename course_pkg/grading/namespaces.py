@@ -53,7 +53,7 @@ def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
 
 
 def become_root() -> None:
-    """Turn into root of a user namespace of one's own, with mounts of one's own, and power over nothing else."""
+    """Turn into root of a user namespace and mounts of one's own, with power over nothing else."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)

@@ -55,7 +55,7 @@ def _planned(part: Part) -> PartPlan:
 
 @cache
 def course_digest() -> str:
-    """Return what changes with any file that a grade depends on: the course's code, checks, types, solutions."""
+    """Return what changes with any file that a grade depends on: code, checks, types, solutions."""
     root = Path(course_pkg.__file__).parent
     folders = [root, root.parent / "srv", root.parent / "solutions", root.parent / "launch"]
     digest = hashlib.sha256()

@@ -46,4 +46,8 @@ class Progress:
         if not left or self._done == self._kept:
             return words
         seconds = (now - self._began) / (self._done - self._kept) * left
-        return f"{words}, about {seconds:.0f} s left" if seconds < 90 else f"{words}, about {seconds / 60:.0f} min left"
+        return (
+            f"{words}, about {seconds:.0f} s left"
+            if seconds < 90
+            else f"{words}, about {seconds / 60:.0f} min left"
+        )

@@ -23,6 +23,7 @@ from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import Plan, plan
+from course_pkg.grading.validation import validated, wanted
 from course_pkg.grading.wards import Ward
 
 AHEAD = 2  # tasks handed on for each that is under way: the memory does not grow with their number
@@ -34,21 +35,19 @@ class Task:
 
     submission: Submission
     secret: str
+    key: str
     walls: bool
     private: str = ""  # the folder of an instructor's extras
+    validate: str = "none"  # whose notebooks nbval runs: "all", "missing" points, "none"
 
     def grade(self) -> dict[str, Any]:
         """Grade it in this process, in the ward of this thread."""
         tools = _tools(os.getpid(), threading.get_ident(), self.walls, self.private)
-        extras = _extras(os.getpid(), self.private)
-        return mark(
-            self.submission,
-            _plan(self.submission.chapter),
-            extras,
-            tools.run,
-            self.secret,
-            walls=self.walls,
-        ).as_dict()
+        planned, extras = _plan(self.submission.chapter), _extras(os.getpid(), self.private)
+        grade = mark(self.submission, planned, extras, tools.run, self.secret, self.key, walls=self.walls)
+        if wanted(grade, self.validate):
+            grade = validated(grade, self.submission, planned)
+        return grade.as_dict()
 
 
 def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterator[Grade]:
@@ -63,7 +62,7 @@ def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterat
 
 @contextmanager
 def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
-    """Yield what runs tasks, and how many at once: threads here, or the cluster at the address `scheduler`."""
+    """Yield what runs tasks, and how many at once: threads here, or the cluster of `scheduler`."""
     if not scheduler:
         with ThreadPoolExecutor(jobs, thread_name_prefix="grading") as pool:
             yield pool, jobs
@@ -96,4 +95,6 @@ def _extras(_pid: int, private: str) -> Extras:
 
 @cache
 def _plan(chapter: str) -> Plan:
-    return plan(chapter) if chapter in chapters() else Plan(chapter, {}, ())  # a problem, and nothing to examine
+    return (
+        plan(chapter) if chapter in chapters() else Plan(chapter, {}, ())
+    )  # a problem, and nothing to examine

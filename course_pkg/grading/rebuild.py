@@ -70,6 +70,7 @@ class Rebuilder:
             about = list(match.notes)
             if match.missing:
                 missing[each.part] = match.missing
+                about.append(match.missing)
             elif each.is_blank(match.source):
                 answers[each.part] = each.blank
                 untouched.add(each.part)

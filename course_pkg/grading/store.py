@@ -47,8 +47,8 @@ class Store:
             write_json(self._folder / f"{grade.key}.json", nameless.as_dict())
         except OSError as error:
             raise GradingError(
-                f"The grades cannot be written ({error.strerror}). Make room, and type the same command again: "
-                "it goes on where it stopped."
+                f"The grades cannot be written ({error.strerror}). Make room, and type the same command "
+                "again: it goes on where it stopped."
             ) from error
 
     def forget(self) -> None:

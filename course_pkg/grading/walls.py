@@ -99,9 +99,10 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
     for name, text in MADE_UP.items():
         yield from _shown(_made_up(name, text), Path(name))
     yield from ("--dev", "/dev")
-    for folder in ("/tmp", "/run", "/dev/shm"):  # noqa: S108 -- behind the wall
+    for folder in ("/tmp", "/dev/shm"):  # noqa: S108 -- behind the wall
         yield from ("--perms", "1777", "--size", str(ROOM), "--tmpfs", folder)
-    yield from ("--perms", "0755", "--dir", "/student")
+    for folder in ("/run", "/student"):
+        yield from ("--perms", "0755", "--dir", folder)
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:

@@ -25,8 +25,8 @@ SLACK = 45.0  # s beyond a part's own limit until the ward itself is given up
 class Ward:
     """Runs parts; a context manager. After WardFailed it starts anew with the next part.
 
-    What stands behind the wall ends with the thread that gave it its first part. `private` is the folder of an
-    instructor's extras, which no submission sees.
+    What stands behind the wall ends with the thread that gave it its first part. `private` is the folder of
+    an instructor's extras, which no submission sees.
     """
 
     def __init__(self, *, walls: bool = True, private: str = "") -> None:

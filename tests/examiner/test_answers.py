@@ -12,9 +12,11 @@ from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import check_of, code_cells
 from course_pkg.authoring.shelf import read
 from course_pkg.examiner.answers import Answer, every_answer
-from course_pkg.examiner.parts import Part, every_part
-from course_pkg.examiner.rehearsal import Rehearsal
-from course_pkg.examiner.report import Verdict
+from course_pkg.examiner.parts import Part, every_part, find
+from course_pkg.examiner.report import Report, Verdict
+from course_pkg.grading.walls import refusal
+from course_pkg.grading.ward.job import PartJob
+from course_pkg.grading.wards import Ward
 
 ANSWERS = list(every_answer())
 PARTS = list(every_part())
@@ -22,10 +24,21 @@ CHECK_CELLS = [cell for path in Shelf().solutions() for cell in code_cells(read(
 
 
 @pytest.fixture(scope="session")
-def rehearsal() -> Iterator[Rehearsal]:
-    """Keep one warm process for each worker."""
-    with Rehearsal() as warm:
+def ward() -> Iterator[Ward]:
+    """One ward for each worker: answers run as submissions do, behind walls where the machine has them."""
+    with Ward(walls=not refusal()) as warm:
         yield warm
+
+
+def examined(ward: Ward, answer: Answer, source: str | None = None) -> Report:
+    """Run `answer`, or `source` in its place, and return what the judge recorded."""
+    own = answer.source if source is None else source
+    deadline = find(answer.check).deadline
+    job = PartJob(answer.check, answer.before, (own,), answer.after, secrets.randbits(32), deadline)
+    outcome = ward.run(job)
+    assert not [words for words in outcome.said if words["cell"] == "before"], outcome
+    assert outcome.report is not None, outcome.ending
+    return outcome.report
 
 
 def _name(answer: Answer) -> str:
@@ -33,26 +46,26 @@ def _name(answer: Answer) -> str:
 
 
 @pytest.mark.parametrize("answer", ANSWERS, ids=_name)
-def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, rehearsal: Rehearsal) -> None:
+def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, ward: Ward) -> None:
     """A right answer passes; a wrong one fails, and the report holds the hint for that mistake."""
-    report = rehearsal.run(answer)
+    report = examined(ward, answer)
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     assert " ".join(answer.hint.split()) in " ".join(str(report).split())
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
-def test_exercise_left_as_it_is_reads_not_attempted(part: Part, rehearsal: Rehearsal) -> None:
+def test_exercise_left_as_it_is_reads_not_attempted(part: Part, ward: Ward) -> None:
     """The blanked answer is no failure and no error: it has not been attempted."""
     right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
-    report = rehearsal.run(right, handed_out(part.check, right.source))
+    report = examined(ward, right, handed_out(part.check, right.source))
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
-def test_a_pass_reads_as_it_is_stored_whatever_was_drawn(part: Part, rehearsal: Rehearsal) -> None:
+def test_a_pass_reads_as_it_is_stored_whatever_was_drawn(part: Part, ward: Ward) -> None:
     """The text and the HTML of a pass stand in the solution, and nbval compares both."""
     right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
-    report = rehearsal.run(right, seed=secrets.randbits(32))
+    report = examined(ward, right)
     stored = next(cell for cell in CHECK_CELLS if check_of(cell) == part.check)["outputs"][0]["data"]
     assert str(report) == stored["text/plain"]
     assert report.html() == stored["text/html"]

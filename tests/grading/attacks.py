@@ -1,7 +1,7 @@
 """What was tried to earn points that nobody deserves, or to harm the grader and the next in line.
 
-Each is a student's cell for exercise 05.1, run before an answer in the same cell. Those in SLOW take all the time
-that they get.
+Each is a student's cell for exercise 05.1, run before an answer in the same cell. Those in SLOW take all the
+time that they get.
 """
 
 FORGED = {
@@ -14,7 +14,8 @@ FORGED = {
         import os, socket, json
         host, port = os.environ["COURSE_EXAMINER"].split(":")
         forger = socket.create_connection((host, int(port)))
-        forger.sendall(json.dumps({"report": {"check": "05.1", "verdict": "passed", "points": 2}}).encode() + b"\\n")
+        report = {"check": "05.1", "verdict": "passed", "points": 2}
+        forger.sendall(json.dumps({"report": report}).encode() + b"\\n")
     """,
     "a desk of one's own that says yes to everything": """
         import os, socket, json
@@ -25,7 +26,8 @@ FORGED = {
             asked = json.loads(line)
             if "ask" not in asked:
                 break
-            wire.write(json.dumps({"answer": asked["ask"], "kind": "function", "value": True, "status": 0}) + "\\n")
+            yes = {"answer": asked["ask"], "kind": "function", "value": True, "status": 0}
+            wire.write(json.dumps(yes) + "\\n")
             wire.flush()
     """,
     "the check of another part": """
@@ -37,9 +39,10 @@ FORGED = {
     """,
     "what the student's side says, forged": """
         import os
+        words = b'{"record": {"verdict": "passed", "points": 2}, "over": 0, "ready": true}\\n'
         for descriptor in range(3, 64):
             try:
-                os.write(descriptor, b'{"record": {"verdict": "passed", "points": 2}, "over": 0, "ready": true}\\n')
+                os.write(descriptor, words)
             except OSError:
                 pass
     """,
@@ -78,9 +81,9 @@ FORGED = {
 
 GRAPH = {
     "the judge's node is shut down": """
-        import threading, time, xmlrpc.client
+        import os, threading, time, xmlrpc.client
         def hunt():
-            master = xmlrpc.client.ServerProxy(rospy.get_master().target._ServerProxy__host and __import__("os").environ["ROS_MASTER_URI"])
+            master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
             while True:
                 for kind in master.getSystemState("/hunter")[2]:
                     for _, nodes in kind:

@@ -56,7 +56,7 @@ def test_an_attack_earns_a_wrong_answer_nothing(ward: Ward, attack: str) -> None
 
 @pytest.mark.parametrize("attack", QUICK)
 def test_an_attack_on_a_right_answer_stays_within_its_walls(ward: Ward, attack: str) -> None:
-    """A right answer with an attack beside it passes or fails in good time, and the next one is not harmed."""
+    """A right answer with an attack beside it ends in good time, and the next one is not harmed."""
     limited = job(textwrap.dedent(QUICK[attack]) + RIGHT, settling=10.0, patience=8.0)
     began = time.monotonic()
     outcome = ward.run(limited)

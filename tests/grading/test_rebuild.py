@@ -259,6 +259,7 @@ def test_what_is_missing_says_why() -> None:
 
     made = _rebuilt(_student(change))
     assert made.answers == {}
+    assert made.notes == tuple(f"{part}: {why}" for part, why in made.missing.items())
     assert "defines double" in made.missing["05.1"]
     assert "empty" in made.missing["05.2"]
     assert "writes a.srv" in made.missing["05.3"]

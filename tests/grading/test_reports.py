@@ -279,7 +279,7 @@ def test_private_parts_stay_private(tmp_path: Path) -> None:
 
 
 def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
-    """No control character, no turned letter, no markup, no formula, nothing outside the folder; all UTF-8."""
+    """No control character, no turned letter, no markup, no formula, nothing outside the folder."""
     out = tmp_path / "deep" / "out"
     write_reports([nasty(), nasty("=cmd()"), nasty("CON"), nasty("con"), nasty("s01")], out)
     assert [path.name for path in tmp_path.iterdir()] == ["deep"]

@@ -25,9 +25,7 @@ READ = [
     CHECKOUT / ".git",
     CHECKOUT / "course_pkg" / "examiner" / "checks" / "chapter_05",
     CHECKOUT / "course_pkg" / "examiner" / "checks" / "chapter_05.answers.py",
-    Path.home() / ".cache",
     Path("/etc/shadow"),
-    Path("/root"),
     Path("/var"),
     Path("/proc/1/environ"),
     Path("/proc/1/root"),
@@ -83,7 +81,8 @@ def test_nothing_of_the_instructors_can_be_read(ward: Ward) -> None:
         seen = []
         for path in {paths!r}:
             try:
-                seen += [path] if (os.listdir(path) if os.path.isdir(path) else open(path, "rb").read(1)) else []
+                inside = os.listdir(path) if os.path.isdir(path) else open(path, "rb").read(1)
+                seen += [path] if inside else []
             except OSError:
                 pass
         raise RuntimeError(f"seen: {{seen}}")
@@ -101,8 +100,9 @@ def test_no_check_is_in_memory(ward: Ward) -> None:
         import gc, sys
         modules = [name for name in sys.modules if name.startswith("course_pkg.examiner.checks.")]
         half = {hint[: len(hint) // 2]!r}
-        texts = [value for value in gc.get_objects() if isinstance(value, dict)
-                 for value in value.values() if type(value) is str and half in value and len(value) > len(half) + 5]
+        dicts = [value for value in gc.get_objects() if isinstance(value, dict)]
+        texts = [value for each in dicts for value in list(each.values())
+                 if type(value) is str and half in value and len(value) > len(half) + 5]
         raise RuntimeError(f"{{modules}} {{[text for text in texts if 'gc.get_objects' not in text]}}")
         """,
     )
@@ -177,7 +177,8 @@ def test_it_has_no_privileges_and_sees_itself_alone(ward: Ward) -> None:
         status = dict(line.split(":", 1) for line in open("/proc/self/status").read().splitlines())
         names = ("CapEff", "CapPrm", "CapBnd", "CapAmb", "NoNewPrivs", "Seccomp")
         pids = [name for name in os.listdir("/proc") if name.isdigit()]
-        raise RuntimeError([int(status[name], 16) for name in names] + [len(pids) <= 2, os.getuid(), os.uname().nodename])
+        seen = [int(status[name], 16) for name in names]
+        raise RuntimeError(seen + [len(pids) <= 2, os.getuid(), os.uname().nodename])
         """,
     )
     assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
@@ -205,7 +206,7 @@ def test_a_part_finds_nothing_of_the_one_before(ward: Ward) -> None:
 
 
 def test_a_build_is_not_believed_when_the_kernel_says_so(ward: Ward) -> None:
-    """Commands of a check run beside the kernel, not in it: a kernel that says of a build that it went well earns nothing."""
+    """Commands of a check run beside the kernel, not in it: what a kernel says of a build earns nothing."""
     wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
     forged = """
 from course_pkg.examiner.bench import Bench

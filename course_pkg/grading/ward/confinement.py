@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable
-from typing import NoReturn
+from pathlib import Path
+from typing import Any, NoReturn
 
 from course_pkg.grading import namespaces
 
@@ -78,11 +79,17 @@ def _without_privileges() -> None:
         MSGQUEUE=0,
     )
     namespaces.give_up_privileges()
-    _refuse_calls()
+    _filter().load()
 
 
-def _refuse_calls() -> None:
-    """Load a seccomp filter: calls that no exercise needs, and that walls were broken with, are refused."""
+def write_filter(path: Path) -> None:
+    """Write the filter of system calls to `path`, as a program that bubblewrap loads."""
+    with path.open("wb") as file:
+        _filter().export_bpf(file)
+
+
+def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
+    """Return a filter: calls that no exercise needs, and that walls were broken with, are refused."""
     import errno
 
     import seccomp
@@ -96,7 +103,7 @@ def _refuse_calls() -> None:
     rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # its flags lie where no filter can look
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
-    rules.load()
+    return rules
 
 
 def _wait_and_exit(child: int) -> NoReturn:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from course_pkg.examiner.report import Report, report_from
+
 SETTLING = 25.0  # s for the cells before and after the answer, nodes that start included
 ANSWER = 20.0  # s for a student's cell
 
@@ -48,6 +50,14 @@ class PartOutcome:
     ending: str  # why there is no record, in words; empty where there is one
     said: tuple[dict[str, Any], ...] = ()  # never believed: errors of cells, for feedback
     took: float = 0.0  # s
+
+    @property
+    def report(self) -> Report | None:
+        """The judge's report, where there is a record."""
+        if self.record is None:
+            return None
+        fields = Report.__dataclass_fields__
+        return report_from({key: value for key, value in self.record.items() if key in fields})
 
     def as_dict(self) -> dict[str, Any]:
         """Return the outcome as plain data."""

@@ -11,6 +11,7 @@ import random
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from course_pkg.grading.ward.job import PartJob
@@ -75,6 +76,7 @@ def speaker(descriptor: int) -> Say:
 def _run(shell: InteractiveShell, name: str, source: str, seconds: float, say: Say) -> None:
     if not source.strip():
         return
+    _make_room(source)
     with _alarm(seconds):
         result = shell.run_cell(source, store_history=False)
     error = result.error_before_exec or result.error_in_exec
@@ -82,6 +84,14 @@ def _run(shell: InteractiveShell, name: str, source: str, seconds: float, say: S
         say({"cell": name, "error": f"The cell was not done after {seconds:g} s, and was broken off."})
     elif error is not None:
         say({"cell": name, "error": f"{type(error).__name__}: {error}"[:LINE]})
+
+
+def _make_room(source: str) -> None:
+    """Make the folder of a file that a cell writes: in the notebook, a cell not run here has made it."""
+    first, _, _ = source.partition("\n")
+    if first.startswith("%%writefile "):
+        with suppress(OSError):
+            Path(first.split()[-1]).parent.mkdir(parents=True, exist_ok=True)
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from course_pkg.examiner.report import Report, Rule, Verdict
@@ -42,7 +43,7 @@ def _chapter(grade: Grade) -> Iterator[str]:
     yield banner("This could not be graded", [grade.problem])
     yield banner("About what you handed in", grade.notes)
     for report in grade.reports:
-        yield _part(report)
+        yield _part(replace(report, note="") if report.note == grade.problem else report)
     yield from _cells(grade)
 
 

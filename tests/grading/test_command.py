@@ -1,0 +1,187 @@
+"""`course grade` as an instructor types it: whole runs, killed and continued, by threads and by a cluster."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from course_pkg.graph.leashed import descendants
+from course_pkg.provision import Places
+from tests.grading.submitted import WRONG, hand_in
+from tests.support import eventually
+
+COURSE = Places.of().checkout / "course"
+
+
+@pytest.fixture(scope="module")
+def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Four students: all right, one part wrong, the same notebook as the first, and no notebook at all."""
+    folder = tmp_path_factory.mktemp("submissions")
+    hand_in(folder, "s01")
+    hand_in(folder, "s02", answers={"05.1": WRONG})
+    hand_in(folder, "s03")
+    bad = folder / "s04" / "05_write_a_server.ipynb"
+    bad.parent.mkdir()
+    bad.write_text("{")
+    return folder
+
+
+def grade(submissions: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run the command to its end."""
+    command = [COURSE, "grade", submissions, "--out", out, "--validate", "none", *words]
+    return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False)
+
+
+def points(out: Path) -> dict[str, float]:
+    """Return the totals of grades.csv, by student."""
+    with (out / "grades.csv").open(encoding="utf-8-sig", newline="") as file:
+        return {row["student"]: float(row["total"]) for row in csv.DictReader(file)}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Grade all, with nothing in the way, and keep the folder."""
+    out = tmp_path_factory.mktemp("grades")
+    done = grade(submissions, out)
+    assert done.returncode == 0, done.stderr
+    assert not {"s01", "s02", "s03", "s04"} & set(done.stderr.replace(",", " ").split())
+    return out
+
+
+def test_everybody_gets_what_they_deserve(undisturbed: Path) -> None:
+    """Full marks, one part less, the same as the first, and nothing with a reason."""
+    earned = points(undisturbed)
+    assert earned["s01"] == earned["s03"] > earned["s02"] > earned["s04"] == 0
+    record = json.loads((undisturbed / "results" / "s04" / "05.json").read_text())
+    assert record["problem"]
+
+
+def test_every_report_is_there(undisturbed: Path) -> None:
+    """For spreadsheets, platforms, students and the instructor."""
+    names = {str(path.relative_to(undisturbed)) for path in undisturbed.rglob("*") if path.is_file()}
+    assert {
+        "grades.csv",
+        "canvas.csv",
+        "moodle.csv",
+        "class.html",
+        "junit.xml",
+        "feedback/s01.html",
+        "gradescope/s01/results.json",
+        "results/s01/05.json",
+    } <= names
+
+
+def test_what_is_graded_is_not_graded_again(submissions: Path, undisturbed: Path) -> None:
+    """The same command again takes every grade from the run before."""
+    before = points(undisturbed)
+    done = grade(submissions, undisturbed)
+    assert "4 of 4 notebooks are graded from an earlier run" in done.stderr
+    assert points(undisturbed) == before
+
+
+@pytest.mark.parametrize("after", [1.5, 4.0])
+def test_a_run_that_was_killed_goes_on(
+    submissions: Path, undisturbed: Path, tmp_path: Path, after: float
+) -> None:
+    """SIGKILL leaves no process behind, and the next run's grades are those of an undisturbed one."""
+    with subprocess.Popen(
+        [COURSE, "grade", submissions, "--out", tmp_path, "--validate", "none"], stderr=subprocess.DEVNULL
+    ) as process:
+        deadline = time.monotonic() + after
+        eventually(lambda: time.monotonic() > deadline or process.poll() is not None, timeout=60)
+        family = descendants(process.pid)
+        process.send_signal(signal.SIGKILL)
+    eventually(lambda: not any(os.path.exists(f"/proc/{pid}/exe") for pid in family), timeout=20)
+    assert grade(submissions, tmp_path).returncode == 0
+    assert points(tmp_path) == points(undisturbed)
+
+
+@pytest.mark.timeout(240)
+def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
+    """By dask's workers in processes of their own, with the same code."""
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
+    ) as cluster:
+        done = grade(submissions, tmp_path, "--scheduler", cluster.scheduler_address)
+    assert done.returncode == 0, done.stderr
+    assert points(tmp_path) == points(undisturbed)
+
+
+def test_private_parts_count_and_are_not_shown(submissions: Path, tmp_path: Path) -> None:
+    """An instructor's own checks and points: in the grade, and not in what students read."""
+    private = tmp_path / "private"
+    private.mkdir()
+    (private / "private_05.py").write_text("""
+from course_pkg.examiner import Exam, part
+
+@part("05.1.1", points=3, goal="A secret goal.", needs=["handle_geometry"])
+def flat(exam: Exam) -> None:
+    response = exam.service("/getGeometry", "course_pkg/geometry")(length=2.0, width=3.0, height=0.0)
+    exam.expect("a secret rule", expected=[6.0, 0.0], seen=[response.area, response.volume], near=1e-3)
+""")
+    (private / "points.json").write_text('{"05.2": 0, "05.1": 5}')
+    out = tmp_path / "out"
+    done = grade(submissions, out, "--private", str(private), "--fresh")
+    assert done.returncode == 0, done.stderr
+    record = json.loads((out / "results" / "s01" / "05.json").read_text())
+    earned = {report["check"]: report["points"] for report in record["reports"]}
+    assert (earned["05.1"], earned["05.1.1"], earned["05.2"]) == (5, 3, 0)
+    lost = json.loads((out / "results" / "s02" / "05.json").read_text())
+    assert "secret" in json.dumps(lost)
+    shown = (out / "feedback" / "s02.html").read_text() + (
+        out / "gradescope" / "s02" / "results.json"
+    ).read_text()
+    assert "secret" not in shown
+    assert "secret" not in (out / "moodle.csv").read_text(encoding="utf-8-sig")
+
+
+def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -> None:
+    """--unsafe-no-sandbox grades as well, and is not to be overlooked."""
+    done = grade(submissions, tmp_path, "--unsafe-no-sandbox")
+    assert done.returncode == 0, done.stderr
+    assert points(tmp_path)["s01"] > points(tmp_path)["s02"]
+    for name in ("feedback/s01.html", "class.html"):
+        assert "without walls" in (tmp_path / name).read_text()
+
+
+def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
+    """`course grade-one` keeps nothing besides."""
+    notebook = submissions / "s02" / "05_write_a_server.ipynb"
+    out = tmp_path / "grade.json"
+    subprocess.run(
+        [COURSE, "grade-one", notebook, "--out", out], check=True, timeout=200, capture_output=True
+    )
+    record = json.loads(out.read_text())
+    assert [report["verdict"] for report in record["reports"]].count("passed") == 4
+    assert os.listdir(tmp_path) == ["grade.json"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["/nowhere"], "nowhere"),
+        (["{here}", "--chapters", "99"], "99"),
+        (["{here}", "--late-policy", "much"], "late policy"),
+        (["{here}", "--private", "/nowhere"], "no folder"),
+        (["{here}", "--out", "/proc/here"], "--out"),
+        (["{here}", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
+    ],
+)
+def test_what_makes_no_sense_is_said_in_one_message(
+    submissions: Path, tmp_path: Path, words: list[str], said: str
+) -> None:
+    """No traceback, and what to do about it."""
+    given = [word.format(here=submissions) for word in words]
+    command = [COURSE, "grade", *given, *([] if "--out" in given else ["--out", tmp_path / "out"])]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
+    assert done.returncode != 0
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
