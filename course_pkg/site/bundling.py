@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from course_pkg.errors import SiteError
@@ -17,11 +18,13 @@ HERE = Path(__file__).parent
 BUNDLE = HERE / "bundle"
 ASSETS = HERE / "assets"
 BUILT = ("early.js", "fonts.css", "site.js", "LICENSES.txt")
+AXE = "axe.min.js"  # no page loads it: the tests look the pages over with it
+TESTS = Path(__file__).parents[2] / "tests" / "site"
 PATIENCE = 300  # s for the registry
 
 
-def build(target: Path = ASSETS) -> list[Path]:
-    """Build the files into `target` and return them. Raises SiteError where npm is missing or fails.
+def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
+    """Build the files into `target` and return those of these names. Raises SiteError where npm is missing or fails.
 
     It works in a folder of its own: node_modules inside the package would be walked by rosrun.
     """
@@ -29,7 +32,7 @@ def build(target: Path = ASSETS) -> list[Path]:
         work = Path(shutil.copytree(BUNDLE, Path(folder) / "bundle"))
         _npm(work, "ci", "--no-audit", "--no-fund", "--loglevel=error")
         _npm(work, "run", "build", "--loglevel=error")
-        return [Path(shutil.copy(work / "out" / name, target / name)) for name in BUILT]
+        return [Path(shutil.copy(work / "out" / name, target / name)) for name in names]
 
 
 def _npm(folder: Path, *words: str) -> None:
@@ -49,4 +52,7 @@ def _npm(folder: Path, *words: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.stdout.writelines(f"{path}\n" for path in build())
+    with tempfile.TemporaryDirectory(prefix="course-built-") as fresh:
+        for path in build(Path(fresh)):
+            place = TESTS if path.name == AXE else ASSETS
+            sys.stdout.write(f"{shutil.copy(path, place)}\n")

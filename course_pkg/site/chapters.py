@@ -60,9 +60,9 @@ def chapter_of(name: str, notebook: Notebook) -> Chapter:
 
 def hours(chapters: Sequence[Chapter]) -> str:
     """Return how long `chapters` take together, in words."""
-    total = sum(chapter.minutes for chapter in chapters)
-    whole, rest = divmod(total, 60)
-    return f"{whole} hours" + (f" and {rest} minutes" if rest else "") if whole else f"{rest} minutes"
+    whole, rest = divmod(sum(chapter.minutes for chapter in chapters), 60)
+    parts = ((whole, "hour"), (rest, "minute"))
+    return " and ".join(f"{number} {unit}{'s' * (number != 1)}" for number, unit in parts if number)
 
 
 def _lead(first: str) -> str:

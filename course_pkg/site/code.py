@@ -45,7 +45,7 @@ class Highlighter:
         if not magic:
             return self.block(source, "ipython3")
         first, rest = source[: magic.end()], source[magic.end() :]
-        return f'<span class="k">{escape(first, quote=False)}</span>' + self.block(rest, _language(magic))
+        return f"<i class=k>{escape(first, quote=False)}</i>" + self.block(rest, _language(magic))
 
     def block(self, source: str, language: str) -> str:
         """Return `source` as HTML, coloured where its language is known."""
@@ -90,4 +90,4 @@ def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
     """Join neighbours of one colour; blanks have none."""
     for name, run in groupby(coloured, key=lambda pair: pair[0]):
         text = escape("".join(text for _, text in run), quote=False)
-        yield f'<span class="{name}">{text}</span>' if name else text
+        yield f"<i class={name}>{text}</i>" if name else text

@@ -29,10 +29,10 @@ def run_site(
     """Write the site and say where; return 1 if a chapter did not run, or `check` finds something wrong."""
     folder = Path(out) if out else Places.of().cache / "site" / ("student" if student else "pages")
     address = (os.environ.get(BINDER, "") if binder is None else binder).rstrip("/")
-    with _without(SLOW):
+    with without_slow_import():
         from course_pkg.site.build import write_site
 
-        problems = write_site(Settings(folder, student, tuple(chapters), execute, address))
+        problems = write_site(Settings(folder, student, chapters, execute, address, pdf))
     if check:
         from course_pkg.site.check import faults
 
@@ -48,17 +48,17 @@ def run_site(
 
 
 @contextmanager
-def _without(module: str) -> Iterator[None]:
-    """Have imports of `module` fail meanwhile.
+def without_slow_import() -> Iterator[None]:
+    """Have one module not be found meanwhile, unless it is imported already.
 
-    jsonschema, which nbconvert brings along, tries to import it and can do without; it compiles a grammar
-    for 0.6 s, which is as long as a site takes to build.
+    jsonschema, which nbconvert brings along, looks for it and can do without. It compiles a grammar, which
+    takes as long as a site.
     """
-    given = module in sys.modules
+    given = SLOW in sys.modules
     if not given:
-        sys.modules[module] = None  # type: ignore[assignment]
+        sys.modules[SLOW] = None  # type: ignore[assignment]
     try:
         yield
     finally:
         if not given:
-            del sys.modules[module]
+            del sys.modules[SLOW]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import json
 import re
+import zlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
@@ -14,7 +16,7 @@ from nbconvert.exporters.templateexporter import TemplateExporter
 from nbconvert.filters import ansi2html
 from traitlets.config import Config
 
-from course_pkg.authoring.cells import Notebook, check_of, exercise_of
+from course_pkg.authoring.cells import Notebook, exercise_of
 from course_pkg.site.clean import Purifier
 from course_pkg.site.code import Highlighter
 from course_pkg.site.exhibits import EXHIBIT
@@ -45,10 +47,9 @@ class Exporter(HTMLExporter):
         self.register_filter("code", self.highlight.cell)
         self.register_filter("clean", self._clean)
         self.register_filter("terminal", terminal)
-        self.register_filter("exhibit", exhibit)
+        self.register_filter("packed", packed)
         self.register_filter("picture", picture)
         self.register_filter("exercise", exercise_of)
-        self.register_filter("check", check_of)
 
     @property
     def default_config(self) -> Config:
@@ -64,16 +65,16 @@ class Exporter(HTMLExporter):
         """Return the cells of `notebook` as HTML; anchors begin with `prefix`."""
         prose = Prose(self.highlight.block, prefix)
         self.register_filter("prose", prose)
-        resources = {"prefix": prefix}
+        resources: dict[str, Any] = {"prefix": prefix, "states": []}
         # HTMLExporter would parse the page once more, only to mend pictures without a description.
         html, _ = TemplateExporter.from_notebook_node(self, nbformat.from_dict(notebook), resources)
         return Body(str(html).strip(), prose.headings)
 
 
-def exhibit(data: dict[str, Any]) -> str:
-    """Return a panel's state as JSON that can stand inside a <script> element."""
-    text = json.dumps(data["state"], ensure_ascii=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c")
+def packed(states: Sequence[dict[str, Any]]) -> str:
+    """Return the states of a page's panels, in their order, as JSON in zlib's format in base64."""
+    text = json.dumps(states, ensure_ascii=False, separators=(",", ":"))
+    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def picture(data: str, kind: str, metadata: dict[str, Any]) -> str:

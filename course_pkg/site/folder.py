@@ -39,11 +39,10 @@ class Folder:
     def __exit__(
         self, kind: type[BaseException] | None, _error: object, _trace: TracebackType | None
     ) -> None:
-        if kind:
-            return
-        self._list.write_text("\n".join(sorted(self._written)), "utf-8")
-        for name in filter(None, self._before - self._written):
+        gone = set() if kind else self._before - self._written
+        for name in filter(None, gone):
             (self._path / name).unlink(missing_ok=True)
+        self._list.write_text("\n".join(sorted((self._before | self._written) - gone)), "utf-8")
 
     def write(self, name: str, text: str) -> None:
         """Write a file of the site."""

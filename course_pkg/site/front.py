@@ -25,6 +25,11 @@ def landing(press: Press, chapters: Sequence[Chapter]) -> Page:
         systems=[system for system in systems if system["chapters"]],
         hours=hours(chapters),
         exercises=sum(len(chapter.points) for chapter in chapters),
-        drawing=Markup((HERE / "template" / "waiting.svg").read_text("utf-8")),  # noqa: S704 -- a file of ours
+        drawing=drawing(),
     )
     return Page("index.html", "landing", COURSE, "A course on ROS 1 services.", html)
+
+
+def drawing() -> Markup:
+    """Return the drawing of the two ways to talk."""
+    return Markup((HERE / "template" / "waiting.svg").read_text("utf-8"))  # noqa: S704 -- a file of ours

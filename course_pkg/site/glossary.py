@@ -1,13 +1,14 @@
-"""The glossary: the words of the course, each with a link to where it first stands in bold."""
+"""The glossary: the words of the course, each with a link to where it is first explained."""
 
 from __future__ import annotations
 
 import json
 import re
 from collections.abc import Iterator, Sequence
-from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
+
+from markupsafe import Markup
 
 from course_pkg.authoring.cells import Notebook
 from course_pkg.site.chapters import Chapter
@@ -41,11 +42,11 @@ class Glossary:
 
     def page(self, press: Press) -> Page:
         """Return the glossary as a page."""
-        groups = groupby(self.entries, key=lambda entry: entry.term[0].upper())
-        letters = [(letter, list(entries)) for letter, entries in groups]
-        html = press.part("glossary.html.j2", letters=letters)
-        contents = [(2, letter.lower(), letter) for letter, _ in letters]
-        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", html, contents)
+        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", self.text(press))
+
+    def text(self, press: Press) -> Markup:
+        """Return what stands on the page of the glossary."""
+        return press.part("glossary.html.j2", entries=self.entries)
 
     def sections(self) -> Iterator[Section]:
         """Yield what the search looks through."""
@@ -62,16 +63,16 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the section in which `term` first stands in bold."""
+    """Return the heading of the section in which `term` first stands in bold or in italics."""
     coming = iter(headings)
     current = None
-    bold = re.compile(rf"\*\*{re.escape(term)}s?\*\*", re.IGNORECASE)
+    marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)
     for cell in notebook["cells"]:
         if cell["cell_type"] != "markdown":
             continue
         for line in cell["source"].split("\n"):
             if re.match(r"#{1,4} ", line):
                 current = next(coming, current)
-            if bold.search(line):
+            if marked.search(line):
                 return current
     return None

@@ -16,6 +16,7 @@ from course_pkg.authoring.shelf import read
 from course_pkg.provision import Places
 from course_pkg.provision.stamps import digest, replace_text
 from course_pkg.site.exhibits import set_out
+from course_pkg.site.rehearsal import plans, rehearsed, without_rehearsal
 
 # What no notebook runs: a change there is no reason to run one again.
 IDLE = ("site", "grading", "lab", "authoring", "provision")
@@ -62,9 +63,11 @@ class Runs:
         from course_pkg.authoring.execute import run  # with nbclient, which nothing else here needs
         from course_pkg.authoring.tidy import strip, tidy
 
-        notebook = read(path)
+        sys.stderr.write(f"{path.stem} or what it needs is new: it runs\n")
+        notebook = rehearsed(path.stem, read(path))
         strip(notebook)
         run(path.stem, notebook)
+        notebook = without_rehearsal(notebook)
         set_out(notebook)
         tidy(notebook)
         return [_shown(cell) for cell in code_cells(notebook)]
@@ -75,7 +78,8 @@ class Runs:
     def _key(self, path: Path) -> str:
         checks = self._places.checkout / "course_pkg" / "examiner" / "checks"
         own = (file for file in checks.rglob("*") if f"chapter_{path.name[:2]}" in str(file))
-        return digest([self._shared, _code(read(path)), *_contents(own)])
+        planned = json.dumps(plans(path.stem), sort_keys=True)
+        return digest([self._shared, _code(read(path)), planned, *_contents(own)])
 
     def _package(self) -> Iterator[str | bytes]:
         """Yield whatever a notebook can run, look at or import, except the checks of the chapters."""

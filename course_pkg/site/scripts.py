@@ -21,15 +21,24 @@ def panels_script(folder: Path = PANELS) -> str:
     Every module of the panels becomes a function's scope, and stands there once, after those it imports.
     """
     modules = _Modules(folder)
-    fronts = {path.parent.name: path for path in sorted(folder.glob("*/*.js")) if DEFAULT.search(_text(path))}
-    bodies = "".join(text for path in fronts.values() for text in modules.needed(path))
-    table = ", ".join(f"{name}: {modules.name(path)}" for name, path in fronts.items())
+    found = _fronts(folder)
+    bodies = "".join(text for path in found.values() for text in modules.needed(path))
+    table = ", ".join(f"{name}: {modules.name(path)}" for name, path in found.items())
     return f'"use strict";\n{{\n{bodies}globalThis.coursePanels = {{ {table} }};\n}}\n'
 
 
 def panels_sheet(folder: Path = PANELS) -> str:
     """Return the sheets of all panels, what they share first."""
     return "\n".join(_text(path) for path in (folder / "look.css", *sorted(folder.glob("*/*.css"))))
+
+
+def fronts(folder: Path = PANELS) -> list[str]:
+    """Return the names of the panels that have a front end."""
+    return list(_fronts(folder))
+
+
+def _fronts(folder: Path) -> dict[str, Path]:
+    return {path.parent.name: path for path in sorted(folder.glob("*/*.js")) if DEFAULT.search(_text(path))}
 
 
 class _Modules:

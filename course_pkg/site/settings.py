@@ -10,8 +10,9 @@ class Settings(NamedTuple):
     """What `course site` was told.
 
     `out` is the folder to write to. With `student`, the pages show the notebooks that students get, otherwise
-    the solutions. `chapters` are those to be run if need be; the others are shown as they ran last; with
-    `execute` off, so are all. `binder` is the address that opens the repository, without the query.
+    the solutions. `chapters` are those to be run if need be; the others are shown as they ran last, and so
+    are all with `execute` off. `binder` is the address that opens the repository, without the query. With
+    `book`, all chapters stand in one page, too.
     """
 
     out: Path
@@ -19,3 +20,4 @@ class Settings(NamedTuple):
     chapters: tuple[str, ...] = ()
     execute: bool = True
     binder: str = ""
+    book: bool = False

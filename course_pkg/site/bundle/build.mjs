@@ -1,6 +1,6 @@
 /* Builds what the pages load: `npm ci && npm run build`, the files go to ./out. */
 import { build } from "esbuild";
-import { mkdir, readFile, writeFile } from "node:fs/promises";
+import { copyFile, mkdir, readFile, writeFile } from "node:fs/promises";
 
 const FONTS = [
   { family: "Course Sans", file: "source-sans-3/files/source-sans-3-latin-wght-normal.woff2", style: "normal", weight: "200 900" },
@@ -15,6 +15,7 @@ await build({ ...settings, entryPoints: ["src/site.js"], outfile: "out/site.js" 
 await build({ ...settings, entryPoints: ["src/early.js"], outfile: "out/early.js" });
 await writeFile("out/fonts.css", (await Promise.all(FONTS.map(face))).join(""));
 await writeFile("out/LICENSES.txt", (await Promise.all(PACKAGES.map(licence))).join("\n\n"));
+await copyFile("node_modules/axe-core/axe.min.js", "out/axe.min.js");
 
 /* A page in a folder may not fetch a font, but it may bring one along. */
 async function face({ family, file, style, weight }) {

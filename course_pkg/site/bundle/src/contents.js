@@ -1,5 +1,16 @@
 /* The table of contents follows the reader: the section at the top of the window is the current one. */
 
+const NARROW = matchMedia("(max-width: 52rem)"); // as in site.css: there the lists stand above the text
+
+/** Fold the lists away where they would push the text out of the window. */
+export function foldLists() {
+  const fold = () => document.querySelectorAll(":is(.chapters, .contents) details").forEach((list) => {
+    list.open = !NARROW.matches;
+  });
+  NARROW.addEventListener("change", fold);
+  fold();
+}
+
 export function followContents() {
   const links = [...document.querySelectorAll(".contents a")];
   const sections = links.map((link) => document.getElementById(decodeURIComponent(link.hash.slice(1))));

@@ -1,0 +1,84 @@
+"""The whole course as one document, printed to a PDF by the Chromium of this machine."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from markupsafe import Markup
+
+from course_pkg.errors import SiteError
+from course_pkg.site.chapters import Chapter, hours
+from course_pkg.site.exporter import Body
+from course_pkg.site.front import drawing
+from course_pkg.site.glossary import Glossary
+from course_pkg.site.pages import COURSE, Page, Press
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+PATIENCE = 180  # s
+OPTIONS = (
+    "--headless",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--no-pdf-header-footer",
+    "--generate-pdf-document-outline",
+    "--virtual-time-budget=20000",  # ms in which the panels of all chapters are drawn
+)
+LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
+
+
+def prefix(chapter: Chapter) -> str:
+    """Return what the anchors of a chapter begin with in the book, where all stand on one page."""
+    return f"c{chapter.number}-"
+
+
+def book(press: Press, bodies: Sequence[tuple[Chapter, Body]], glossary: Glossary) -> Page:
+    """Return the page that holds all chapters; the anchors of each body begin with its `prefix`."""
+    first = {chapter.number: body.headings[0][1] for chapter, body in bodies if body.headings}
+    html = press.part(
+        "book.html.j2",
+        bodies=[(chapter, body.headings, Markup(body.html)) for chapter, body in bodies],  # noqa: S704 -- cleaned
+        hours=hours([chapter for chapter, _ in bodies]),
+        drawing=drawing(),
+        glossary=glossary.text(press),
+    )
+    linked = LINK.sub(lambda link: f'href="#{_place(link, first)}"', html)
+    return Page("book.html", "book", COURSE, "The whole course.", Markup(linked), panels=True)  # noqa: S704
+
+
+def print_book(folder: Path) -> Path:
+    """Print `book.html` in `folder` to `book.pdf` beside it, and return that. Raises SiteError."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if not browser:
+        raise SiteError("No Chromium is on this machine. Open book.html in any browser, and print it there.")
+    target = folder.resolve() / "book.pdf"
+    target.unlink(missing_ok=True)
+    with tempfile.TemporaryDirectory(prefix="course-book-") as profile:
+        command = [browser, *OPTIONS, f"--user-data-dir={profile}", f"--print-to-pdf={target}"]
+        if os.geteuid() == 0:
+            command.append("--no-sandbox")  # Chromium does not start as root with one
+        printed = _run([*command, (folder / "book.html").resolve().as_uri()])
+    if not target.exists():
+        raise SiteError(f"Chromium printed no book:\n{printed[-2000:]}")
+    return target
+
+
+def _run(command: Sequence[str]) -> str:
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    except subprocess.TimeoutExpired as error:
+        raise SiteError(f"Chromium did not print the book within {PATIENCE} s.") from error
+    return result.stderr
+
+
+def _place(link: re.Match[str], first: dict[str, str]) -> str:
+    number, anchor = link["number"], link["anchor"]
+    return f"c{number}-{anchor}" if anchor else first.get(number, "")

@@ -1,0 +1,63 @@
+"""What is done with a panel while its notebook runs, so that the page has something to show and to answer from.
+
+`rehearsals.json` says it: for a notebook's name and a cell's id either `record`, the requests that a service
+panel really makes then, and answers from ever after; or `watch`, for how many seconds a panel does what it
+otherwise does only while a page shows it.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from course_pkg.authoring.cells import Cell, Notebook
+
+PLANS = Path(__file__).with_name("rehearsals.json")
+MARK = "rehearsal"  # in the metadata of a cell that is no part of the notebook
+
+Plan = Mapping[str, Any]
+
+
+def plans(name: str) -> dict[str, Plan]:
+    """Return what is done in the notebook called `name`, by cell."""
+    every: dict[str, dict[str, Plan]] = json.loads(PLANS.read_text("utf-8"))
+    return every.get(name, {})
+
+
+def rehearsed(name: str, notebook: Notebook) -> Notebook:
+    """Return `notebook` with a cell for each plan, below the cell that shows the panel."""
+    planned = plans(name)
+    cells: list[Cell] = []
+    for cell in notebook["cells"]:
+        cells.append(cell)
+        if plan := planned.get(cell["id"]):
+            cells.append(_added(cell, plan))
+    return {**notebook, "cells": cells}
+
+
+def without_rehearsal(notebook: Notebook) -> Notebook:
+    """Return `notebook` without the cells that were added."""
+    return {**notebook, "cells": [cell for cell in notebook["cells"] if MARK not in cell["metadata"]]}
+
+
+def rehearse(panel: Any, plan: Plan) -> None:  # noqa: ANN401 -- a panel of whatever kind
+    """Do what `plan` says, in the kernel of the notebook."""
+    if "record" in plan:
+        panel.record(plan["record"])
+    if "watch" in plan:
+        panel.shown()
+        time.sleep(plan["watch"])
+        panel.hidden()
+
+
+def _added(shown: Cell, plan: Plan) -> Cell:
+    """Return a cell that leaves no name behind; `_` is the panel that the cell above it showed."""
+    added = copy.deepcopy(shown)
+    added["id"] = f"{MARK}-{shown['id']}"[:64]
+    added["metadata"] = {MARK: True}
+    added["source"] = f'__import__("{__name__}", fromlist=["_"]).rehearse(_, {dict(plan)!r})'
+    return added

@@ -1,0 +1,78 @@
+"""Sites for the tests in this folder, built once for all tests of a worker, and a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from threading import Thread
+
+import pytest
+
+from course_pkg.site.build import write_site
+from course_pkg.site.settings import Settings
+from tests.authoring.books import code
+from tests.browser.conftest import browser
+from tests.site.shelves import runs, shelf
+
+__all__ = ["browser"]
+
+PANELS = [
+    "from course_pkg import *; import time; node = join('chapter_00'); "
+    "server = node.run('course_pkg', 'server'); server.wait_for_service('/getGeometry', timeout=20); "
+    "simulator = node.run('turtlesim', 'turtlesim_node'); simulator.wait_for_service('/spawn', timeout=20)",
+    "turtles = TurtlePanel(); turtles",
+    "GraphPanel()",
+    "form = ServicePanel('/getGeometry'); form",
+    "form.record([{'length': 1.0, 'width': 2.0, 'height': 3.0}, {'length': 4.0, 'width': 5.0, 'height': 6.0}])",
+    "ServicePanel('/getGeometry')",
+    "Timeline(node.record())",
+    "TopicPanel('/turtle1/pose')",
+    "TypeBrowser('std_srvs/SetBool')",
+    "Plot({'delay': [(0, 1), (1, 3)]}, x='time (s)', y='delay (ms)', title='A line')",
+    "Plot({'a': 1, 'b': 3}, kind='bars', title='Bars')",
+    "question = predict('00.panels', 'What will it be?', ['this', 'that']); question",
+    "question.compare('that')",
+    "predictions('00')",
+    "1 / 0",
+    "turtles._keep()",
+]
+
+
+@pytest.fixture(scope="session")
+def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build the real course as it is stored: all pages, and no panel, for which all of it would have to run."""
+    folder = tmp_path_factory.mktemp("course")
+    write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
+    return folder / "site"
+
+
+@pytest.fixture(scope="session")
+def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Run a chapter with a panel of every kind, and build a site of it."""
+    folder = tmp_path_factory.mktemp("panels")
+    cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
+    cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
+    troubles = write_site(Settings(folder / "site"), shelf(folder, _00_panels=cells), runs(folder / "cache"))
+    assert troubles == []
+    return folder / "site"
+
+
+@pytest.fixture(scope="session")
+def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
+    """Serve both sites from 127.0.0.1, and give the address of each."""
+    servers = {}
+    for site in (course, panels):
+        handler = partial(_Quiet, directory=str(site))
+        servers[site] = ThreadingHTTPServer(("127.0.0.1", 0), handler)
+        Thread(target=servers[site].serve_forever, daemon=True).start()
+    yield {site: f"http://127.0.0.1:{server.server_port}" for site, server in servers.items()}
+    for server in servers.values():
+        server.shutdown()
+        server.server_close()
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""

@@ -1,0 +1,225 @@
+"""The pages in a real browser: from a folder and from a server, with no network, at two widths, in two colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from course_pkg.site.scripts import fronts
+from tests.browser.jupyter import picture
+
+AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
+OPTIONS = {"runOnly": {"type": "tag", "values": RULES}, "rules": {"target-size": {"enabled": True}}}
+WIDTHS = (1200, 390)
+COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+PAGE = "00_panels.html"
+
+
+@contextmanager
+def reader(
+    browser: Browser, width: int = 1200, colours: Literal["light", "dark"] = "light"
+) -> Iterator[Page]:
+    """Open a browser whose network is cut but for 127.0.0.1; whatever fails or complains fails the test."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
+    troubles: list[str] = []
+    context.route(lambda url: not url.startswith(("file:", "http://127.0.0.1:")), lambda route: route.abort())
+    page = context.new_page()
+    page.on("requestfailed", lambda request: troubles.append(f"failed: {request.url}"))
+    page.on(
+        "response", lambda answer: troubles.append(f"{answer.status} {answer.url}") if not answer.ok else None
+    )
+    page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: troubles.append(str(error)))
+    yield page
+    context.close()
+    assert troubles == []
+
+
+def pages(site: Path) -> list[str]:
+    """Return the pages of a site that a reader opens."""
+    return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
+
+
+def open_page(page: Page, site: Path, name: str) -> None:
+    """Open a page from its folder, and wait until its panels are drawn."""
+    page.goto((site / name).as_uri())
+    expect(page.locator("[data-panel]:empty")).to_have_count(0)
+
+
+@pytest.mark.parametrize("way", ["folder", "server"])
+def test_every_page_is_whole_without_a_network(
+    browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
+) -> None:
+    """No request fails, nothing is complained about, no page is wider than the window, every panel is drawn."""
+    with reader(browser, 390) as page:
+        for site in (course, panels):
+            for name in [*pages(site), *(["book.html"] if site == course else [])]:
+                page.goto((site / name).as_uri() if way == "folder" else f"{served[site]}/{name}")
+                expect(page.locator("[data-panel]:empty")).to_have_count(0)
+                assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
+        drawn = page.evaluate(
+            "new Set([...document.querySelectorAll('.ros-panel')].map(e => e.className)).size"
+        )
+        assert drawn >= 0
+
+
+@pytest.mark.parametrize("colours", COLOURS)
+@pytest.mark.parametrize("width", WIDTHS)
+def test_axe_finds_nothing(
+    browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
+) -> None:
+    """On every page, with and without the search open; the sizes of targets are looked at, too."""
+    found = {}
+    with reader(browser, width, colours) as page:
+        for site in (course, panels):
+            for name in pages(site):
+                open_page(page, site, name)
+                found[name] = violations(page)
+                look_for(page, "service")
+                found[f"{name}, searching"] = violations(page)
+        picture(page, f"site-search-{width}-{colours}")
+    assert {name: what for name, what in found.items() if what} == {}
+
+
+def violations(page: Page) -> list[str]:
+    """Return what axe-core has to say against the page as it is."""
+    page.evaluate(AXE)
+    found: list[dict[str, Any]] = page.evaluate("options => axe.run(document, options)", OPTIONS)[
+        "violations"
+    ]
+    return [f"{each['id']}: {node['html'][:200]}" for each in found for node in each["nodes"]]
+
+
+def look_for(page: Page, words: str) -> None:
+    """Open the search by its key, and look for words."""
+    page.keyboard.press("/")
+    page.get_by_role("searchbox").fill(words)
+    expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
+
+
+def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
+    """Each by its own front end, from the state in the page."""
+    with reader(browser) as page:
+        open_page(page, panels, PAGE)
+        shown = page.locator("[data-panel]").evaluate_all(
+            "places => places.map(place => place.dataset.panel)"
+        )
+        assert set(shown) == set(fronts()) - {"choices"}
+        expect(page.locator("[data-panel] > .ros-panel")).to_have_count(len(shown))
+        picture(page, "site-panels")
+
+
+def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
+    """With what the real server said when the chapter ran, and it says so; the other form says that nobody answers."""
+    with reader(browser) as page:
+        open_page(page, panels, PAGE)
+        recorded, saved = page.get_by_role("region", name="Service panel").all()
+        for field, value in {"length": "1", "width": "2", "height": "3"}.items():
+            recorded.get_by_label(field).fill(value)
+        recorded.get_by_role("button", name="Call").click()
+        expect(recorded.get_by_text("Recorded: Answered in")).to_be_visible()
+        expect(recorded.get_by_role("row", name="volume")).to_contain_text("6.0")
+        expect(saved.get_by_text("No kernel answers")).to_be_visible()
+
+
+def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None:
+    """By a handle that can be dragged."""
+    with reader(browser) as page:
+        open_page(page, panels, PAGE)
+        turtles = page.get_by_role("region", name="Turtle panel")
+        handle = turtles.get_by_role("slider")
+        expect(handle).to_be_enabled()
+        handle.fill("0")
+        expect(turtles).to_contain_text("0.0 of")
+
+
+def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
+    """By keyboard alone: the key, a word, down, Enter."""
+    with reader(browser) as page:
+        open_page(page, course, "index.html")
+        look_for(page, "idempotent")
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("Enter")
+        expect(page.locator(":target")).to_be_in_viewport()
+        assert "#" in page.url
+
+
+def test_words_that_nothing_has_are_said_so(browser: Browser, course: Path) -> None:
+    """Nothing found is no empty list without a word; Escape closes the search."""
+    with reader(browser) as page:
+        open_page(page, course, "index.html")
+        page.get_by_role("button", name="Search").click()
+        page.get_by_role("searchbox").fill("zyzzyva")
+        expect(page.get_by_role("dialog")).to_contain_text("Nothing has “zyzzyva” in it.")
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("dialog")).to_be_hidden()
+
+
+def test_a_choice_of_colours_lasts(browser: Browser, served: dict[Path, str], course: Path) -> None:
+    """On the next page, too, panels included; the button goes round: as the system has it, light, dark."""
+    with reader(browser, colours="light") as page:
+        page.goto(served[course])
+        button = page.locator("button.theme")
+        for label in ("Light", "Dark"):
+            button.click()
+            expect(button).to_have_text(label)
+        page.goto(f"{served[course]}/glossary.html")
+        expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+        assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 27)"
+        button.click()
+        expect(page.locator("html")).not_to_have_attribute("data-theme", "dark")
+
+
+def test_the_contents_follow(browser: Browser, course: Path) -> None:
+    """The section that is read is the current one, and on a phone the list is folded away."""
+    with reader(browser) as page:
+        open_page(page, course, "05_write_a_server.html")
+        page.locator("h2").nth(4).evaluate("heading => heading.scrollIntoView({behavior: 'instant'})")
+        heading = page.locator("h2").nth(4).evaluate("heading => heading.firstChild.textContent")
+        expect(page.locator(".contents [aria-current]")).to_have_text(heading.strip())
+    with reader(browser, 390) as page:
+        open_page(page, course, "05_write_a_server.html")
+        expect(page.locator(".contents a").first).to_be_hidden()
+        page.get_by_text("On this page").click()
+        expect(page.locator(".contents a").first).to_be_visible()
+
+
+def test_code_can_be_copied(browser: Browser, course: Path) -> None:
+    """As it stands in the cell, without the button's own word."""
+    with reader(browser) as page:
+        page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        open_page(page, course, "05_write_a_server.html")
+        first = page.locator(".copied").first
+        first.hover()
+        first.get_by_role("button").click()
+        expect(first.get_by_role("button")).to_have_text("Copied")
+        assert page.evaluate("navigator.clipboard.readText()").startswith("from course_pkg import check")
+
+
+def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
+    """All text, code and links are there; where panels stood, a sentence says why they are missing."""
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto((panels / PAGE).as_uri())
+    expect(page.get_by_text("scripts are off here")).to_be_visible()
+    expect(page.locator("pre.in").first).to_be_visible()
+    expect(page.get_by_role("button")).to_have_count(0)
+    context.close()
+
+
+def test_a_page_connects_nowhere(browser: Browser, course: Path, served: dict[Path, str]) -> None:
+    """Its policy forbids it, to its own server as well, and no script but the page's own runs."""
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto(served[course])
+    assert page.evaluate("fetch('index.html').then(() => 'fetched', () => 'refused')") == "refused"
+    script = "document.body.append(Object.assign(document.createElement('script'), {textContent: 'window.ran = 1'}))"
+    page.evaluate(script)
+    assert page.evaluate("window.ran") is None
+    context.close()

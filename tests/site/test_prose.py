@@ -1,0 +1,52 @@
+"""Markdown on a page."""
+
+from __future__ import annotations
+
+import pytest
+
+from course_pkg.site.prose import Prose, page_of
+
+
+def prose(prefix: str = "") -> Prose:
+    """Return a renderer that leaves code as it is."""
+    return Prose(lambda code, _language: code, prefix)
+
+
+def test_raw_html_is_shown_as_text() -> None:
+    """Prose has no HTML in it, so whatever looks like it is meant to be read."""
+    assert "&lt;script&gt;" in prose()("<script>alert(1)</script>")
+    assert "&lt;b&gt;" in prose()("a <b>word</b>")
+
+
+@pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
+def test_a_link_cannot_run(link: str) -> None:
+    """An address that would run leads nowhere."""
+    assert link.partition(":")[0] not in prose()(f"[here]({link})")
+
+
+def test_headings_have_anchors_of_their_own() -> None:
+    """Two of one name are told apart, and a prefix tells the chapters of a book apart."""
+    page = prose("c05-")
+    page("# Ask, and wait\n\n## Again")
+    page("## Again\n\n### `rosservice`?")
+    assert page.headings == [
+        (1, "c05-ask-and-wait", "Ask, and wait"),
+        (2, "c05-again", "Again"),
+        (2, "c05-again-2", "Again"),
+        (3, "c05-rosservice", "rosservice?"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("link", "page"),
+    [
+        ("05_write_a_server.ipynb", "05_write_a_server.html"),
+        ("05_write_a_server.ipynb#refuse", "05_write_a_server.html#refuse"),
+        ("other.ipynb", "other.ipynb"),
+        ("#here", "#here"),
+    ],
+)
+def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
+    """Any other link stays what it is."""
+    assert page_of(link) == page
+    assert f'href="{page}"' in prose()(f"[there]({link})")
