@@ -1,4 +1,4 @@
-"""The pages of the grader in a browser: nothing is run, everything can be read, wide and narrow, light and dark."""
+"""The pages of the grader in a browser: nothing is run, and all can be read on a phone, light and dark."""
 
 from __future__ import annotations
 
