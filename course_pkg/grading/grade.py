@@ -17,7 +17,7 @@ class Submission:
 
     student: str
     chapter: str  # such as "05"; empty where nothing tells it
-    content: bytes = field(repr=False)
+    content: bytes = field(repr=False)  # a notebook; nothing in it that grading does not look at
     origin: str  # the file's path inside what was handed in
     late: float = 0.0  # days after the deadline
     problem: str = ""

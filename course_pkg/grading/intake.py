@@ -11,7 +11,7 @@ from course_pkg.authoring.shelf import Shelf
 from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
-from course_pkg.grading.handed_in import Entry, leads_out, opened
+from course_pkg.grading.handed_in import Entry, leads_out, one_file, opened
 from course_pkg.grading.naming import (
     METADATA,
     NOTEBOOK,
@@ -21,7 +21,7 @@ from course_pkg.grading.naming import (
     gradescope_submitters,
     wrapping,
 )
-from course_pkg.grading.reading import read_cells
+from course_pkg.grading.reading import read_cells, slimmed
 from course_pkg.grading.references import References
 
 LATE = "Canvas marks it as late. By how many days, only the table of late days can say."
@@ -61,13 +61,9 @@ def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = 
 
 def submission_of(path: Path, student: str = "", root: Path | None = None) -> Submission:
     """Return the submission in one notebook; the student's name is that of its folder unless it is given."""
-    name = path.resolve().parent.name
-    with opened(path.parent) as entries:
-        entry = next((each for each in entries if each.path == path.name), None)
-        if entry is None:
-            raise GradingError(f"There is no {path}, or it is hidden; give the path of a notebook.")
-        claim = replace(claims([name, path.name], {})[0], student=clean.identity(student or name))
-        return _taken(entry, claim, References(root)).submission
+    entry, name = one_file(path), path.resolve().parent.name
+    claim = replace(claims([name, path.name], {})[0], student=clean.identity(student or name))
+    return _taken(entry, claim, References(root)).submission
 
 
 def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[tuple[Entry, list[Claim]]]:
@@ -119,8 +115,7 @@ def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
 def _read(entry: Entry, owner: Claim, references: References, blank: Submission) -> Submission:
     if not owner.stem:
         _refuse_other(entry)
-    content = entry.read()
-    cells = read_cells(content)
+    cells = read_cells(entry.read())
     named = references.by_name(owner.stem)
     chapter = references.by_cells(cells, named) or named
     if chapter not in references.chapters:
@@ -133,7 +128,7 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
     notes = [LATE] if owner.marked_late else []
     if named and named != chapter:
         notes.append(f"The file's name says chapter {named}, its cells are those of chapter {chapter}.")
-    return replace(blank, chapter=chapter, content=content, notes=tuple(notes))
+    return replace(blank, chapter=chapter, content=slimmed(cells), notes=tuple(notes))
 
 
 def _refuse_other(entry: Entry) -> None:
@@ -142,7 +137,7 @@ def _refuse_other(entry: Entry) -> None:
     if ending in ("zip", "gz", "7z", "rar", "tar", "tgz"):
         raise GradingError("it is an archive within the submissions; put the notebook in it in its place")
     raise GradingError(
-        "it is no notebook (.ipynb), and nothing but notebooks is graded; look whether it matters"
+        "it is no notebook, and only notebooks are graded; if answers are in it, the .ipynb is needed"
     )
 
 

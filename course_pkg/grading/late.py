@@ -77,8 +77,8 @@ def late_table(path: Path) -> LateTable:
     head = [name.strip().lower() for name in lines[0]] if lines else []
     if head not in COLUMNS:
         raise GradingError(
-            f"{path.name}, line 1: the columns have to be student,days or student,chapter,days, "
-            f"but are {clean.line(','.join(head)) or 'none'}."
+            f"{path.name}, line 1: the first line has to name the columns, which are student,days or "
+            "student,chapter,days."
         )
     rows: dict[tuple[str, str], float] = {}
     for number, values in enumerate(lines[1:], 2):
@@ -111,14 +111,12 @@ def _lines(path: Path) -> list[list[str]]:
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
-    """Return the key and the days of a row; a message names the line, never the student."""
+    """Return the key and the days of a row; a message quotes nothing, for a name may stand anywhere."""
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
         raise GradingError(f"{where}: each row needs a student and a number of days, and nothing more.")
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
-        raise GradingError(
-            f"{where}: {clean.line(chapter, 40)!r} is no chapter; write two digits, such as 05."
-        )
+        raise GradingError(f"{where}: this is no chapter; write two digits, such as 05.")
     return (clean.identity(student), chapter.zfill(2) if chapter else ""), _days(where, values["days"])
 
 
@@ -128,6 +126,5 @@ def _days(where: str, written: str) -> float:
     except ValueError:
         days = math.nan
     if not 0 <= days < 10_000:
-        shown = clean.line(written, 40)
-        raise GradingError(f"{where}: {shown!r} is no number of days; write 0 or more, such as 1.5.")
+        raise GradingError(f"{where}: this is no number of days; write 0 or more, such as 1.5.")
     return days

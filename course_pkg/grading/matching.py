@@ -162,7 +162,7 @@ class _Above:
             return False
         if any(line.strip() in wanted.wiring - self._lines for line in lines):
             return True
-        if wanted.first_line:
+        if wanted.path:
             return False
         missing = (self._words - self._names) & lent(source)
         return bool(lines[0][0].isspace() or defined(source) & wanted.names or missing)

@@ -52,16 +52,18 @@ def every_wanted(reference: Notebook) -> list[Wanted]:
 def _wanted(part: str, cell: str, solution: str) -> Wanted:
     blank = handed_out(part, solution)
     first_line = blank.partition("\n")[0] if blank.startswith("%%") else ""
-    if first_line:
+    if written_path(first_line):
         wiring = frozenset(line.strip() for line in blank.split("\n")[1:] if len(line.strip()) > 4)
         return Wanted(part, cell, blank, first_line, frozenset(), wiring)
     callables = frozenset(DEFINED.findall(blank))
     names = callables or frozenset(ASSIGNED.findall(blank))
     lines = [line for line in blank.split("\n") if line and not line[0].isspace()]
     wiring = frozenset(
-        line for line in lines if not (DEFINED.match(line) or line.startswith(("@", "#", ")")))
+        line for line in lines if not (DEFINED.match(line) or line.startswith(("@", "#", ")", "%")))
     )
-    return Wanted(part, cell, blank, "", names, frozenset(line for line in wiring if "..." not in line))
+    return Wanted(
+        part, cell, blank, first_line, names, frozenset(line for line in wiring if "..." not in line)
+    )
 
 
 def defined(source: str) -> set[str]:

@@ -58,7 +58,8 @@ def banner(title: str, sentences: Sequence[str]) -> str:
     if not shown:
         return ""
     items = "".join(f"<li>{sentence}</li>" for sentence in shown)
-    return f'<div class="banner" role="note"><p><strong>{text(title)}</strong></p><ul>{items}</ul></div>'
+    words = f"<ul>{items}</ul>" if len(shown) > 1 else f"<p>{shown[0]}</p>"
+    return f'<div class="banner" role="note"><p><strong>{text(title)}</strong></p>{words}</div>'
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:

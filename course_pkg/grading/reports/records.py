@@ -29,17 +29,17 @@ def write_record(out: Path, grade: Grade) -> Path:
 
 def read_grades(out: Path) -> list[Grade]:
     """Return the grades below `out`, in the order of students and chapters."""
-    paths = sorted((out / RESULTS).glob("*/*.json"))
-    return sorted(
-        (_read(path) for path in paths if not path.name.startswith(".")),
-        key=lambda grade: (grade.student, grade.chapter, grade.origin),
-    )
+    paths = sorted(path for path in (out / RESULTS).glob("*/*.json") if not path.name.startswith("."))
+    grades = [_read(path, f"record {number} of {len(paths)}") for number, path in enumerate(paths, 1)]
+    return sorted(grades, key=lambda grade: (grade.student, grade.chapter, grade.origin))
 
 
-def _read(path: Path) -> Grade:
+def _read(path: Path, which: str) -> Grade:
+    """Return the grade in a record; a message says which it is without the student's name."""
     try:
         return grade_from(json.loads(path.read_text("utf-8")))
-    except (OSError, ValueError, TypeError, KeyError) as error:
+    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
-            f"{path} is no record of a grade: {error!r}. Delete it, and grade once more."
+            f"In {path.parents[1]}, in the order of paths, {which} ({path.name}) is none of a grade: "
+            f"{type(error).__name__}. Delete it, and grade once more."
         ) from error
