@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
@@ -16,9 +17,9 @@ from course_pkg.grading.naming import (
     METADATA,
     NOTEBOOK,
     Claim,
-    Submitters,
     claims,
     gradescope_submitters,
+    unwrapped,
     wrapping,
 )
 from course_pkg.grading.reading import read_cells, slimmed
@@ -68,27 +69,23 @@ def submission_of(path: Path, student: str = "", root: Path | None = None) -> Su
 
 def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[tuple[Entry, list[Claim]]]:
     """Yield each file with whose it is, the folders around all of them left away."""
-    submitters, problems = _submitters(entries)
     outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
-    for entry in [*entries, *problems]:
-        parts = entry.parts[outer:] if len(entry.parts) > outer else entry.parts
-        if leads_out(entry.path):
-            parts = tuple(part for part in parts if part.strip("./\\") and ":" not in part)
-        if entry.parts[-1:] != (METADATA,) or entry in problems:
-            yield entry, claims(parts or ("?",), submitters)
+    paths = [unwrapped(_inside(entry), outer) for entry in entries]
+    submitters: dict[str, list[str]] = {}
+    listed = [entry for entry, path in zip(entries, paths, strict=True) if path == (METADATA,)]
+    for entry in listed:  # none that lies in a student's own folder
+        with suppress(GradingError):
+            submitters |= gradescope_submitters(entry.read())
+    for entry, path in zip(entries, paths, strict=True):
+        if entry not in listed or not submitters:
+            yield entry, claims(path or ("?",), submitters)
 
 
-def _submitters(entries: Sequence[Entry]) -> tuple[Submitters, list[Entry]]:
-    """Return what Gradescope says about its folders, and what of that cannot be read."""
-    known: dict[str, list[str]] = {}
-    broken = []
-    for entry in entries:
-        if entry.parts[-1:] == (METADATA,):
-            try:
-                known |= gradescope_submitters(entry.read())
-            except GradingError:
-                broken.append(entry)
-    return known, broken
+def _inside(entry: Entry) -> tuple[str, ...]:
+    """Return the folders and the name of a file; of a path that leads out, what might tell whose it is."""
+    if not leads_out(entry.path):
+        return entry.parts
+    return tuple(part for part in entry.parts if part.strip("./\\") and ":" not in part)
 
 
 def _found(entry: Entry, owners: Sequence[Claim], references: References) -> Iterator[_Found]:
@@ -104,7 +101,7 @@ def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
         made = _read(entry, owner, references, blank)
     except GradingError as error:
         chapter = references.by_name(owner.stem) if owner.stem else ""
-        chapter = chapter if chapter in references.chapters else ""
+        chapter = chapter if owner.student and chapter in references.chapters else ""
         made = replace(blank, chapter=chapter, problem=f"{name} was not graded: {error}.")
     if not owner.student and not made.problem:
         why = "nothing tells whose it is; put it into a folder named for the student"
@@ -133,6 +130,8 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 
 def _refuse_other(entry: Entry) -> None:
     """Say what else a file is; a path that leads out, or a link, is told as such."""
+    if entry.path.endswith(METADATA):
+        raise GradingError("it does not say who handed in what; have Gradescope export it once more")
     ending = entry.path.rpartition(".")[2].lower()
     if ending in ("zip", "gz", "7z", "rar", "tar", "tgz"):
         raise GradingError("it is an archive within the submissions; put the notebook in it in its place")

@@ -19,7 +19,7 @@ import yaml
 from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 
-MOODLE = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<rest>.*)")
+MOODLE = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<rest>.*)")
 CANVAS = re.compile(
     r"(?P<name>[^_]+(?:_[^_\d][^_]*)*?)(?P<late>_LATE)?_(?P<id>\d{1,19})_(?P<submission>\d{2,19})_(?P<rest>.+)"
 )
@@ -42,18 +42,39 @@ class Claim:
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
-    """Return whose the file is: one student's, or those of a group."""
+    """Return whose the file is: one student's, or those of a group.
+
+    Only what a platform names is looked at: the first folder, or the file where there is none. Whatever lies
+    below is named by students, who could name it for one another.
+    """
     *folders, name = parts
-    for folder in folders:
-        if GRADESCOPE.fullmatch(folder):
-            return [_claim(student, name) for student in submitters.get(folder, [folder])]
-        if found := MOODLE.fullmatch(folder):
-            return [_claim(f"{found['name']}_{found['id']}", name)]
-    if found := MOODLE.fullmatch(name):
-        return [_claim(f"{found['name']}_{found['id']}", found["rest"])]
+    first = folders[0] if folders else name
+    if folders and GRADESCOPE.fullmatch(first):
+        return [_claim(student, name) for student in submitters.get(first, [first])]
+    if found := MOODLE.fullmatch(first):
+        return [_claim(f"{found['name']}_{found['id']}", name if folders else found["rest"])]
     if not folders and (found := CANVAS.fullmatch(name)):
         return [_claim(f"{found['name']}_{found['id']}", found["rest"], late=bool(found["late"]))]
-    return [_claim(folders[0] if folders else "", name)]
+    return [_claim(first if folders else "", name)]
+
+
+def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
+    """Return the name and the number by which `platform` (MOODLE, CANVAS) knows a student, or empty texts.
+
+    The files that it named tell; a student who is merely called `s_17` has no number.
+    """
+    for origin in origins:
+        for part in origin.split("/"):
+            found = platform.fullmatch(part)
+            if found and clean.identity(f"{found['name']}_{found['id']}") == student:
+                return found["name"], found["id"]
+    return "", ""
+
+
+def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
+    """Return a path without the `outer` folders around all files, nor one that a platform puts there."""
+    inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
+    return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 
 
 def _claim(student: str, name: str, *, late: bool = False) -> Claim:

@@ -22,9 +22,7 @@ class Rebuilt:
 
     notebook: Notebook  # no output of an exercise's cell in it, and none is compared
     answers: Mapping[str, str]  # by part; the source that is run, which may be the one that was handed out
-    missing: Mapping[str, str] = field(
-        default_factory=dict
-    )  # by part: why there is no answer, for the student
+    missing: Mapping[str, str] = field(default_factory=dict)  # by part: why it has no answer, for the student
     untouched: frozenset[str] = frozenset()  # parts in `answers` that are as they were handed out
     notes: tuple[str, ...] = ()  # what was out of the ordinary, for the student
     problem: str = ""  # why nothing could be taken from it

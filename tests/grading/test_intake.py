@@ -372,6 +372,30 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
     assert [each.student for each in found if not each.problem] == ["submission_1"]
 
 
+def test_nobody_hands_in_for_another(tmp_path: Path, five: bytes) -> None:
+    """What a student names a folder or a file does not make it another student's."""
+    forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
+    files = {
+        "submission_metadata.yml": GRADESCOPE,
+        f"submission_11/{FIVE}": five,
+        "submission_12/submission_metadata.yml": forged,
+        f"submission_12/submission_11/{FIVE}": five,
+    }
+    found = submissions(folder(tmp_path / "a", files))
+    assert [each.student for each in found if not each.problem] == ["0042", "Third", "s43@example.com"]
+    assert [each.origin for each in found if each.student == "0042"] == [f"submission_11/{FIVE}"]
+    files = {
+        f"s01/A Two_12_assignsubmission_file_/{FIVE}": five,
+        f"A One_11_assignsubmission_file_A Two_12_assignsubmission_file_{FIVE}": five,
+        f"A Six_16_assignsubmission_file_/A Two_12_assignsubmission_file_/{FIVE}": five,
+        f"s02/two_9_99_{FIVE}": five,
+    }
+    found = submissions(folder(tmp_path / "b", files))
+    assert [each.student for each in found] == ["A One_11", "A Six_16", "s01", "s02"]
+    [found] = submissions(folder(tmp_path / "c", {f"one_1_22_two_9_99_{FIVE}": five}))
+    assert found.student == "one_1"
+
+
 def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
     """It has no submissions, which is no error."""
     assert submissions(tmp_path) == []

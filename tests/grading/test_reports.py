@@ -153,7 +153,10 @@ def test_gradescope(tmp_path: Path) -> None:
 
 def test_canvas(tmp_path: Path) -> None:
     """The columns that it finds a student by, the points possible, and no grade for what is missing."""
-    grades = [*_two(), replace(_two()[0], student="lastfirst_4711")]
+    canvas = replace(
+        _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
+    )
+    grades = [*_two(), canvas, replace(_two()[2], student="s_17", origin="s_17/05_write_a_server.ipynb")]
     write_reports(grades, tmp_path)
     assert _rows(tmp_path / "canvas.csv") == [
         ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Chapter 05", "Chapter 06"],
@@ -161,15 +164,15 @@ def test_canvas(tmp_path: Path) -> None:
         ["lastfirst", "4711", "", "", "", "8.1", ""],
         ["s01", "", "", "s01", "", "8.1", "4"],
         ["s02", "", "", "s02", "", "3", ""],
+        ["s_17", "", "", "s_17", "", "3", ""],
     ]
 
 
 def test_moodle(tmp_path: Path) -> None:
     """By user name, address or full name; each grade with its feedback."""
     five = _two()[2]
-    write_reports(
-        [five, replace(five, student="a@b.example"), replace(five, student="Full Name_12")], tmp_path
-    )
+    moodle = replace(five, student="Full Name_12", origin="Full Name_12_assignsubmission_file_/05.ipynb")
+    write_reports([five, replace(five, student="a@b.example"), moodle], tmp_path)
     head, full, address, user = _rows(tmp_path / "moodle.csv")
     assert head == ["username", "email", "full name", "identifier", "Chapter 05", "Chapter 05 feedback"]
     assert full[:5] == ["", "", "Full Name", "Participant 12", "3"]

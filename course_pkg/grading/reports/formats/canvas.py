@@ -6,15 +6,14 @@ not know it offers as a new assignment. The second row holds the points that are
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from course_pkg.grading import clean
+from course_pkg.grading.naming import CANVAS, number_of
 from course_pkg.grading.reports.book import Book, name_of, points
 from course_pkg.grading.reports.files import put_table
 
 HEAD = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
-DOWNLOADED = re.compile(r"(?P<name>.+)_(?P<id>\d+)")  # how naming.py calls whoever Canvas named in a download
 
 
 def write(book: Book, out: Path) -> None:
@@ -31,13 +30,14 @@ def write(book: Book, out: Path) -> None:
             *(points(book.possible(chapter)) for chapter in book.chapters),
         ],
     ]
-    rows += [[*_identity(student), *_points(book, student)] for student in book.students if student]
+    rows += [[*_identity(book, student), *_points(book, student)] for student in book.students if student]
     put_table(out / "canvas.csv", rows)
 
 
-def _identity(student: str) -> list[str]:
-    if found := DOWNLOADED.fullmatch(student):
-        return [clean.cell(found["name"]), found["id"], "", "", ""]
+def _identity(book: Book, student: str) -> list[str]:
+    name, number = number_of(student, (grade.origin for grade in book.of(student)), CANVAS)
+    if number:
+        return [clean.cell(name), number, "", "", ""]
     return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
 
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from course_pkg.examiner.report import Report, Verdict
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
+from course_pkg.grading.naming import MOODLE, number_of
 from course_pkg.grading.reports.book import Book, about_lateness, name_of, points
 from course_pkg.grading.reports.files import put_table
-from course_pkg.grading.reports.formats.canvas import DOWNLOADED
 
 LONG = 3_000  # characters of feedback
 
@@ -25,13 +25,14 @@ def write(book: Book, out: Path) -> None:
     names = [f"Chapter {clean.line(chapter)}" for chapter in book.chapters]
     head = ["username", "email", "full name", "identifier"]
     rows = [[*head, *(text for name in names for text in (name, f"{name} feedback"))]]
-    rows += [[*_identity(student), *_grades(book, student)] for student in book.students if student]
+    rows += [[*_identity(book, student), *_grades(book, student)] for student in book.students if student]
     put_table(out / "moodle.csv", rows)
 
 
-def _identity(student: str) -> list[str]:
-    if found := DOWNLOADED.fullmatch(student):
-        return ["", "", clean.cell(found["name"]), f"Participant {found['id']}"]
+def _identity(book: Book, student: str) -> list[str]:
+    known, number = number_of(student, (grade.origin for grade in book.of(student)), MOODLE)
+    if number:
+        return ["", "", clean.cell(known), f"Participant {number}"]
     name = clean.cell(name_of(student))
     return ["", name, "", ""] if "@" in name.strip("'@") else [name, "", "", ""]
 
