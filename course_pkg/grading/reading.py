@@ -44,7 +44,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
     """Return the cells of a notebook; raise GradingError, in half a sentence, for what is none."""
     cells = _all_cells(_parsed(content))
     if not isinstance(cells, list):
-        raise GradingError("it is no notebook: it has no cells; hand in the .ipynb that you worked in")
+        raise GradingError("it is no notebook, as it has no cells; hand in the .ipynb that you worked in")
     if len(cells) > CELLS:
         raise GradingError(f"it has more than {CELLS} cells; hand in the notebook that you worked in")
     return list(_cells(cells))
@@ -75,10 +75,10 @@ def _parsed(content: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         why = next((words for prefix, words in PREFIXES.items() if start.startswith(prefix)), "")
         raise GradingError(
-            why or "it is no notebook: not JSON; hand in the .ipynb that you worked in"
+            why or "it is no notebook, being not JSON; hand in the .ipynb that you worked in"
         ) from error
     if not isinstance(data, dict):
-        raise GradingError("it is no notebook: JSON, but nothing with cells; hand in the .ipynb")
+        raise GradingError("it is JSON, but nothing with cells; hand in the .ipynb that you worked in")
     return data
 
 

@@ -239,6 +239,14 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
     assert re.search(rf"{re.escape(HINTS['05.1'])}</td><td class=\"number\">2<", page)
 
 
+def test_a_broken_rule_without_a_hint_is_counted(tmp_path: Path) -> None:
+    """An author sees where a hint is wanted."""
+    failed = report("05.1", Verdict.FAILED)
+    plain = replace(failed, rules=tuple(replace(rule, hint="") for rule in failed.rules))
+    write_reports([Grade("s01", "05", (plain,))], tmp_path)
+    assert "(no hint) area is width times length" in (tmp_path / "class.html").read_text()
+
+
 def test_nobody_and_nothing(tmp_path: Path) -> None:
     """A class of nobody, and files of nobody's."""
     write_reports([], tmp_path)

@@ -97,20 +97,20 @@ def _rects(verdicts: Counter[Verdict], there: int) -> str:
 
 
 def _hints(book: Book) -> str:
-    """Return the hints that most students were given; a student counts once for each."""
+    """Return the hints that most students were given, and the rules that had none to give."""
     counts = Counter(
         hint
         for student in book.students
         for hint in {
-            (report.check, clean.line(rule.hint))
+            (report.check, clean.line(rule.hint or f"(no hint) {rule.text}"))
             for grade in book.of(student)
             for report in grade.reports
             for rule in report.rules
-            if rule.hint and not rule.holds
+            if not rule.holds
         }
     )
     if not counts:
-        return paragraph("No hint was given.")
+        return paragraph("None: every rule that was looked at holds.")
     ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:HINTS]
     rows = [(text(check), text(hint), str(count)) for (check, hint), count in ranked]
     return table("Each student counts once for each hint.", ["Part", "Hint", "Students"], rows, 1)
