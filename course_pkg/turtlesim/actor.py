@@ -19,6 +19,7 @@ from turtlesim.srv import (
 )
 
 from course_pkg.turtlesim.answering import Answering, Refused
+from course_pkg.turtlesim.brisk import publish_briskly
 from course_pkg.turtlesim.paper import Paper
 from course_pkg.turtlesim.world import Pen, Turtle, Velocity, sound
 
@@ -35,9 +36,12 @@ class Actor:
         self.turtle = turtle
         self._paper = paper
         self._in_tick = in_tick
+        self._closed = False
         name = turtle.name
         self._pose = rospy.Publisher(f"{name}/pose", Pose, queue_size=1)
         self._colour = rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1)
+        for publisher in (self._pose, self._colour):
+            publish_briskly(publisher)
         self._ordered = rospy.Subscriber(f"{name}/cmd_vel", Twist, self._obey, queue_size=1, tcp_nodelay=True)
         self._services: list[Any] = [
             Answering(f"{name}/set_pen", SetPen, self._set_pen),
@@ -48,11 +52,16 @@ class Actor:
     def publish(self) -> None:
         """Say where the turtle is, how it moves, and what is drawn under it."""
         turtle, velocity = self.turtle, self.turtle.velocity
-        self._pose.publish(Pose(turtle.x, turtle.y, turtle.theta, turtle.speed, velocity.turn))
-        self._colour.publish(Color(*turtle.colour))
+        try:
+            self._pose.publish(Pose(turtle.x, turtle.y, turtle.theta, turtle.speed, velocity.turn))
+            self._colour.publish(Color(*turtle.colour))
+        except rospy.ROSException:  # a turtle that leaves may be in the middle of a sentence
+            if not self._closed:
+                raise
 
     def close(self) -> None:
         """Take the turtle off the graph."""
+        self._closed = True
         for service in self._services:
             service.shutdown()
         topics: list[Any] = [self._ordered, self._pose, self._colour]

@@ -20,6 +20,7 @@ from course_pkg.turtlesim.names import objection
 from course_pkg.turtlesim.paper import Colour
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, sound
 
+FIRST = "turtle1"  # the turtle that is there after a reset
 BUDGET = 0.008  # s of a tick for requests: a flood of them delays nobody's pose by more
 LATEST = 0.25  # s; a machine that slept does not catch up with more
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
@@ -38,7 +39,7 @@ class Simulator:
                 rospy.set_param(f"~{name}", value)
         self._world = World(self._background())
         self._actors: dict[str, Actor] = {}  # replaced, never changed: the loop may be going through it
-        turtle = self._world.turtles["turtle1"]
+        turtle = self._world.turtles[FIRST]
         self._announce(turtle)
         self._enter(Actor(turtle, self._world.paper, self.in_tick))
         self._services = [
@@ -63,9 +64,12 @@ class Simulator:
 
     def in_tick(self, job: Callable[[], Result]) -> Result:
         """Have `job` done between two ticks, and return what it returns."""
+        return self._in_next_tick(job).result()
+
+    def _in_next_tick(self, job: Callable[[], Result]) -> Future[Result]:
         done: Future[Result] = Future()
         self._jobs.put((job, done))
-        return done.result()
+        return done
 
     def _do_jobs(self) -> None:
         until = time.monotonic() + BUDGET
@@ -115,9 +119,12 @@ class Simulator:
         rospy.loginfo("Resetting turtlesim.")
         background = self._background()
         with self._changes:
-            for actor in self.in_tick(lambda: self._begin_anew(background)):
+            leaving = self._sent_off()
+            begun = self._in_next_tick(lambda: self._begin_anew(background))
+            for actor in leaving:  # while the tick comes: each is six questions to the master
                 actor.close()
-            turtle = self._world.turtles["turtle1"]
+            begun.result()
+            turtle = self._world.turtles[FIRST]
             self._announce(turtle)
             if turtle.name not in self._actors:  # it had been killed
                 self._enter(Actor(turtle, self._world.paper, self.in_tick))
@@ -128,14 +135,17 @@ class Simulator:
         self._actors = {name: other for name, other in self._actors.items() if other is not actor}
         return actor
 
-    def _begin_anew(self, background: Colour) -> list[Actor]:
-        """Reset the world; return the actors that left it. The first turtle's listeners go on listening."""
+    def _sent_off(self) -> list[Actor]:
+        """Take all actors off the stage but the first turtle's, whose listeners go on listening."""
+        leaving = [actor for name, actor in self._actors.items() if name != FIRST]
+        self._actors = {name: actor for name, actor in self._actors.items() if name == FIRST}
+        return leaving
+
+    def _begin_anew(self, background: Colour) -> None:
+        """Reset the world."""
         self._world.reset(background)
-        leaving = [actor for name, actor in self._actors.items() if name not in self._world.turtles]
-        self._actors = {name: actor for name, actor in self._actors.items() if actor not in leaving}
         for name, actor in self._actors.items():
             actor.turtle = self._world.turtles[name]
-        return leaving
 
     def _enter(self, actor: Actor) -> None:
         self._actors = dict(sorted({**self._actors, actor.turtle.name: actor}.items()))
