@@ -91,12 +91,15 @@ class Simulator:
         place = (request.x, request.y, request.theta)
         with self._changes:
             try:
-                turtle = self.in_tick(lambda: self._world.spawn(*place, request.name))
+                turtle = self._world.make(*place, request.name)
             except NameTaken as error:
                 rospy.logerr(str(error))
                 raise Refused("") from error
+            added = self._in_next_tick(lambda: self._world.add(turtle))
+            actor = Actor(turtle, self._world.paper, self.in_tick)  # six questions, while the tick comes
+            added.result()
             self._announce(turtle)
-            self._enter(Actor(turtle, self._world.paper, self.in_tick))
+            self._enter(actor)
         return SpawnResponse(turtle.name)
 
     def _kill(self, request: Any) -> KillResponse:  # noqa: ANN401

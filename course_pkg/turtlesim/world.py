@@ -121,11 +121,19 @@ class World:
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
         """Add a turtle, with the next free name of turtle1, turtle2, … if it is given none."""
+        return self.add(self.make(x, y, theta, name))
+
+    def make(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
+        """Return a turtle that is to be added, with a name that is free."""
         name = name or self._free_name()
         if name in self.turtles:
             raise NameTaken(f"A turtled named [{name}] already exists")
-        self.turtles[name] = Turtle(name, x, y, theta)
-        return self.turtles[name]
+        return Turtle(name, x, y, theta)
+
+    def add(self, turtle: Turtle) -> Turtle:
+        """Have a turtle in the world, from now on."""
+        self.turtles[turtle.name] = turtle
+        return turtle
 
     def kill(self, name: str) -> Turtle:
         """Take a turtle out of the world; what it drew stays."""
