@@ -18,7 +18,7 @@ from course_pkg.grading.marking import key_of
 from course_pkg.grading.progress import Progress
 from course_pkg.grading.queue import Task, executor_of, grade_all
 from course_pkg.grading.reports import write_reports
-from course_pkg.grading.store import Store
+from course_pkg.grading.store import Store, handed_in
 from course_pkg.grading.walls import require_walls
 from course_pkg.state import write_json
 
@@ -82,6 +82,8 @@ def _handed_in(options: Options, table: LateTable | None) -> list[Submission]:
             f"There is nothing to grade in {options.source}: it should hold STUDENT/NN_topic.ipynb, or be a "
             "zip of that."
         )
+    if table and (strangers := table.strangers(found)):
+        sys.stderr.write(f"{strangers} in the table of late days handed nothing in: a slip in a name?\n")
     return table.applied(found) if table else found
 
 
@@ -108,9 +110,7 @@ def _graded(options: Options, found: Sequence[Submission], extras: Extras, store
             store.keep(graded)
             alike = todo[graded.key]
             progress.more(len(alike))
-            yield from (
-                replace(graded, student=each.student, origin=each.origin, late=each.late) for each in alike
-            )
+            yield from (handed_in(graded, each) for each in alike)
     progress.end()
 
 

@@ -12,7 +12,7 @@ from course_pkg.grading.context import needed
 from course_pkg.grading.extras import Extras
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.plan import PartPlan, Plan, course_digest
-from course_pkg.grading.rebuild import Rebuilt, rebuild
+from course_pkg.grading.rebuild import Rebuilt
 from course_pkg.grading.ward.job import PartJob, PartOutcome
 
 Run = Callable[[PartJob], PartOutcome]
@@ -50,7 +50,7 @@ def mark(
     )
     if submission.problem:
         return _nothing(grade, plan, extras, submission.problem)
-    rebuilt = rebuild(plan.reference, submission.content)
+    rebuilt = plan.rebuilder.rebuild(submission.content)
     if rebuilt.problem:
         return _nothing(grade, plan, extras, rebuilt.problem)
     reports = [

@@ -79,11 +79,9 @@ def mount_processes() -> None:
     _mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, "")
 
 
-def bind(source: str, target: str, *, read_only: bool = False) -> None:
-    """Show the folder `source` at `target`, too."""
-    _mount(source, target, "", MS_BIND, "")
-    if read_only:
-        make_read_only(target)
+def bind(source: str, target: str) -> None:
+    """Show `source`, with whatever is mounted below it, at `target`, too."""
+    _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
 def make_read_only(target: str) -> None:

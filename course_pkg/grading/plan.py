@@ -8,10 +8,10 @@ from functools import cache
 from pathlib import Path
 
 import course_pkg
-from course_pkg.authoring.cells import Notebook
 from course_pkg.authoring.shelf import Shelf, read
 from course_pkg.examiner.answers import around
 from course_pkg.examiner.parts import Part, exercise_of, parts_of
+from course_pkg.grading.rebuild import Rebuilder
 
 
 @dataclass(frozen=True)
@@ -35,17 +35,17 @@ class PartPlan:
 
 @dataclass(frozen=True)
 class Plan:
-    """A chapter: its reference notebook and its parts, in order."""
+    """A chapter: what places answers into its reference notebook, and its parts, in order."""
 
     chapter: str
-    reference: Notebook
+    rebuilder: Rebuilder
     parts: tuple[PartPlan, ...]
 
 
 def plan(chapter: str) -> Plan:
     """Return the plan of a chapter, such as "05"."""
-    reference = read(Shelf().solutions([chapter])[0])
-    return Plan(chapter, reference, tuple(map(_planned, parts_of(chapter))))
+    rebuilder = Rebuilder(read(Shelf().solutions([chapter])[0]))
+    return Plan(chapter, rebuilder, tuple(map(_planned, parts_of(chapter))))
 
 
 def _planned(part: Part) -> PartPlan:
@@ -66,4 +66,5 @@ def course_digest() -> str:
 
 
 def _counts(path: Path) -> bool:
-    return path.is_file() and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
+    apart = {"site", "lab"} & set(path.parts)  # no grade depends on those
+    return path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}

@@ -23,6 +23,7 @@ from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import Plan, plan
+from course_pkg.grading.rebuild import Rebuilder
 from course_pkg.grading.validation import validated, wanted
 from course_pkg.grading.wards import Ward
 
@@ -96,5 +97,5 @@ def _extras(_pid: int, private: str) -> Extras:
 @cache
 def _plan(chapter: str) -> Plan:
     return (
-        plan(chapter) if chapter in chapters() else Plan(chapter, {}, ())
+        plan(chapter) if chapter in chapters() else Plan(chapter, Rebuilder({"cells": []}), ())
     )  # a problem, and nothing to examine

@@ -16,6 +16,17 @@ FOLDER = ".grading"
 NOBODY = ""
 
 
+def handed_in(grade: Grade, submission: Submission) -> Grade:
+    """Return the grade of a notebook as that of who handed it in, and how."""
+    return replace(
+        grade,
+        student=submission.student,
+        origin=submission.origin,
+        late=submission.late,
+        notes=(*submission.notes, *grade.notes),
+    )
+
+
 class Store:
     """The grades that are done, by their keys: whole or not at all, and without names.
 
@@ -38,7 +49,7 @@ class Store:
             grade = grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
             return None
-        return replace(grade, student=submission.student, origin=submission.origin, late=submission.late)
+        return handed_in(grade, submission)
 
     def keep(self, grade: Grade) -> None:
         """Keep `grade` under its key."""

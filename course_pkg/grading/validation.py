@@ -10,7 +10,6 @@ from dataclasses import replace
 from course_pkg.authoring.cells import Notebook
 from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
-from course_pkg.grading.rebuild import rebuild
 from course_pkg.grading.walls import enclosed
 
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100
@@ -30,7 +29,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
         return replace(
             grade, notes=(*grade.notes, "nbval runs notebooks behind walls only, and there are none.")
         )
-    cells = outcomes_of(rebuild(plan.reference, submission.content).notebook)
+    cells = outcomes_of(plan.rebuilder.rebuild(submission.content).notebook)
     if not cells:
         return replace(grade, notes=(*grade.notes, f"nbval came to no end within {LIMIT:g} s."))
     return replace(grade, cells=cells)

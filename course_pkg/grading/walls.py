@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from course_pkg.errors import WallsMissing
+from course_pkg.grading.ward.confinement import ROOMS, STAGE, STAGED
 from course_pkg.provision import Places, environment
 
 NOBODY = 65534  # uid and gid of whoever owns nothing, in place of root
@@ -74,6 +75,7 @@ def enclosed(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[s
         *("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"),
         *(_with_power() if root else ("--unshare-user", "--proc", "/proc")),
         *("--new-session", "--die-with-parent", "--clearenv", "--hostname", "classroom"),
+        *("--dev", "/dev"),
         *_file_system([*_course(), *readable]),
         *_variables(),
         *("--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/"),
@@ -91,6 +93,8 @@ def _with_power() -> Iterator[str]:
 
 
 def _file_system(shown: Sequence[Path]) -> Iterator[str]:
+    for folder in ROOMS:
+        yield from ("--perms", "1777", "--size", str(ROOM), "--tmpfs", folder)
     for link in filter(os.path.islink, LINKS):
         yield from ("--symlink", os.readlink(link), link)
     system = [path for path in (*READ, *LINKS) if os.path.exists(path) and not os.path.islink(path)]
@@ -98,11 +102,18 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
         yield from _shown(path, path)
     for name, text in MADE_UP.items():
         yield from _shown(_made_up(name, text), Path(name))
-    yield from ("--dev", "/dev")
-    for folder in ("/tmp", "/dev/shm"):  # noqa: S108 -- behind the wall
-        yield from ("--perms", "1777", "--size", str(ROOM), "--tmpfs", folder)
+    yield from _staged(shown)
     for folder in ("/run", "/student"):
         yield from ("--perms", "0755", "--dir", folder)
+
+
+def _staged(shown: Sequence[Path]) -> Iterator[str]:
+    """Yield what lets a part that has a folder of its own for a room show again what lay in that room."""
+    inside = [path for path in dict.fromkeys(shown) if any(path.is_relative_to(room) for room in ROOMS)]
+    for number, path in enumerate(inside):
+        place = Path(STAGE, str(number))
+        yield from ("--perms", "0755", "--dir", str(place)) if path.is_dir() else _shown(path, place)
+    yield from ("--setenv", STAGED, os.pathsep.join(map(str, inside)))
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:

@@ -17,6 +17,7 @@ from course_pkg.provision import Places
 from tests.grading.submitted import WRONG, hand_in
 from tests.support import eventually
 
+TOTAL = "earned"
 COURSE = Places.of().checkout / "course"
 
 
@@ -42,7 +43,7 @@ def grade(submissions: Path, out: Path, *words: str) -> subprocess.CompletedProc
 def points(out: Path) -> dict[str, float]:
     """Return the totals of grades.csv, by student."""
     with (out / "grades.csv").open(encoding="utf-8-sig", newline="") as file:
-        return {row["student"]: float(row["total"]) for row in csv.DictReader(file)}
+        return {row["student"]: float(row[TOTAL]) for row in csv.DictReader(file)}
 
 
 @pytest.fixture(scope="module")

@@ -15,6 +15,8 @@ MEMORY = 1 << 30  # bytes of addresses a process
 TOGETHER = 768 << 20  # bytes of memory that all processes of a part may use
 PROCESSES = 200  # and threads: a launch file of three nodes has about 60
 DISK = 128 << 20  # bytes below /student, and as much below /tmp
+ROOMS = ("/tmp", "/dev/shm")  # noqa: S108 -- of a cell alone
+STAGE, STAGED = "/run/shown", "COURSE_SHOWN"  # where it is kept meanwhile, and the variable that says what
 FILES = 20_000
 FILE = 64 << 20  # bytes of one file
 OPEN = 1024
@@ -50,8 +52,7 @@ def in_cell(work: Callable[[], None], *, may_write: bool) -> NoReturn:
         | namespaces.CGROUP
     )
     namespaces.become(STUDENT, STUDENT, outside=(0, 0))
-    for folder in ("/tmp", "/dev/shm"):  # noqa: S108 -- of this cell alone
-        namespaces.mount_memory(folder, size=DISK, files=FILES)
+    _make_rooms()
     if not may_write:
         namespaces.make_read_only("/student")
     if first := os.fork():
@@ -65,6 +66,26 @@ def in_cell(work: Callable[[], None], *, may_write: bool) -> NoReturn:
         work()
     finally:
         os._exit(0)
+
+
+def _make_rooms() -> None:
+    """Mount rooms of this cell alone; what the outer wall shows below one is shown there again."""
+    staged = {path: f"{STAGE}/{number}" for number, path in enumerate(staged_paths())}
+    for path, place in staged.items():
+        if os.path.isdir(path):
+            namespaces.bind(path, place)
+    for room in ROOMS:
+        namespaces.mount_memory(room, size=DISK, files=FILES)
+    for path, place in staged.items():
+        os.makedirs(path if os.path.isdir(place) else os.path.dirname(path), exist_ok=True)
+        if not os.path.isdir(place):
+            open(path, "w").close()
+        namespaces.bind(place, path)
+
+
+def staged_paths() -> list[str]:
+    """Return what the outer wall shows below a room: a checkout in /tmp, for one."""
+    return [path for path in os.environ.get(STAGED, "").split(os.pathsep) if path]
 
 
 def _without_privileges() -> None:

@@ -28,7 +28,6 @@ CELL = 60  # s
 KERNEL = "walled"
 OWN = "/student/.course"
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")  # a kernel below process 1 takes itself for an orphan
-ROOM = ("/tmp", "/dev/shm", "/student")  # noqa: S108 -- of the kernel alone
 
 
 def main() -> None:
@@ -89,7 +88,9 @@ def _surroundings(folder: Path, record: Path, port: int) -> None:
 
 def _kernel_command(filter_file: Path) -> list[str]:
     """Return the command of a kernel with nothing: no reference, no checks, nobody's processes."""
-    room = [word for each in ROOM for word in ("--size", str(confinement.DISK), "--tmpfs", each)]
+    size, rooms = str(confinement.DISK), (*confinement.ROOMS, "/student")
+    room = [word for each in rooms for word in ("--size", size, "--tmpfs", each)]
+    shown = [word for each in confinement.staged_paths() for word in ("--ro-bind", each, each)]
     covered = [word for each in checks.__path__ for word in ("--tmpfs", each, "--remount-ro", each)]
     limits = [
         f"--as={confinement.MEMORY}",
@@ -100,7 +101,8 @@ def _kernel_command(filter_file: Path) -> list[str]:
     alone = ["--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"]
     command = [
         *("bwrap", *alone, "--disable-userns", "--die-with-parent", "--new-session", "--cap-drop", "ALL"),
-        *("--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev", *room, *covered, "--remount-ro", "/dev"),
+        *("--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"),
+        *(*room, *shown, *covered),
         *("--ro-bind", "{connection_file}", "{connection_file}", "--setenv", "HOME", "/student"),
         *("--setenv", "COURSE_STATE", OWN, "--setenv", "ROS_HOME", OWN, "--setenv", "ROS_LOG_DIR", OWN),
         *("--unsetenv", RECORD, *ORPHANED, "--chdir", "/student"),
