@@ -1,6 +1,11 @@
 """The course as a static site: pages that open from a folder, with no network and no kernel."""
 
+from typing import TYPE_CHECKING
+
 from course_pkg.lazy import lazily
+
+if TYPE_CHECKING:
+    from course_pkg.site.command import run_site
 
 __all__ = ["run_site"]
 

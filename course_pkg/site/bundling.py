@@ -24,9 +24,10 @@ PATIENCE = 300  # s for the registry
 
 
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
-    """Build the files into `target` and return those of these names. Raises SiteError where npm is missing or fails.
+    """Build the files of these names into `target`, and return them.
 
-    It works in a folder of its own: node_modules inside the package would be walked by rosrun.
+    It works in a folder of its own: node_modules inside the package would be walked by rosrun. Raises
+    SiteError where npm is missing or fails.
     """
     with tempfile.TemporaryDirectory(prefix="course-bundle-") as folder:
         work = Path(shutil.copytree(BUNDLE, Path(folder) / "bundle"))

@@ -1,4 +1,4 @@
-"""Looks a site over from outside: whether links lead somewhere, figures have words, nothing comes from afar."""
+"""Looks a site over: whether links lead somewhere, figures have words, and nothing comes from afar."""
 
 from __future__ import annotations
 

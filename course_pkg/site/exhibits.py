@@ -14,6 +14,7 @@ from course_pkg.authoring.cells import Notebook, code_cells
 EXHIBIT = "application/vnd.course-panel+json"
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATES = "application/vnd.jupyter.widget-state+json"
+PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets
 OF_THE_COURSE = re.compile(r"course_pkg\.panels\.(?P<panel>\w+)\.view\.\w+")
 
 State = dict[str, Any]
@@ -40,6 +41,8 @@ def _panel_of(state: State) -> str:
 
 
 def _kept(state: State) -> State:
-    """Return what a front end reads: neither ipywidgets' own traits nor what is empty text."""
-    private = ("layout", "tabbable", "tooltip")
-    return {name: value for name, value in state.items() if name[0] != "_" and name not in private}
+    """Return what a front end reads, and no call that is under way: when a notebook has ended, none is."""
+    kept = {name: value for name, value in state.items() if name[0] != "_" and name not in PRIVATE}
+    if isinstance(activity := kept.get("activity"), dict) and "calls" in activity:
+        kept["activity"] = {**activity, "calls": []}
+    return kept

@@ -6,7 +6,7 @@ import base64
 import json
 import re
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
@@ -16,7 +16,7 @@ from nbconvert.exporters.templateexporter import TemplateExporter
 from nbconvert.filters import ansi2html
 from traitlets.config import Config
 
-from course_pkg.authoring.cells import Notebook, exercise_of
+from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.site.clean import Purifier
 from course_pkg.site.code import Highlighter
 from course_pkg.site.exhibits import EXHIBIT
@@ -41,15 +41,20 @@ class Exporter(HTMLExporter):
 
     def __init__(self) -> None:
         settings = Config({"TemplateExporter": {"extra_template_basedirs": [str(self.template_data)]}})
-        super().__init__(config=settings, template_name="course")
+        super().__init__(config=settings, template_name="course")  # type: ignore[no-untyped-call]
         self.highlight = Highlighter()
-        self._clean = Purifier()
-        self.register_filter("code", self.highlight.cell)
-        self.register_filter("clean", self._clean)
-        self.register_filter("terminal", terminal)
-        self.register_filter("packed", packed)
-        self.register_filter("picture", picture)
-        self.register_filter("exercise", exercise_of)
+        self._prose = Prose(self.highlight.block)
+
+    def default_filters(self) -> Iterator[tuple[str, Callable[..., Any]]]:
+        """Yield nbconvert's filters and what our template needs besides."""
+        yield from super().default_filters()  # type: ignore[no-untyped-call]
+        yield "clean", Purifier()
+        yield "code", self.highlight.cell
+        yield "exercise", exercise_of
+        yield "packed", packed
+        yield "picture", picture
+        yield "prose", lambda source: self._prose(source)
+        yield "terminal", terminal
 
     @property
     def default_config(self) -> Config:
@@ -57,18 +62,29 @@ class Exporter(HTMLExporter):
         own = Config(
             {"NbConvertBase": {"display_data_priority": SHOWN}, "Exporter": {"default_preprocessors": []}}
         )
-        inherited = super().default_config.copy()
+        inherited: Config = super().default_config.copy()
         inherited.merge(own)
         return inherited
 
     def body(self, notebook: Notebook, prefix: str = "") -> Body:
         """Return the cells of `notebook` as HTML; anchors begin with `prefix`."""
-        prose = Prose(self.highlight.block, prefix)
-        self.register_filter("prose", prose)
+        self._prose = Prose(self.highlight.block, prefix)
         resources: dict[str, Any] = {"prefix": prefix, "states": []}
         # HTMLExporter would parse the page once more, only to mend pictures without a description.
-        html, _ = TemplateExporter.from_notebook_node(self, nbformat.from_dict(notebook), resources)
-        return Body(str(html).strip(), prose.headings)
+        html, _ = TemplateExporter.from_notebook_node(self, _showable(notebook), resources)
+        return Body(str(html).strip(), self._prose.headings)
+
+
+def _showable(notebook: Notebook) -> nbformat.NotebookNode:
+    """Return a copy of `notebook` without the outputs that no page can show; nbconvert would warn of them."""
+    copy: nbformat.NotebookNode = nbformat.from_dict(notebook)
+    for cell in code_cells(copy):
+        cell["outputs"] = [each for each in cell["outputs"] if _has_a_form(each)]
+    return copy
+
+
+def _has_a_form(output: dict[str, Any]) -> bool:
+    return "data" not in output or not set(SHOWN).isdisjoint(output["data"])
 
 
 def packed(states: Sequence[dict[str, Any]]) -> str:

@@ -48,6 +48,14 @@ class _Renderer(HTMLRenderer):
     def block_code(self, code: str, info: str | None = None) -> str:
         return f'<pre class="code">{self._highlight(code, (info or "text").split()[0])}</pre>\n'
 
+    def table(self, text: str) -> str:
+        return f'<div class="wide"><table>{text}</table></div>\n'
+
+    def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
+        tag = "th" if head and text.strip() else "td"  # the corner of a table heads nothing
+        style = f' style="text-align:{align}"' if align else ""
+        return f"<{tag}{style}>{text}</{tag}>"
+
     def link(self, text: str, url: str, title: str | None = None) -> str:
         return super().link(text, page_of(url), title)
 

@@ -1,4 +1,4 @@
-"""What is done with a panel while its notebook runs, so that the page has something to show and to answer from.
+"""What is done with a panel while its notebook runs, so that the page has something to show.
 
 `rehearsals.json` says it: for a notebook's name and a cell's id either `record`, the requests that a service
 panel really makes then, and answers from ever after; or `watch`, for how many seconds a panel does what it

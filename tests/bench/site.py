@@ -1,7 +1,7 @@
 """The site: how fast it is built, what its pages weigh, how soon the first panel is there.
 
-`./course site` must have run every chapter before. The speed is held against `jupyter nbconvert --to html` of the
-same 14 executed notebooks, in turns; where the course has fewer chapters, some are built twice.
+`./course site` must have run every chapter before. The speed is held against `jupyter nbconvert --to html`
+of the same 14 executed notebooks, in turns; where the course has fewer chapters, some are built twice.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def main() -> None:
 
 
 def write_notebooks(root: Path) -> None:
-    """Write 14 executed notebooks: the chapters as they ran last, the first ones again under other numbers."""
+    """Write 14 executed notebooks: the chapters as they ran last, the first ones twice."""
     runs, solutions = Runs(), Shelf().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):
@@ -129,9 +129,8 @@ def first_panels(site: Path) -> None:
                 times.append(page.wait_for_function("window.firstPanel").json_value())
                 page.close()
         browser.close()
-    print(
-        f"first panel: median {statistics.median(times):.0f} ms, slowest {max(times):.0f} ms, {len(times)} loads"
-    )
+    middle, last = statistics.median(times), max(times)
+    print(f"first panel: median {middle:.0f} ms, slowest {last:.0f} ms, {len(times)} loads")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import pytest
 
 from course_pkg.site.build import write_site
 from course_pkg.site.settings import Settings
-from tests.authoring.books import code
+from tests.authoring.books import code, text
 from tests.browser.conftest import browser
 from tests.site.shelves import runs, shelf
 
@@ -25,9 +25,11 @@ PANELS = [
     "turtles = TurtlePanel(); turtles",
     "GraphPanel()",
     "form = ServicePanel('/getGeometry'); form",
-    "form.record([{'length': 1.0, 'width': 2.0, 'height': 3.0}, {'length': 4.0, 'width': 5.0, 'height': 6.0}])",
+    "form.record([{'length': 1.0, 'width': 2.0, 'height': 3.0}, {'length': 4.0}])",
     "ServicePanel('/getGeometry')",
-    "Timeline(node.record())",
+    "from course_pkg.srv import geometry\n"
+    "with node.record() as recording: node.call('/getGeometry', geometry, 1, 2, 3)",
+    "Timeline(recording)",
     "TopicPanel('/turtle1/pose')",
     "TypeBrowser('std_srvs/SetBool')",
     "Plot({'delay': [(0, 1), (1, 3)]}, x='time (s)', y='delay (ms)', title='A line')",
@@ -42,7 +44,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the real course as it is stored: all pages, and no panel, for which all of it would have to run."""
+    """Build the real course as it is stored: all pages, but no panels, for which it would have to run."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -54,6 +56,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("panels")
     cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
+    cells.insert(0, text("## Every kind of panel"))
     troubles = write_site(Settings(folder / "site"), shelf(folder, _00_panels=cells), runs(folder / "cache"))
     assert troubles == []
     return folder / "site"

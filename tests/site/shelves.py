@@ -17,7 +17,7 @@ Cell = dict[str, Any]
 
 
 def shelf(root: Path, **chapters: list[Cell]) -> Shelf:
-    """Write solutions, and the same as notebooks; `_00_name=[…]` are the cells below the title of a chapter."""
+    """Write solutions, and the same as notebooks; `_00_name=[…]` are a chapter's cells below its title."""
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)
         for name, cells in chapters.items():

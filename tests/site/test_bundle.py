@@ -29,7 +29,7 @@ def test_it_is_what_the_sources_make(tmp_path: Path) -> None:
 
 
 def test_every_library_is_pinned_and_named() -> None:
-    """In package.json by its version, in the lock by its hash and by no address, beside the bundle by its licence."""
+    """In package.json by version, in the lock by hash and no address, beside the bundle by licence."""
     package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
     wanted = {**package["dependencies"], **package["devDependencies"]}
     locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]

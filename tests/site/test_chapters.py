@@ -16,7 +16,7 @@ def chapter(minutes: int) -> Chapter:
 
 def test_a_chapter_says_what_it_is_about() -> None:
     """Title, lead, the three labels, and the points of its exercises."""
-    first = "# Ask\n\nWho waits?\n\n**You will** ask.\nTwice.\n\n**You need** time.\n\n**Time**: 45 minutes. Or more."
+    first = "# Ask\n\nWho waits?\n\n**You will** ask.\nTwice.\n\n**You need** time.\n\n**Time**: 45 minutes."
     found = chapter_of("05_ask", book(text(first), exercise("05.1", 2), exercise("05.2", 3)))
     assert found == Chapter("05_ask", "Ask", "Who waits?", "ask.\nTwice.", "time.", 45, (2, 3))
     assert (found.number, found.page, found.full_title) == ("05", "05_ask.html", "05 Ask")

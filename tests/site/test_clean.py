@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from html.parser import HTMLParser
+
 import pytest
 
 from course_pkg.examiner.report import Report, Rule, Verdict
@@ -30,27 +32,29 @@ ATTACKS = [
     "<math><mtext><table><mglyph><style><!--</style><img title='--&gt;&lt;img src=1 onerror=alert(1)&gt;'>",
     "<!--<img src=x onerror=alert(1)>-->",
 ]
-FORBIDDEN = (
-    "<script",
-    "onerror",
-    "onload",
-    "javascript",
-    "<iframe",
-    "<object",
-    "<embed",
-    "<form",
-    "<input",
-    "<base",
-)
-ALSO = ("<meta", "<link", "<style", "url(", "data-panel", " id=", "<svg", "svg+xml", "data:text", "//x'")
+
+
+class Reader(HTMLParser):
+    """Every tag and attribute that a browser would see."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.seen: list[tuple[str, str, str]] = []
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Note a tag with each of its attributes."""
+        self.seen += [(tag, "", ""), *((tag, name, value or "") for name, value in attrs)]
 
 
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_nothing_runs_or_loads(attack: str) -> None:
     """Whatever could run, fetch, or pass for a part of the page is gone; only its text may be left."""
-    tags = "".join(part.partition(">")[0] for part in Purifier()(attack).split("<")[1:])
-    clean = "<" + tags
-    assert [word for word in (*FORBIDDEN, *ALSO) if word.lstrip("<") in clean.lower()] == []
+    for tag, name, value in Reader(Purifier()(attack)).seen:
+        assert tag in ("p", "a", "div", "section", "img", "table")
+        assert name in ("", "title")
+        assert not value or name == "title"
 
 
 def test_a_report_is_still_a_report() -> None:

@@ -25,8 +25,8 @@ def test_a_magic_says_what_the_rest_is() -> None:
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")
-    assert "<i class=k>&lt;node</i>" in highlight.cell("%%writefile a.launch\n<node/>")
-    assert highlight.cell("%%writefile notes.xyz\ndef f(): ...").endswith("\ndef f(): ...")
+    assert "<i class=k>&lt;node/&gt;</i>" in highlight.cell("%%writefile a.launch\n<node/>")
+    assert highlight.cell("%%writefile notes.xyz\ndef f(): ...").endswith("</i>def f(): ...")
 
 
 def test_what_looks_like_markup_is_text() -> None:

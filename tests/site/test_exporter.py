@@ -38,7 +38,7 @@ def test_a_drawing_is_a_picture() -> None:
     }
     body = shown(output).html
     assert base64.b64encode(drawing.encode()).decode() in body
-    assert 'alt="a &#34;graph&#34;"' in body
+    assert 'alt="a &quot;graph&quot;"' in body
     assert "<svg" not in body
 
 
@@ -61,7 +61,7 @@ def test_a_terminal_is_read_as_it_looks() -> None:
 def test_an_exercise_can_be_linked_to() -> None:
     """By the id that its cell has in the notebook, behind the prefix of its chapter."""
     body = Exporter().body(book(exercise("05.1"), code("x")), "c05-")
-    assert 'class="cell exercise" id="c05-exercise-05-1"' in body.html
+    assert 'class="in exercise" id="c05-exercise-05-1"' in body.html
     assert body.html.count("id=") == 1
 
 

@@ -1,4 +1,4 @@
-"""The pages in a real browser: from a folder and from a server, with no network, at two widths, in two colours."""
+"""The pages in a real browser: from a folder and from a server, wide and narrow, light and dark."""
 
 from __future__ import annotations
 
@@ -14,8 +14,7 @@ from course_pkg.site.scripts import fronts
 from tests.browser.jupyter import picture
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
-OPTIONS = {"runOnly": {"type": "tag", "values": RULES}, "rules": {"target-size": {"enabled": True}}}
+OPTIONS = {"rules": {"target-size": {"enabled": True}}, "preload": False}  # a page may fetch nothing
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PAGE = "00_panels.html"
@@ -56,17 +55,13 @@ def open_page(page: Page, site: Path, name: str) -> None:
 def test_every_page_is_whole_without_a_network(
     browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
 ) -> None:
-    """No request fails, nothing is complained about, no page is wider than the window, every panel is drawn."""
+    """No request fails, nothing complains, no page is wider than the window, every panel is drawn."""
     with reader(browser, 390) as page:
         for site in (course, panels):
             for name in [*pages(site), *(["book.html"] if site == course else [])]:
                 page.goto((site / name).as_uri() if way == "folder" else f"{served[site]}/{name}")
                 expect(page.locator("[data-panel]:empty")).to_have_count(0)
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
-        drawn = page.evaluate(
-            "new Set([...document.querySelectorAll('.ros-panel')].map(e => e.className)).size"
-        )
-        assert drawn >= 0
 
 
 @pytest.mark.parametrize("colours", COLOURS)
@@ -116,7 +111,7 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """With what the real server said when the chapter ran, and it says so; the other form says that nobody answers."""
+    """With what the real server said when the chapter ran, and it says so; another says that nobody does."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         recorded, saved = page.get_by_role("region", name="Service panel").all()
@@ -207,7 +202,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
-    expect(page.get_by_text("scripts are off here")).to_be_visible()
+    expect(page.locator("noscript p")).to_be_visible()
     expect(page.locator("pre.in").first).to_be_visible()
     expect(page.get_by_role("button")).to_have_count(0)
     context.close()
@@ -219,7 +214,8 @@ def test_a_page_connects_nowhere(browser: Browser, course: Path, served: dict[Pa
     page = context.new_page()
     page.goto(served[course])
     assert page.evaluate("fetch('index.html').then(() => 'fetched', () => 'refused')") == "refused"
-    script = "document.body.append(Object.assign(document.createElement('script'), {textContent: 'window.ran = 1'}))"
-    page.evaluate(script)
+    page.evaluate(
+        "const own = document.createElement('script'); own.text = 'ran = 1'; document.body.append(own)"
+    )
     assert page.evaluate("window.ran") is None
     context.close()

@@ -18,7 +18,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("name", json.loads(PLANS.read_text("utf-8")))
 def test_a_rehearsal_is_of_a_panel(name: str) -> None:
-    """Its notebook and its cell are there, in the students' notebook as well, and the cell ends with a panel."""
+    """Its cell is there, in the students' notebook as well, and it ends with a panel that can do that."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / f"{name}.ipynb"))}
         plans = json.loads(PLANS.read_text("utf-8"))[name]

@@ -37,7 +37,7 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """Prose may change without a run, and is new all the same; other code is run, and the run before is gone."""
+    """Prose may change without one, and is new all the same; of two runs the later one is kept."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
@@ -50,7 +50,7 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_another_package_runs_it_again(tmp_path: Path, counter: Path) -> None:
-    """What a panel shows is the package's work; until then the latest run is there for whoever asks for it."""
+    """What a panel shows is the package's work; until then the latest run is there for who asks."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     kept.of(path)
     other = runs(tmp_path / "cache")

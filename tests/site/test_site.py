@@ -34,7 +34,7 @@ def test_every_chapter_has_a_page_and_can_be_taken_along(course: Path) -> None:
 
 
 def test_pages_are_light(course: Path, panels: Path) -> None:
-    """What a page loads with others is at most 170 KB over the wire, what is its own 60 KB as it lies there."""
+    """What pages share is at most 170 KB over the wire; what is a page's own, 60 KB as it lies there."""
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
     assert shared <= 170_000

@@ -10,10 +10,10 @@ from tests.authoring.books import book, code, text
 def test_a_section_is_found_where_it_stands() -> None:
     """Each with its anchor, its prose and its code; a # in code begins none."""
     notebook = book(
-        text("# Title\n\nThe lead."),
-        text("## One\n\n```\n## no heading\n```\nA **word**."),
+        text("# Title\n\nThe lead.", "t1"),
+        text("## One\n\n```\n## no heading\n```\nA **word**.", "t2"),
         code("# a comment\nwait()"),
-        text("## Two\n\nMore."),
+        text("## Two\n\nMore.", "t3"),
     )
     found = list(sections("05 Title", "05.html", notebook, Exporter().body(notebook).headings))
     assert [(each.url, each.title) for each in found] == [

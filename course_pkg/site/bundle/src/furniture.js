@@ -53,24 +53,29 @@ function bySelection(text, button) {
   return done;
 }
 
-/** Whatever is wider than the page can be scrolled by keyboard, and has a name. */
+const STOPS = "a[href], button, input, select, textarea, summary, [tabindex]";
+
+/** Whatever is larger than the room that it has can be scrolled by keyboard, and has a name. */
 export function scrollable() {
-  const watched = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target)));
-  for (const box of document.querySelectorAll("pre, .wide")) watched.observe(box);
+  const names = new Map();
+  const watched = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target, names.get(target))));
+  for (const box of document.querySelectorAll("article pre, .wide, .ros-panel *")) {
+    if (box.closest(".ros-panel") && !/auto|scroll/.test(getComputedStyle(box).overflow)) continue;
+    if (box.matches(STOPS) || box.querySelector(STOPS)) continue; // the keyboard gets there already
+    names.set(box, `${kindOf(box)} ${names.size + 1}`); // regions want names that tell them apart
+    watched.observe(box);
+  }
 }
 
-function reach(box) {
+function reach(box, label) {
   const over = box.scrollWidth > box.clientWidth || box.scrollHeight > box.clientHeight;
-  if (over === box.hasAttribute("tabindex")) return;
-  for (const [name, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", nameOf(box)]]) {
+  for (const [name, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", label]]) {
     if (over) box.setAttribute(name, value);
     else box.removeAttribute(name);
   }
 }
 
-/** Regions want names that tell them apart. */
-function nameOf(box) {
-  const what = box.matches(".in") ? "Code" : box.matches(".out") ? "Output" : box.matches("pre") ? "Example" : "Table";
-  const peers = [...document.querySelectorAll("pre, .wide")];
-  return `${what} ${peers.indexOf(box) + 1}`;
+function kindOf(box) {
+  if (box.closest(".ros-panel")) return "Part of a panel";
+  return box.matches(".in") ? "Code" : box.matches(".out") ? "Output" : box.matches("pre") ? "Example" : "Table";
 }

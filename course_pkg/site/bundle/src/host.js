@@ -1,12 +1,15 @@
 /* Draws every panel of the page from the state that it was saved with. There is no kernel, and the panels are told so:
    whatever they send cannot be sent. */
 
+import { nameParts } from "./names.js";
+
 export async function drawPanels() {
   for (const packed of document.querySelectorAll("script.states")) {
     const places = packed.parentElement.querySelectorAll("[data-panel]");
     const states = await unpacked(packed.textContent);
     places.forEach((place, index) => draw(place, states[index]));
   }
+  nameParts();
   // What was drawn has moved what is below it.
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: "instant" });
 }

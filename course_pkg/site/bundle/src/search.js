@@ -39,13 +39,17 @@ export function search() {
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });
-  dialog.addEventListener("keydown", (event) => walk(event, input, results));
+  dialog.addEventListener("keydown", (event) => walk(event, dialog, input, results));
   dialog.querySelector("button").addEventListener("click", () => dialog.close());
   input.addEventListener("input", () => finder.size && show());
 }
 
-/** Up and down go from the field through the results. */
-function walk(event, input, results) {
+/** Up and down go from the field through the results; Escape closes at once, where a search field would first clear. */
+function walk(event, dialog, input, results) {
+  if (event.key === "Escape") {
+    event.preventDefault();
+    dialog.close();
+  }
   const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
   if (!step) return;
   const stops = [input, ...results.querySelectorAll("a")];

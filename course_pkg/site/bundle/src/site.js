@@ -6,10 +6,9 @@ import { search } from "./search.js";
 import { themeButton } from "./theme.js";
 
 foldLists();
-drawPanels();
+drawPanels().then(scrollable);
 if (document.querySelector("dialog.search")) search();
 if (document.querySelector("button.theme")) themeButton(document.querySelector("button.theme"));
 linkHeadings();
 copyButtons();
-scrollable();
 followContents();

@@ -33,7 +33,7 @@ export function themeButton(button) {
   let theme = chosen();
   const say = () => {
     button.textContent = { system: "Auto", light: "Light", dark: "Dark" }[theme] ?? "";
-    button.setAttribute("aria-label", `Colours: ${theme === "system" ? "as the system has them" : theme}`);
+    button.setAttribute("aria-label", theme === "system" ? "Auto: colours as the system has them" : `${button.textContent} colours`);
   };
   button.addEventListener("click", () => {
     theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
