@@ -53,7 +53,7 @@ def _installed(places: Places) -> Iterator[Finding]:
             yield Finding("system", "not one that has ROS 1", str(error))
             return
         yield Finding("system", platform.name)
-        for part, needed_by in (("course", "course lab"), ("test", "course test")):
+        for part, needed_by in (("course", "course lab"), ("grade", "course grade"), ("test", "course test")):
             missing = packages.missing_packages(getattr(platform, part))
             advice = f"`./course {needed_by.split()[1]}` installs them; or, as an administrator: " + (
                 f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}"
