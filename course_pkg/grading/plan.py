@@ -67,4 +67,6 @@ def course_digest() -> str:
 
 def _counts(path: Path) -> bool:
     apart = {"site", "lab"} & set(path.parts)  # no grade depends on those
-    return path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
+    return (
+        path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
+    )

@@ -109,6 +109,27 @@ def test_no_check_is_in_memory(ward: Ward) -> None:
     assert words == "RuntimeError: [] []"
 
 
+def test_what_the_judge_will_draw_is_not_in_memory(ward: Ward) -> None:
+    """The seed of a part's inputs is told to its judge alone."""
+    job = PartJob(
+        "05.1",
+        "",
+        (
+            """
+import gc
+from course_pkg.grading.ward.job import PartJob
+raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, PartJob)])
+""",
+        ),
+        "",
+        987654321,
+        1.0,
+        5.0,
+        10.0,
+    )
+    assert "987654321" not in str(ward.run(job).said)
+
+
 def test_nothing_can_be_written_but_its_own(ward: Ward) -> None:
     """Only the work folder and the memory folders of the part itself take files."""
     words = told(

@@ -14,6 +14,7 @@ import socket
 import sys
 import time
 from contextlib import ExitStack, suppress
+from dataclasses import replace
 from typing import Any
 
 from course_pkg.grading import namespaces
@@ -95,7 +96,8 @@ class Session:
     def _begin(self, stack: ExitStack) -> tuple[int, socket.socket]:
         """Hand the job to the nursery; return where the student speaks, and our end of the errands."""
         job_file = os.memfd_create("job")
-        os.write(job_file, json.dumps(self._job.as_dict()).encode())
+        unseeded = replace(self._job, seed=0)  # what the judge will draw is nobody else's business
+        os.write(job_file, json.dumps(unseeded.as_dict()).encode())
         os.lseek(job_file, 0, os.SEEK_SET)
         said, saying = os.pipe()
         ours, theirs = socket.socketpair()
