@@ -44,6 +44,10 @@ class Options:
 
 def grade(options: Options) -> int:
     """Grade all that was handed in, and write the reports; return 0, whatever the grades."""
+    if options.jobs < 0:
+        raise GradingError(
+            f"--jobs {options.jobs} is no number of notebooks: leave it out, or give 1 or more."
+        )
     policy = late_policy(options.policy)
     table = late_table(options.late) if options.late else None
     extras = read_extras(options.private)
@@ -54,11 +58,26 @@ def grade(options: Options) -> int:
     if options.fresh:
         store.forget()
     began = time.monotonic()
-    grades = list(_graded(options, found, extras, store))
-    write_reports(_in_order([_with_lateness(each, policy) for each in grades]), options.out)
+    try:
+        grades = list(_graded(options, found, extras, store))
+    except KeyboardInterrupt:
+        sys.stderr.write("\nStopped. Type the same command again to go on.\n")
+        sys.stderr.flush()
+        os._exit(130)  # the threads would see their notebooks to the end; what they run ends with them
+    _report(_in_order([_with_lateness(each, policy) for each in grades]), options.out)
     took = time.monotonic() - began
     sys.stdout.write(f"{len(grades)} notebooks graded in {took:.0f} s: {options.out / 'class.html'}\n")
     return 0
+
+
+def _report(grades: Sequence[Grade], out: Path) -> None:
+    try:
+        write_reports(grades, out)
+    except OSError as error:
+        raise GradingError(
+            f"The reports cannot be written ({error}). Mend that, and type the same command again: "
+            "nothing is graded twice."
+        ) from error
 
 
 def grade_one(notebook: Path, out: Path, *, walls: bool = True, private: Path | None = None) -> int:

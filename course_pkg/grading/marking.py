@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
+from course_pkg.errors import WardFailed
 from course_pkg.examiner.report import Report, Verdict
 from course_pkg.grading.context import needed
 from course_pkg.grading.extras import Extras
@@ -81,13 +82,20 @@ def _examined(planned: PartPlan, rebuilt: Rebuilt, run: Run, seed: int) -> Repor
     job = PartJob(
         planned.part.check, planned.before, (*above, answer), planned.after, seed, planned.part.deadline
     )
+    return _reported(planned, _run(job, run))
+
+
+def _run(job: PartJob, run: Run) -> PartOutcome:
+    """Run a part, once more where the first run came to nothing; an answer that hangs would hang again."""
     for _ in range(TRIES):
-        outcome = run(job)
-        if outcome.report is not None and outcome.report.verdict is not Verdict.UNDECIDED:
+        try:
+            outcome = run(job)
+        except WardFailed as error:
+            outcome = PartOutcome(None, str(error), lost=True)
+        decided = outcome.report is not None and outcome.report.verdict is not Verdict.UNDECIDED
+        if decided or outcome.took > job.limit / 2:
             break
-        if outcome.took > job.limit / 2:
-            break  # an answer that hangs would hang again
-    return _reported(planned, outcome)
+    return outcome
 
 
 def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
@@ -104,9 +112,9 @@ def _reported(planned: PartPlan, outcome: PartOutcome) -> Report:
     """Return the judge's report, with what the student's cell said for itself where it did not pass."""
     part, report = planned.part, outcome.report
     if report is None:
-        return Report(
-            part.check, Verdict.FAILED, part.goal, 0, part.points, note=f"Nothing earned: {outcome.ending}."
-        )
+        verdict = Verdict.UNDECIDED if outcome.lost else Verdict.FAILED
+        note = f"Nothing earned: {outcome.ending}."
+        return Report(part.check, verdict, part.goal, 0, part.points, note=note)
     if report.verdict is Verdict.PASSED:
         return report
     said = [

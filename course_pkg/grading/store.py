@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from course_pkg.errors import GradingError
+from course_pkg.examiner.report import Verdict
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.state import write_json
 
@@ -52,7 +53,9 @@ class Store:
         return handed_in(grade, submission)
 
     def keep(self, grade: Grade) -> None:
-        """Keep `grade` under its key."""
+        """Keep `grade` under its key, unless a part could not be examined: another run may do better."""
+        if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
+            return
         nameless = replace(grade, student=NOBODY, origin=NOBODY, late=0.0)
         try:
             write_json(self._folder / f"{grade.key}.json", nameless.as_dict())

@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -145,7 +146,7 @@ def _made_up(path: str, text: str) -> Path:
     file = Places.of().cache / "walls" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)
-        draft = file.with_name(f"{file.name}.{os.getpid()}")
+        draft = file.with_name(f"{file.name}.{os.getpid()}.{threading.get_ident()}")
         draft.write_text(text, "utf-8")
         draft.replace(file)
     return file

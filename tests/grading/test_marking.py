@@ -9,11 +9,14 @@ from pathlib import Path
 import pytest
 
 from course_pkg.authoring.cells import code_cells
+from course_pkg.errors import WardFailed
 from course_pkg.examiner.report import Verdict
 from course_pkg.grading.extras import Extras
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import plan
+from course_pkg.grading.store import Store
+from course_pkg.grading.ward.job import PartJob, PartOutcome
 from course_pkg.grading.wards import Ward
 from tests.grading.submitted import WRONG, hand_in
 
@@ -58,6 +61,25 @@ def test_each_part_is_credited_by_itself(ward: Ward, tmp_path: Path) -> None:
     assert "area" in str(wrong)
     assert "came to an end" in ended.note
     assert "handed out" in blank.note
+
+
+def test_a_ward_that_is_lost_costs_nobody_else_anything(ward: Ward, tmp_path: Path) -> None:
+    """The part is not examined, says so, and is not kept: the next run of the command tries again."""
+
+    def run(job: PartJob) -> PartOutcome:
+        if job.check == "05.2":
+            raise WardFailed("it came to an end")
+        return ward.run(job)
+
+    submission = Submission("s01", "05", hand_in(tmp_path, "s01").read_bytes(), "05.ipynb")
+    grade = mark(submission, plan("05"), Extras(), run, "secret", "key", walls=True)
+    verdicts = [report.verdict for report in grade.reports]
+    assert verdicts == [Verdict.PASSED, Verdict.UNDECIDED, *[Verdict.PASSED] * 3]
+    store = Store(tmp_path)
+    store.keep(grade)
+    assert store.find("key", submission) is None
+    store.keep(graded(ward, hand_in(tmp_path, "s02")))
+    assert store.find("key", submission) is not None
 
 
 def test_what_a_cell_raised_is_said(ward: Ward, tmp_path: Path) -> None:

@@ -50,6 +50,7 @@ class PartOutcome:
     ending: str  # why there is no record, in words; empty where there is one
     said: tuple[dict[str, Any], ...] = ()  # never believed: errors of cells, for feedback
     took: float = 0.0  # s
+    lost: bool = False  # with the process that runs submissions: nobody knows what the answer is worth
 
     @property
     def report(self) -> Report | None:

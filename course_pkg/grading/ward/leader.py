@@ -35,6 +35,7 @@ def lead(
     job: PartJob, shell: InteractiveShell, nursery: socket.socket, said: int, errands: int, *, walls: bool
 ) -> NoReturn:
     """Start master, errands and student; stay until the student has ended or somebody asks for the end."""
+    namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     namespaces.adopt_orphans()
     folder = _place(walls=walls)

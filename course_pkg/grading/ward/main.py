@@ -36,6 +36,7 @@ ENDINGS = {
 
 def main() -> None:
     """Serve jobs from stdin until it ends."""
+    namespaces.die_with_parent()
     walls, private = sys.argv[1] == "walls", sys.argv[2]
     if walls:
         namespaces.become_root()
