@@ -14,6 +14,7 @@ from course_pkg.grading.ward.job import PartJob, PartOutcome
 from course_pkg.grading.wards import Ward
 from tests.grading.attacks import FORGED, GRAPH, HOST, SLOW
 
+pytestmark = pytest.mark.usefixtures("walls")
 CHECK = "05.1"
 BEFORE, AFTER = around(CHECK)
 RIGHT = """

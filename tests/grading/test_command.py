@@ -17,6 +17,7 @@ from course_pkg.provision import Places
 from tests.grading.submitted import WRONG, hand_in
 from tests.support import eventually
 
+pytestmark = pytest.mark.usefixtures("walls")
 TOTAL = "earned"
 COURSE = Places.of().checkout / "course"
 

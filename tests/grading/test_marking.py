@@ -21,6 +21,9 @@ from course_pkg.grading.wards import Ward
 from tests.grading.submitted import WRONG, hand_in
 
 
+pytestmark = pytest.mark.usefixtures("walls")
+
+
 @pytest.fixture(scope="module")
 def ward() -> Iterator[Ward]:
     """One ward for all."""

@@ -17,6 +17,7 @@ from course_pkg.grading import walls
 from course_pkg.grading.ward.job import PartJob
 from course_pkg.grading.wards import Ward
 
+pytestmark = pytest.mark.usefixtures("walls")
 CHECKOUT = Path(course_pkg.__file__).resolve().parent.parent
 READ = [
     CHECKOUT / "solutions",
