@@ -20,7 +20,6 @@ from course_pkg.grading.ward.job import PartJob, PartOutcome
 from course_pkg.grading.wards import Ward
 from tests.grading.submitted import WRONG, hand_in
 
-
 pytestmark = pytest.mark.usefixtures("walls")
 
 
