@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from html import escape
 from itertools import groupby
 
 from pygments.lexer import Lexer
-from pygments.lexers import get_lexer_by_name, get_lexer_for_filename
-from pygments.token import Comment, Keyword, Name, Number, Operator, String, Token, _TokenType
+from pygments.lexers import get_lexer_by_name
+from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
 # What gets a colour, the narrower kind first; the letters are classes in site.css.
@@ -30,7 +31,14 @@ COLOURS = (
 )
 MAGIC = re.compile(r"%%(?P<name>\w+)[ \t]*(?P<rest>.*)\n")
 SHELLS = ("bash", "sh", "script")
-FILES = {".srv": "text", ".msg": "text", ".launch": "xml"}  # what Pygments knows by no name
+FILES = {
+    "CMakeLists.txt": "cmake",
+    "launch": "xml",
+    "py": "python",
+    "sh": "bash",
+    "xml": "xml",
+    "yaml": "yaml",
+}
 
 
 class Highlighter:
@@ -61,29 +69,21 @@ class Highlighter:
 
 def _language(magic: re.Match[str]) -> str:
     if magic["name"] == "writefile":
-        return f"file {magic['rest'].split()[-1]}" if magic["rest"].strip() else "text"
+        file = magic["rest"].rpartition("/")[2].strip()
+        return FILES.get(file) or FILES.get(file.rpartition(".")[2], "text")
     return "bash" if magic["name"] in SHELLS else "ipython3"
 
 
 def _lexer_of(language: str) -> Lexer:
-    file = language.removeprefix("file ")
-    suffix = f".{file.rpartition('.')[2]}"
     try:
-        if file == language:
-            return get_lexer_by_name(language, stripnl=False)
-        return (
-            get_lexer_by_name(FILES[suffix])
-            if suffix in FILES
-            else get_lexer_for_filename(file, stripnl=False)
-        )
+        return get_lexer_by_name(language, stripnl=False)
     except ClassNotFound:
         return get_lexer_by_name("text", stripnl=False)
 
 
+@cache
 def _colour(kind: _TokenType) -> str:
-    return (
-        next((name for coloured, name in COLOURS if kind in coloured), "") if kind is not Token.Text else ""
-    )
+    return next((name for coloured, name in COLOURS if kind in coloured), "")
 
 
 def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:

@@ -12,7 +12,6 @@ from typing import Any, ClassVar, NamedTuple
 
 import nbformat
 from nbconvert.exporters.html import HTMLExporter
-from nbconvert.exporters.templateexporter import TemplateExporter
 from nbconvert.filters import ansi2html
 from traitlets.config import Config
 
@@ -23,6 +22,7 @@ from course_pkg.site.exhibits import EXHIBIT
 from course_pkg.site.prose import Prose, attribute
 
 HERE = Path(__file__).parent
+PARTS = {"include_code": True, "include_input": True, "include_output": True, "include_markdown": True}
 SHOWN = [EXHIBIT, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
 
@@ -59,9 +59,7 @@ class Exporter(HTMLExporter):
     @property
     def default_config(self) -> Config:
         """Say which kinds of output a page can show, the best first; scripts are none of them."""
-        own = Config(
-            {"NbConvertBase": {"display_data_priority": SHOWN}, "Exporter": {"default_preprocessors": []}}
-        )
+        own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)
         return inherited
@@ -69,10 +67,10 @@ class Exporter(HTMLExporter):
     def body(self, notebook: Notebook, prefix: str = "") -> Body:
         """Return the cells of `notebook` as HTML; anchors begin with `prefix`."""
         self._prose = Prose(self.highlight.block, prefix)
-        resources: dict[str, Any] = {"prefix": prefix, "states": []}
-        # HTMLExporter would parse the page once more, only to mend pictures without a description.
-        html, _ = TemplateExporter.from_notebook_node(self, _showable(notebook), resources)
-        return Body(str(html).strip(), self._prose.headings)
+        resources = {"global_content_filter": PARTS, "prefix": prefix, "states": []}
+        # from_notebook_node copies a notebook three times, for preprocessors, and parses the page once more.
+        html = self.template.render(nb=_showable(notebook), resources=resources)
+        return Body(html.strip(), self._prose.headings)
 
 
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:

@@ -37,11 +37,11 @@ with without_slow_import():
     write_site(Settings(Path(sys.argv[2]), execute=False), Shelf(Path(sys.argv[1])))
 """
 FIRST_PANEL = """
-new MutationObserver((_changes, observer) => {
+window.firstPanel = new Promise((resolve) => new MutationObserver((_changes, observer) => {
   if (!document.querySelector(".ros-panel")) return;
   observer.disconnect();
-  requestAnimationFrame(() => requestAnimationFrame(() => { window.firstPanel = performance.now(); }));
-}).observe(document, { childList: true, subtree: true });
+  requestAnimationFrame(() => requestAnimationFrame(() => resolve(performance.now())));
+}).observe(document, { childList: true, subtree: true }));
 """
 
 
@@ -126,7 +126,7 @@ def first_panels(site: Path) -> None:
                 page = browser.new_page()
                 page.add_init_script(FIRST_PANEL)
                 page.goto(path.as_uri())
-                times.append(page.wait_for_function("window.firstPanel").json_value())
+                times.append(page.evaluate("window.firstPanel"))
                 page.close()
         browser.close()
     middle, last = statistics.median(times), max(times)
