@@ -41,8 +41,5 @@ def _panel_of(state: State) -> str:
 
 
 def _kept(state: State) -> State:
-    """Return what a front end reads, and no call that is under way: when a notebook has ended, none is."""
-    kept = {name: value for name, value in state.items() if name[0] != "_" and name not in PRIVATE}
-    if isinstance(activity := kept.get("activity"), dict) and "calls" in activity:
-        kept["activity"] = {**activity, "calls": []}
-    return kept
+    """Return what a front end reads."""
+    return {name: value for name, value in state.items() if name[0] != "_" and name not in PRIVATE}

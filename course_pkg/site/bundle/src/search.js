@@ -98,10 +98,14 @@ function loadTexts() {
 function excerpt(text, terms) {
   const low = text.toLowerCase();
   const places = terms.map((term) => [low.indexOf(term), term.length]).filter(([at]) => at >= 0);
-  if (!places.length) return [text.slice(0, 2 * AROUND), "", ""];
+  if (!places.length) return [cut(text, 2 * AROUND), "", ""];
   const [at, length] = places.sort(([one], [other]) => one - other)[0];
-  const from = Math.max(0, at - AROUND);
-  return [(from ? "…" : "") + text.slice(from, at), text.slice(at, at + length), text.slice(at + length, at + length + AROUND) + "…"];
+  const from = at > AROUND ? text.indexOf(" ", at - AROUND) + 1 : 0;
+  return [(from ? "…" : "") + text.slice(Math.min(from, at), at), text.slice(at, at + length), cut(text.slice(at + length), AROUND)];
+}
+
+function cut(text, length) {
+  return text.length > length ? `${text.slice(0, text.lastIndexOf(" ", length))}…` : text;
 }
 
 function item({ page, url, title, excerpt: [before, word, after] }, chosen) {
