@@ -12,6 +12,7 @@ from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.grading.walls import enclosed
 
+CELL = 60  # s; a kernel that has ended is noticed after that, by nbval
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100
 OUTPUT = 8 << 20  # bytes of what comes back
 
@@ -35,9 +36,12 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
     return replace(grade, cells=cells)
 
 
-def outcomes_of(notebook: Notebook, timeout: float = LIMIT) -> tuple[CellOutcome, ...]:
-    """Run nbval on `notebook`, the kernel behind walls of its own; return nothing if it takes too long."""
-    command = enclosed([sys.executable, "-m", "course_pkg.grading.ward.validating"])
+def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
+    """Run nbval on `notebook`, at most `cell` s a cell, the kernel behind walls of its own.
+
+    Returns nothing if the whole takes more than `timeout` s.
+    """
+    command = enclosed([sys.executable, "-m", "course_pkg.grading.ward.validating", str(cell)])
     with subprocess.Popen(
         command, env={}, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
     ) as process:

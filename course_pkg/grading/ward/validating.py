@@ -1,6 +1,7 @@
 """nbval behind the outer wall: pytest, a master and a judge are trusted, and the kernel has walls of its own.
 
-Reads a notebook from stdin, and writes the outcome of each cell to stdout, a JSON object a line.
+Reads a notebook from stdin, takes the time (s) of a cell as its argument, and writes the outcome of each cell
+to stdout, a JSON object a line.
 """
 
 from __future__ import annotations
@@ -24,7 +25,6 @@ from course_pkg.grading.ward import confinement
 from course_pkg.grading.ward.leader import USUAL_PORT
 from course_pkg.grading.ward.wire import end, fork
 
-CELL = 60  # s
 KERNEL = "walled"
 OWN = "/student/.course"
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")  # a kernel below process 1 takes itself for an orphan
@@ -44,7 +44,7 @@ def main() -> None:
             _surroundings(Path(folder), record, desk.getsockname()[1])
             helpers = [fork(_be_master), fork(lambda: _be_judges(desk))]
         try:
-            subprocess.run(_command(path), stdout=subprocess.DEVNULL, check=False)
+            subprocess.run(_command(path, sys.argv[1]), stdout=subprocess.DEVNULL, check=False)
         finally:
             end(helpers)
         sys.stdout.write(record.read_text("utf-8"))
@@ -112,13 +112,13 @@ def _kernel_command(filter_file: Path) -> list[str]:
     return ["sh", "-c", 'exec 9<"$0"; exec "$@"', str(filter_file), *command]
 
 
-def _command(notebook: Path) -> list[str]:
+def _command(notebook: Path, cell: str) -> list[str]:
     plugins = ("nbval.plugin", "course_pkg.grading.nbval_plugin", "no:cacheprovider")
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval", "--noconftest", "-c", os.devnull),
         *(word for plugin in plugins for word in ("-p", plugin)),
         *("--rootdir", str(notebook.parent), "--nbval-kernel-name", KERNEL),
-        *("--nbval-cell-timeout", str(CELL), "--nbval-sanitize-with", str(SANITIZE), str(notebook)),
+        *("--nbval-cell-timeout", cell, "--nbval-sanitize-with", str(SANITIZE), str(notebook)),
     ]
 
 

@@ -1,0 +1,97 @@
+"""nbval's run of a notebook: feedback cell by cell, the kernel behind walls, and nothing earned by it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+
+from course_pkg.authoring.cells import Notebook
+from course_pkg.grading.validation import outcomes_of
+
+
+def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
+    """Return a notebook of (source, what it is to show); with `check`, the last cell checks that part."""
+    made = nbformat.v4.new_notebook()
+    for number, (source, shown) in enumerate(cells):
+        cell = nbformat.v4.new_code_cell(source, id=f"cell-{number}", execution_count=number + 1)
+        if shown:
+            output = nbformat.v4.new_output(
+                "execute_result", {"text/plain": shown}, execution_count=number + 1
+            )
+            cell["outputs"] = [output]
+        made["cells"].append(cell)
+    if check:
+        made["cells"][-1]["metadata"]["course"] = {"check": check}
+    return dict(made)
+
+
+@pytest.mark.usefixtures("walls")
+def test_each_cell_is_held_to_what_is_stored() -> None:
+    """What shows the same passes, what shows something else fails, and what ends the kernel ends the run."""
+    seen = outcomes_of(notebook(("1 + 1", "2"), ("1 + 1", "3"), ("'over'", "'over'")))
+    assert [(each.cell, each.outcome) for each in seen] == [
+        ("cell-0", "passed"),
+        ("cell-1", "failed"),
+        ("cell-2", "passed"),
+    ]
+    assert "3" in seen[1].words
+
+
+@pytest.mark.usefixtures("walls")
+def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
+    """No notebook, no check and no other process is there for the kernel, and no network but its own."""
+    probe = """
+import glob, os, pathlib, socket
+import course_pkg.examiner.checks as checks
+folders = ("/tmp", "/student", "/run")
+found = [path for folder in folders for path in glob.glob(f"{folder}/**/*.ipynb", recursive=True)]
+names = [name for folder in checks.__path__ for name in os.listdir(folder)]
+lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdline")]
+(found, names, [line for line in lines if "pytest" in line], [name for _, name in socket.if_nameindex()])
+"""
+    (seen,) = outcomes_of(notebook((probe, "([], [], [], ['lo'])")))
+    assert seen.outcome == "passed", seen.words
+
+
+@pytest.mark.usefixtures("walls")
+def test_a_kernel_that_ends_is_noticed_in_time() -> None:
+    """It does not take nbval's 2,000 seconds."""
+    seen = outcomes_of(notebook(("import os; os._exit(0)", ""), ("1", "1")), cell=4)
+    assert [each.outcome for each in seen] != ["passed", "passed"]
+
+
+def plain_nbval(path: Path, *words: str) -> str:
+    """Return what pytest prints for a student's notebook, with the course's plug-in."""
+    plugin = ["-p", "course_pkg.grading.nbval_plugin", "-p", "no:cacheprovider"]
+    command = [sys.executable, "-m", "pytest", "-q", "-c", "/dev/null", "--nbval", *plugin, *words, str(path)]
+    return subprocess.run(
+        command, capture_output=True, text=True, cwd=path.parent, timeout=100, check=False
+    ).stdout
+
+
+@pytest.mark.parametrize(
+    ("shown", "line"),
+    [
+        ("05.1 passed: 2 of 2 points", "05.1 passed: 2 of 2 points"),
+        ("something else", "05.1 not examined"),
+    ],
+)
+def test_plain_nbval_ends_with_a_line_for_each_part(tmp_path: Path, shown: str, line: str) -> None:
+    """Run by hand, the plug-in says how each part went, as far as the notebook shows it."""
+    path = tmp_path / "chapter.ipynb"
+    says = f"from IPython.display import display\ndisplay({{'text/plain': {shown!r}}}, raw=True)"
+    path.write_text(json.dumps(notebook(("1", "1"), (says, ""), check="05.1")))
+    lines = plain_nbval(path).splitlines()
+    assert line in _after(lines, "parts of the course")
+
+
+def _after(lines: Sequence[str], title: str) -> list[Any]:
+    start = next(number for number, line in enumerate(lines) if title in line)
+    return list(lines[start + 1 :])
