@@ -193,6 +193,38 @@ HOST = {
                     except MemoryError:
                         pass
     """,
+    "a hog of shared pages": """
+        import mmap
+        hog = []
+        try:
+            for _ in range(900):
+                pages = mmap.mmap(-1, 1 << 20)
+                pages.write(b"x" * (1 << 20))
+                hog.append(pages)
+        except (OSError, ValueError):
+            pass
+    """,
+    "a hog of files without a name": """
+        import os
+        try:
+            for number in range(64):
+                file = os.memfd_create(str(number))
+                os.write(file, b"x" * (32 << 20))
+        except OSError:
+            pass
+    """,
+    "a hog of segments": """
+        import ctypes
+        libc = ctypes.CDLL(None)
+        libc.shmat.restype = ctypes.c_void_p
+        for _ in range(64):
+            segment = libc.shmget(0, 32 << 20, 0o1600)
+            if segment < 0:
+                break
+            place = libc.shmat(segment, None, 0)
+            ctypes.memset(place, 1, 32 << 20)
+            libc.shmdt(ctypes.c_void_p(place))
+    """,
     "a disk filler": """
         import os
         for folder in ("/student", "/tmp", "/dev/shm"):

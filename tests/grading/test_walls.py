@@ -52,6 +52,8 @@ CALLS = {  # a call that gets through returns 0, or a number that stands for som
     "setns": "libc.setns(os.open('/proc/self/ns/net', 0), 0)",
     "another process's memory": "libc.syscall(310, 1, 0, 0, 0, 0, 0)",
     "typing for somebody else": "libc.ioctl(0, 0x5412, b'x')",
+    "memory that no limit counts": "libc.memfd_create(b'hidden', 0)",
+    "memory that stays when nobody holds it": "libc.shmget(0, 4096, 0o1600)",
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 USUAL_PORT = 11311
 LOOK = 0.1  # s between looks at the memory
+HELD = ("RssAnon:", "RssShmem:")  # proc(5): KiB of its own, and shared without a file
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # how a leader ends; told as its exit status
 
@@ -139,12 +140,12 @@ def _watch(student: int) -> int:
 
 def _memory() -> int:
     """Return how many bytes the processes below this one hold."""
-    pages = 0
+    held = 0
     for pid in descendants(os.getpid()):
         with suppress(OSError):
-            resident, shared = Path(f"/proc/{pid}/statm").read_text().split()[1:3]
-            pages += int(resident) - int(shared)
-    return pages * os.sysconf("SC_PAGE_SIZE")
+            status = Path(f"/proc/{pid}/status").read_text()
+            held += sum(1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(HELD))
+    return held
 
 
 def _end_all(folder: str, *, walls: bool) -> None:
