@@ -52,9 +52,7 @@ def main() -> None:
         if "plain" not in words:
             theirs = nbgrader(here, min(count, 4))
             report("nbgrader autograde", theirs)
-            print(
-                f"ratio {theirs / ours:.1f} (bar {BAR:g}); all of them run by nbval {theirs / whole:.1f}"
-            )
+            print(f"ratio {theirs / ours:.1f} (bar {BAR:g}); all of them run by nbval {theirs / whole:.1f}")
 
 
 def report(what: str, seconds: float) -> None:

@@ -672,7 +672,7 @@ def bring_turtle(name, x, y, speed, patience):
     return given
 
 # %% 08.8 right: an argument and a condition
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="false" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
@@ -681,7 +681,7 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 right: a group
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="0"/>
   <node name="turtlesim" pkg="turtlesim" type="turtlesim_node" output="screen"/>
@@ -692,7 +692,7 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 wrong: always two | hint: It is there although nobody asked for it
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="false" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
@@ -701,7 +701,7 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 wrong: two unless told otherwise | hint: Without an argument there is one turtle
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="true" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
@@ -710,7 +710,7 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 wrong: no default | hint: Without an argument it has to start
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
@@ -719,7 +719,7 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 wrong: the node's name for the program's | hint: A program's name is wrong
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="false" />
   <node pkg="turtlesim" type="turtlesim" name="turtlesim" />
@@ -728,14 +728,14 @@ def bring_turtle(name, x, y, speed, patience):
 </launch>
 
 # %% 08.8 wrong: a tag that is not closed | hint: each <tag> is closed
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="false">
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
 </launch>
 
 # %% 08.8 wrong: no driver | hint: A node is missing
-%%writefile exercise3.launch
+%%writefile my_exercise3.launch
 <launch>
   <arg name="addturtle" default="false" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />

@@ -9,7 +9,7 @@ from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, part, says
 from course_pkg.graph import Snapshot, look
 
-FILE = "exercise3.launch"
+FILE = "my_exercise3.launch"
 ALWAYS = {"/turtlesim", "/improved_pubvel_toggle"}
 SECOND = "/spawn_turtle_plus"
 READY = 25.0  # s for a launch file on a busy machine
@@ -54,7 +54,7 @@ _UNREADABLE = {
     says("requires the 'addturtle'|requires.*arg"): "Without an argument it has to start, too: give <arg> a "
     'default="false".',
     says("is not a valid|invalid boolean|not a bool"): 'if= takes true or false: if="$(arg addturtle)".',
-    says(""): "Try it: roslaunch --nodes exercise3.launch says what is wrong.",
+    says(""): "Try it: roslaunch --nodes my_exercise3.launch says what is wrong.",
 }
 
 
@@ -98,7 +98,7 @@ def _runs(exam: Exam, folder: object) -> None:
         hints={
             says("cannot locate node|Cannot locate"): "A program's name is wrong: type= is what you would "
             "give to rosrun, such as turtlesim_node.",
-            says(""): "Start it yourself and read what it prints: roslaunch exercise3.launch addturtle:=true",
+            says(""): "Start it yourself and read what it prints: roslaunch my_exercise3.launch addturtle:=true",
         },
     )
 
