@@ -7,7 +7,10 @@ export async function drawPanels() {
   for (const packed of document.querySelectorAll("script.states")) {
     const places = packed.parentElement.querySelectorAll("[data-panel]");
     const states = await unpacked(packed.textContent);
-    places.forEach((place, index) => draw(place, states[index]));
+    for (const [index, place] of places.entries()) {
+      draw(place, states[index]);
+      if (!index) await new Promise((resume) => setTimeout(resume)); // so that the first is seen before the rest is there
+    }
   }
   nameParts();
   // What was drawn has moved what is below it.

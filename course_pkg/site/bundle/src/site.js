@@ -6,9 +6,12 @@ import { search } from "./search.js";
 import { themeButton } from "./theme.js";
 
 foldLists();
-drawPanels().then(scrollable);
+const drawn = drawPanels();
 if (document.querySelector("dialog.search")) search();
 if (document.querySelector("button.theme")) themeButton(document.querySelector("button.theme"));
-linkHeadings();
-copyButtons();
-followContents();
+drawn.then(() => {
+  linkHeadings();
+  copyButtons();
+  scrollable();
+  followContents();
+});
