@@ -112,21 +112,27 @@ def grade(options: SimpleNamespace) -> int:
 
 def grade_arguments(parser: ArgumentParser) -> None:
     """Declare what `course grade` takes."""
-    parser.add_argument("submissions", help="a folder with STUDENT/NN_topic.ipynb, or a zip, or a platform's download")
+    parser.add_argument(
+        "submissions", help="a folder with STUDENT/NN_topic.ipynb, or a zip, or a platform's download"
+    )
     parser.add_argument("--chapters", default="", metavar="05,06", help="only these chapters")
     parser.add_argument("--out", default="grades", help="the folder for the reports (grades)")
     parser.add_argument("--jobs", type=int, default=0, help="notebooks at once (two for each core)")
-    parser.add_argument("--scheduler", default="", metavar="tcp://…", help="a dask scheduler, for many machines")
+    parser.add_argument(
+        "--scheduler", default="", metavar="tcp://…", help="a dask scheduler, for many machines"
+    )
     parser.add_argument("--late", metavar="TABLE", help="a CSV file: student,days or student,chapter,days")
     parser.add_argument("--late-policy", default="", metavar="WORDS", help="such as '10%% a day, 3 days'")
     parser.add_argument(
         "--validate",
         choices=("none", "missing", "all"),
         default="missing",
-        help="whose notebooks nbval runs, for feedback: those with points missing (the default), all, or none",
+        help="whose notebooks nbval runs for feedback: those with points missing (the default), all, none",
     )
     again = parser.add_mutually_exclusive_group()
-    again.add_argument("--resume", dest="fresh", action="store_false", help="go on where a run stopped (always)")
+    again.add_argument(
+        "--resume", dest="fresh", action="store_false", help="go on where a run stopped (always)"
+    )
     again.add_argument("--fresh", action="store_true", help="forget what was graded before")
     _how_arguments(parser)
 
@@ -149,7 +155,9 @@ def grade_one_arguments(parser: ArgumentParser) -> None:
 
 
 def _how_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("--private", metavar="DIR", help="further checks and other points, which students never see")
+    parser.add_argument(
+        "--private", metavar="DIR", help="further checks and other points, which students never see"
+    )
     parser.add_argument(
         UNSAFE, dest="walls", action="store_false", help="run what students wrote with nothing around it"
     )

@@ -12,18 +12,21 @@ import builtins
 from collections.abc import Sequence
 from contextlib import suppress
 
+LONGEST = 20_000  # characters of a cell that is looked at: nobody writes more, and parsing takes its time
+MAGICAL = 300  # lines of one with magics, for which IPython takes a time that grows with their square
 KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
     """Return those of the sources `above` that `answer` needs, in their order; `before` is run anyway."""
     given = set(KNOWN | _binds(before))
+    bound = [_binds(source) for source in above]
     chosen: set[int] = set()
     todo = [(answer, len(above))]
     while todo:
         source, end = todo.pop()
         for name in _uses(source) - given:
-            found = next((n for n in range(end - 1, -1, -1) if name in _binds(above[n])), None)
+            found = next((n for n in range(end - 1, -1, -1) if name in bound[n]), None)
             if found is not None and found not in chosen:
                 chosen.add(found)
                 todo.append((above[found], found))
@@ -34,9 +37,16 @@ def _tree(source: str) -> ast.Module:
     """Return the tree of a cell, as IPython reads it; of one that is no Python, an empty tree."""
     from IPython.core.inputtransformer2 import TransformerManager
 
+    empty = ast.Module(body=[], type_ignores=[])
+    if len(source) > LONGEST:
+        return empty
+    with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.parse(source)
+    if source.count("\n") > MAGICAL:
+        return empty
     with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
         return ast.parse(TransformerManager().transform_cell(source))
-    return ast.Module(body=[], type_ignores=[])
+    return empty
 
 
 def _binds(source: str) -> frozenset[str]:

@@ -1,9 +1,9 @@
 """Publishing many small messages at a fixed rate, without a thread for each listener, and without waiting.
 
-rospy gives every listener of a topic with a queue a thread of its own, and each message wakes it: that is most of
-what 1,500 messages a second cost. Without a queue a message is written at once, and a listener that takes none holds
-the publisher up. So here it is written at once where there is room for it, and dropped where there is none,
-as a queue of one would drop it.
+rospy gives every listener of a topic with a queue a thread of its own, and each message wakes it: that is
+most of what 1,500 messages a second cost. Without a queue a message is written at once, and a listener that
+takes none holds the publisher up. So here it is written at once where there is room for it, and dropped where
+there is none, as a queue of one would drop it.
 """
 
 from __future__ import annotations

@@ -208,6 +208,31 @@ def test_it_has_no_privileges_and_sees_itself_alone(ward: Ward) -> None:
     assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
 
 
+def test_nobody_finds_the_answer_of_the_one_before(ward: Ward) -> None:
+    """What one student wrote is nowhere in the memory from which the next one's process is forked."""
+    text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))
+    assert told(ward, text.replace("' '", "") + "\nraise RuntimeError('left')") == "RuntimeError: left"
+    words = told(
+        ward,
+        """
+        import re
+        found = set()
+        with open("/proc/self/mem", "rb", 0) as memory:
+            for line in open("/proc/self/maps").read().splitlines():
+                start, end = (int(part, 16) for part in line.split()[0].split("-"))
+                if "r" not in line.split()[1] or "[v" in line:
+                    continue
+                try:
+                    memory.seek(start)
+                    found |= set(re.findall(b"QUAG" + b"GA_[0-9]{6}_OF", memory.read(end - start)))
+                except (OSError, OverflowError, MemoryError):
+                    continue
+        raise RuntimeError(len(found))
+        """,
+    )
+    assert words == "RuntimeError: 0"
+
+
 def test_a_part_finds_nothing_of_the_one_before(ward: Ward) -> None:
     """Files, processes, and names of one part are not there for the next."""
     leave = """

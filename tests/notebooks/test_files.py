@@ -1,4 +1,4 @@
-"""What a notebook writes stands in nobody's way: students work inside the package, where the tools of ROS look."""
+"""What a notebook writes stands in nobody's way: students work inside the package, where ROS looks."""
 
 from __future__ import annotations
 

@@ -15,10 +15,9 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.timeout(400)
 @pytest.mark.parametrize("path", sorted((ROOT / "solutions").glob("*.ipynb")), ids=lambda path: path.stem)
 def test_a_solution_shows_what_it_stored_and_its_notebook_runs_to_the_end(path: Path) -> None:
-    """Running a solution again gives the outputs that are stored in it; a student's notebook as it is
-    handed out runs to its end, and no cell fails that is not meant to.
+    """A solution gives its stored outputs again; a student's notebook runs to its end as it is handed out.
 
-    Both at once: most of their time they wait.
+    No cell fails that is not meant to. Both at once: most of their time they wait.
     """
     handed_out = ROOT / "notebooks" / path.name
     with ThreadPoolExecutor() as pool:

@@ -389,14 +389,24 @@ def start_mirror(source, target):
 
 # %% 02.2 wrong: late | hint: They come late
 def start_mirror(source, target):
+    import queue
+
     publisher = rospy.Publisher(target, JointState, queue_size=10)
+    images = queue.SimpleQueue()
 
     def show(message):
         image = JointState(header=message.header, name=message.name)
         image.position = [-angle for angle in message.position]
         image.velocity = [-speed for speed in message.velocity]
-        threading.Timer(0.4, publisher.publish, [image]).start()
+        images.put((time.monotonic() + 0.4, image))
 
+    def speak():
+        while True:
+            due, image = images.get()
+            time.sleep(max(due - time.monotonic(), 0))
+            publisher.publish(image)
+
+    threading.Thread(target=speak, daemon=True).start()
     return rospy.Subscriber(source, JointState, show)
 
 # %% 02.2 wrong: says each twice | hint: Publish in the callback, once for each message

@@ -76,6 +76,12 @@ def is_there(service, seconds):
         found = False
     return found
 
+# %% 06.2 wrong: guesses by the time it has | hint: half a second is enough to see it
+def is_there(service, seconds):
+    if seconds < 1:
+        rospy.sleep(seconds)
+    return seconds > 1
+
 # %% 06.2 wrong: no limit | hint: Give wait_for_service the limit
 def is_there(service, seconds):
     try:

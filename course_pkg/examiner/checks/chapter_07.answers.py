@@ -35,6 +35,16 @@ def services_of(kind):
     done = subprocess.run(["rosservice", "find", kind], capture_output=True, text=True)
     return done.stdout.split()
 
+# %% 07.1 wrong: takes all services off the graph | hint: None was found
+def services_of(kind):
+    import rosgraph
+
+    master = rosgraph.Master("/nobody")
+    for name, nodes in master.getSystemState()[2]:
+        for node_name in nodes:
+            rosgraph.Master(node_name).unregisterService(name, master.lookupService(name))
+    return []
+
 # %% 07.1 wrong: stumbles over a server that is gone | hint: listed and its server is gone
 def services_of(kind):
     return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]

@@ -21,8 +21,13 @@ OWN = "/tmp"  # noqa: S108 -- behind the wall, and of this process alone
 ERRANDS = frozenset({"folder", "run", "start", "poll", "stop"})
 
 
+def is_errand(do: object, name: object) -> bool:
+    """Return whether a question is about commands and files, and not about what is in the kernel."""
+    return do in ERRANDS or (do in ("look", "source") and str(name).startswith("file:"))
+
+
 class SplitLink(Link):
-    """The judge's end of the wire, in two: commands go to the errands, all else to the kernel's desk."""
+    """The judge's end of the wire, in two: commands and files go to the errands, all else to the desk."""
 
     def __init__(self, desk: socket.socket, errands: socket.socket) -> None:
         super().__init__(desk)
@@ -30,7 +35,7 @@ class SplitLink(Link):
 
     def ask(self, do: str, *, timeout: float, **what: Plain) -> dict[str, Any]:
         """Ask whoever is to be believed in this."""
-        if do in ERRANDS:
+        if is_errand(do, what.get("name")):
             return self._errands.ask(do, timeout=timeout, **what)
         return super().ask(do, timeout=timeout, **what)
 
@@ -44,7 +49,7 @@ def run_errands(sock: socket.socket, folder: str, *, walls: bool) -> None:
     try:
         while True:
             question = link.receive()
-            asked = question.get("do") in ERRANDS
+            asked = is_errand(question.get("do"), question.get("name"))
             link.send(hands.answer(question if asked else {**question, "do": "nothing"}))
     except LinkError:
         hands.close()

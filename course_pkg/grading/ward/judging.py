@@ -6,9 +6,11 @@ import json
 import os
 import socket
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
+from course_pkg.errors import LinkError
 from course_pkg.examiner.judge import judge, record
 from course_pkg.examiner.parts import find
 from course_pkg.examiner.report import Report, Verdict
@@ -36,6 +38,10 @@ def judge_part(
     try:
         with tempfile.TemporaryDirectory(prefix="course-judge-") as folder:
             report = judge(SplitLink(desk, errands), Path(folder), only=job.check)
+    except LinkError as error:
+        report = replace(
+            _undecided(job, f"The kernel gave no answer that counts: {error}."), verdict=Verdict.FAILED
+        )
     except Exception as error:  # noqa: BLE001 -- whatever a submission made of the graph, it earns nothing by it
         report = _undecided(job, f"The check could not be carried out ({type(error).__name__}: {error}).")
     with os.fdopen(out, "w") as file:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -17,7 +18,7 @@ from course_pkg.examiner.scripted import closed_port
 from course_pkg.grading import namespaces
 from course_pkg.grading.ward import confinement
 from course_pkg.grading.ward.errands import run_errands
-from course_pkg.grading.ward.job import PartJob
+from course_pkg.grading.ward.job import PartJob, job_from
 from course_pkg.grading.ward.student import attend, speaker
 from course_pkg.grading.ward.wire import end, fork, send
 from course_pkg.graph.leashed import descendants
@@ -33,12 +34,14 @@ TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # how a leader ends; told as it
 
 
 def lead(
-    job: PartJob, shell: InteractiveShell, nursery: socket.socket, said: int, errands: int, *, walls: bool
+    job_file: int, shell: InteractiveShell, nursery: socket.socket, said: int, errands: int, *, walls: bool
 ) -> NoReturn:
     """Start master, errands and student; stay until the student has ended or somebody asks for the end."""
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     namespaces.adopt_orphans()
+    with os.fdopen(job_file, "rb") as file:
+        job = job_from(json.loads(file.read()))
     folder = _place(walls=walls)
     port = USUAL_PORT if walls else closed_port()
     with socket.create_server(("127.0.0.1", 0)) as desk, open("/proc/self/ns/net") as network:
@@ -134,14 +137,14 @@ def _watch(student: int) -> int:
             return ASKED
         if came is not None and os.waitpid(student, os.WNOHANG)[0]:
             return STUDENT_ENDED
-        if _memory() > confinement.TOGETHER:
+        if memory_below(os.getpid()) > confinement.TOGETHER:
             return TOO_MUCH_MEMORY
 
 
-def _memory() -> int:
-    """Return how many bytes the processes below this one hold."""
+def memory_below(ancestor: int) -> int:
+    """Return how many bytes the processes below `ancestor` hold."""
     held = 0
-    for pid in descendants(os.getpid()):
+    for pid in descendants(ancestor):
         with suppress(OSError):
             status = Path(f"/proc/{pid}/status").read_text()
             held += sum(1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(HELD))

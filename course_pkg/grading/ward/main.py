@@ -26,6 +26,7 @@ STARTING = 60.0  # s for the nursery to have all imported
 PLACING = 15.0  # s for a leader to have all in place
 ENDING = 8.0  # s for a leader to end all below it
 AFTERTHOUGHT = 3.0  # s for a judge to come to its verdict when the student is gone
+JUDGE = 2 << 30  # bytes of addresses; its threads' stacks are most of what it takes
 WORDS = 65536  # bytes of what the student's side may say
 
 ENDINGS = {
@@ -144,6 +145,7 @@ class Session:
         from course_pkg.grading.ward.judging import judge_part
 
         namespaces.die_with_parent()
+        namespaces.limit(AS=JUDGE)  # a submission decides how much it sends to its judge
         judge_part(self._job, network, port, desk, errands, out, walls=self._walls)
 
     def _wait(self, files: list[Any]) -> list[Any]:
@@ -169,7 +171,8 @@ class Session:
                 receive(self._nursery, ENDING)
             except TimeoutError:
                 end([self._leader])
-                receive(self._nursery, ENDING)
+                with suppress(TimeoutError):
+                    receive(self._nursery, ENDING)
 
 
 def _record(reading: int) -> dict[str, Any] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import socket
 from contextlib import suppress
@@ -10,7 +9,6 @@ from typing import NoReturn
 
 from course_pkg.examiner import checks
 from course_pkg.grading import namespaces
-from course_pkg.grading.ward.job import job_from
 from course_pkg.grading.ward.leader import lead
 from course_pkg.grading.ward.student import prepare
 from course_pkg.grading.ward.wire import end, fork, receive, send
@@ -27,11 +25,10 @@ def tend(sock: socket.socket, private: str, *, walls: bool) -> NoReturn:
         send(sock, {"ready": True})
         while True:
             _, (job_file, said, errands) = receive(sock)
-            with os.fdopen(job_file, "rb") as file:
-                job = job_from(json.loads(file.read()))
-            leader = fork(lambda: lead(job, shell, sock, said, errands, walls=walls))  # noqa: B023
-            os.close(said)
-            os.close(errands)
+            # The leader reads the job: what this process once held, all later forks would find in its memory.
+            leader = fork(lambda: lead(job_file, shell, sock, said, errands, walls=walls))  # noqa: B023
+            for descriptor in (job_file, said, errands):
+                os.close(descriptor)
             status = os.waitpid(leader, 0)[1]
             _clear_away()
             send(sock, {"over": status})

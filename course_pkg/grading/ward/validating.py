@@ -20,11 +20,14 @@ from typing import Any
 from course_pkg.authoring.cells import check_of
 from course_pkg.authoring.validate import SANITIZE
 from course_pkg.examiner import checks
+from course_pkg.grading import namespaces
 from course_pkg.grading.nbval_plugin import RECORD
 from course_pkg.grading.ward import confinement
-from course_pkg.grading.ward.leader import USUAL_PORT
+from course_pkg.grading.ward.leader import LOOK, USUAL_PORT, memory_below
 from course_pkg.grading.ward.wire import end, fork
+from course_pkg.graph.leashed import descendants
 
+TOGETHER = 2 * confinement.TOGETHER  # bytes: pytest and a whole chapter's nodes
 KERNEL = "walled"
 OWN = "/student/.course"
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")  # a kernel below process 1 takes itself for an orphan
@@ -44,10 +47,20 @@ def main() -> None:
             _surroundings(Path(folder), record, desk.getsockname()[1])
             helpers = [fork(_be_master), fork(lambda: _be_judges(desk))]
         try:
-            subprocess.run(_command(path, sys.argv[1]), stdout=subprocess.DEVNULL, check=False)
+            _watched(_command(path, sys.argv[1]))
         finally:
             end(helpers)
         sys.stdout.write(record.read_text("utf-8"))
+
+
+def _watched(command: list[str]) -> None:
+    """Run `command`, and end it, and all below it, if it takes too much memory."""
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            if memory_below(process.pid) > TOGETHER:
+                end([*descendants(process.pid), process.pid])
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(LOOK)
 
 
 def _leave_out_results(cell: dict[str, Any]) -> None:
@@ -147,6 +160,7 @@ def _judge(sock: socket.socket) -> None:
     from course_pkg.examiner.judge import judge
     from course_pkg.examiner.link import Link
 
+    namespaces.limit(AS=2 << 30)
     with tempfile.TemporaryDirectory() as folder:
         judge(Link(sock), Path(folder))
 

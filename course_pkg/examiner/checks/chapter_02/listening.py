@@ -4,6 +4,7 @@ import statistics
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from typing import Any
 
 from course_pkg.examiner import Exam, Its, part, says
@@ -34,7 +35,11 @@ witnessed = []
 
 
 def listen_too(topic):
-    kept.append(rospy.Subscriber(topic, JointState, lambda message: witnessed.append(list(message.position))))
+    kept.append(rospy.Subscriber(topic, JointState, witness))
+
+
+def witness(message):
+    witnessed.append([list(message.position), list(message.velocity)])
 """
 WORK = """
 import threading
@@ -100,7 +105,7 @@ def a_mirror(exam: Exam) -> None:
         _promptly(exam, speaking.sent, hearing.arrivals)
         exam.expect(
             "the message itself is left as it is",
-            expected=[message["position"] for message in messages],
+            expected=[[message["position"], message.get("velocity", [])] for message in messages],
             seen=exam.read("witnessed"),
             near=1e-9,
             hints="Another callback of this program got it with its signs turned. Make a new JointState.",
@@ -234,10 +239,12 @@ def only_the_newest(exam: Exam) -> None:
         time.sleep(3 * PAUSE)  # for the work on the last values
         done = exam.read("work.done")
     _worked(exam, [value for _, value in done], values)
+    begun = [at for at, _ in done]
+    overlap = any(later - earlier < 0.9 * PAUSE for earlier, later in pairwise(begun))
     exam.expect(
         "one at a time",
         expected=1,
-        seen=exam.read("work.at_once"),
+        seen=max(exam.read("work.at_once"), 1 + overlap),
         hints="The work ran several times at once. A thread for each message is one too many.",
     )
     sent = dict(zip(values, speaking.sent, strict=True))

@@ -42,7 +42,8 @@ def watch_a_stream(exam: Exam) -> None:
     try:
         for name in (topic, unasked):
             exam.run("begin", Its("Watch"), name, worded="Watch(topic)", hints=_RETURNS).value  # noqa: B018
-        _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
+        for _ in range(exam.draw.integer(1, 4)):
+            _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
         time.sleep(1.3)
         _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
         _speaks(exam, unasked)
@@ -66,7 +67,7 @@ def _runs(exam: Exam, topic: str, rule: str) -> None:
     """Speak for a while, then be silent, and stay registered as one who could speak."""
     speaking = _speaks(exam, topic)
     time.sleep(0.5)
-    for _ in range(5):
+    for _ in range(exam.draw.integer(3, 8)):
         _says(exam, topic, rule, "running", _WHILE)
         time.sleep(0.06)
     time.sleep(1.0)
@@ -75,7 +76,7 @@ def _runs(exam: Exam, topic: str, rule: str) -> None:
     time.sleep(0.5)
     _says(exam, topic, "a pause of half a second is no end", "running", _PAUSE)
     time.sleep(max(speaking.sent[-1] + LIMIT + 0.4 - time.monotonic(), 0.0))
-    for _ in range(2):
+    for _ in range(exam.draw.integer(1, 4)):
         _says(exam, topic, "without a message for longer than a second it has ended", "ended", _END)
 
 

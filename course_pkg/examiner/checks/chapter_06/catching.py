@@ -39,7 +39,7 @@ def catch_what_can_happen(exam: Exam) -> None:
                 seen=len(server.requests),
                 hints="A call that failed may have done its work. Give up after one; others may try again.",
             )
-    for slip in ("one metre", 1e300):
+    for slip in (f"{exam.draw.word()} metres", exam.draw.number(2.0, 9.0) * 1e200):
         wrong = exam.run("volume_or_none", good, slip, *sides[1:])
         exam.hold(
             "an error of your own comes out",

@@ -35,6 +35,12 @@ def is_anybody_there(exam: Exam) -> None:
         seen=f"an answer after {there.took:.1f} s",
         hints="Return as soon as it is there. wait_for_service does, and waits no longer than it must.",
     )
+    exam.expect(
+        "True for a service that is there",
+        expected=True,
+        seen=exam.run("is_there", here, 0.5).value,  # as long as those get that are not
+        hints={False: "The service was there, and half a second is enough to see it."},
+    )
     _never_there(exam, nowhere, "It said that a service is there that nobody serves.")
     _never_there(
         exam,

@@ -98,7 +98,9 @@ def _runs(exam: Exam, folder: object) -> None:
         hints={
             says("cannot locate node|Cannot locate"): "A program's name is wrong: type= is what you would "
             "give to rosrun, such as turtlesim_node.",
-            says(""): "Start it yourself and read what it prints: roslaunch my_exercise3.launch addturtle:=true",
+            says(
+                ""
+            ): "Start it yourself and read what it prints: roslaunch my_exercise3.launch addturtle:=true",
         },
     )
 

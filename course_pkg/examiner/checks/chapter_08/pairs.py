@@ -104,7 +104,7 @@ def bring_a_second_turtle(exam: Exam) -> None:
         "/change_speed": ("course_pkg/ChangeSpeed", {"before": 1.0}),
     }
     servers = {name: exam.serve(name, kind, noted(name, answer)) for name, (kind, answer) in answers.items()}
-    returned = exam.run("bring_turtle", wish, x, y, speed, 2.0).value
+    returned = exam.run("bring_turtle", wish, x, y, speed, 0.5).value
     exam.expect(
         "spawn, toggle and speed are asked once each, in this order",
         expected=list(answers),
@@ -139,10 +139,13 @@ def bring_a_second_turtle(exam: Exam) -> None:
             wish: "That is the name that was wished for. The simulator says which one it gave.",
         },
     )
-    servers["/toggle_forward"].leave()
-    asked.clear()
-    exam.absent("/toggle_forward")
-    _fails(exam, asked, "None where there is no driver", ["/spawn"], wish, x, y, speed)
+    for missing, until in (("/toggle_forward", ["/spawn"]), ("/change_speed", ["/spawn", "/toggle_forward"])):
+        servers[missing].leave()
+        asked.clear()
+        exam.absent(missing)
+        _fails(exam, asked, "None where there is no driver", until, wish, x, y, speed)
+        kind, answer = answers[missing]
+        exam.serve(missing, kind, noted(missing, answer))
     servers["/spawn"].leave()
     exam.serve("/spawn", "turtlesim/Spawn", noted("/spawn", Refuse("")))
     asked.clear()

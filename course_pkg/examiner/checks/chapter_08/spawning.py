@@ -21,7 +21,7 @@ def wait_and_spawn(exam: Exam) -> None:
     x, y, theta = exam.draw.numbers(3, 0.5, 9.0)
     wish, given = exam.draw.word(), exam.draw.word()
     with_names = exam.serve("/spawn", SPAWN, lambda _: {"name": given})
-    returned = exam.run("spawn_turtle", x, y, theta, wish, 2.0).value
+    returned = exam.run("spawn_turtle", x, y, theta, wish, 0.5).value
     exam.hold(
         "/spawn is called once",
         len(with_names.requests) == 1,
@@ -72,8 +72,8 @@ def _refused(exam: Exam, x: float, y: float) -> None:
         x,
         y,
         0.0,
-        "taken",
-        2.0,
+        exam.draw.word(),
+        0.5,
         hints={says("^ServiceException"): "A refusal raises rospy.ServiceException. Catch it, return None."},
     )
     exam.expect(
@@ -92,7 +92,7 @@ def _nobody(exam: Exam, x: float, y: float) -> None:
         x,
         y,
         0.0,
-        "late",
+        exam.draw.word(),
         0.5,
         within=3.0,
         hints={
