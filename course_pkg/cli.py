@@ -131,9 +131,10 @@ def grade_arguments(parser: ArgumentParser) -> None:
     )
     again = parser.add_mutually_exclusive_group()
     again.add_argument(
-        "--resume", dest="fresh", action="store_false", help="go on where a run stopped (always)"
+        "--resume", dest="fresh", action="store_false", help="go on where a run stopped (the default)"
     )
     again.add_argument("--fresh", action="store_true", help="forget what was graded before")
+    parser.set_defaults(fresh=False)  # or that of --resume counts
     _how_arguments(parser)
 
 

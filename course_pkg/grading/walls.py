@@ -19,7 +19,15 @@ from course_pkg.grading.ward.confinement import ROOMS, STAGE, STAGED
 from course_pkg.provision import Places, environment
 
 NOBODY = 65534  # uid and gid of whoever owns nothing, in place of root
-READ = ("/usr", "/etc/alternatives", "/etc/ld.so.cache", "/etc/ros", "/etc/fonts", "/etc/ssl/openssl.cnf")
+READ = (
+    "/usr",
+    "/etc/alternatives",
+    "/etc/catkin",
+    "/etc/ld.so.cache",
+    "/etc/ros",
+    "/etc/fonts",
+    "/etc/ssl/openssl.cnf",
+)
 LINKS = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 OF_CHECKOUT = ("course_pkg", "srv", "launch", "package.xml", "CMakeLists.txt", "setup.py", "pyproject.toml")
 MADE_UP = {

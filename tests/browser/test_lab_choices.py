@@ -32,6 +32,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, page: Page) -> None:
         page.keyboard.press("ArrowDown")
         expect(choices.get_by_text("All decided.")).to_be_visible()
         page.keyboard.press("Tab")
+        expect(choices.get_by_role("button", name="Show the reasons")).to_be_focused()
         page.keyboard.press("Enter")
         expect(choices.get_by_text("Does not fit. Better: a service.")).to_be_visible()
         expect(choices.get_by_text("1 of 2 fit.")).to_be_visible()

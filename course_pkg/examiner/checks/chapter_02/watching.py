@@ -67,7 +67,7 @@ def _runs(exam: Exam, topic: str, rule: str) -> None:
     """Speak for a while, then be silent, and stay registered as one who could speak."""
     speaking = _speaks(exam, topic)
     time.sleep(0.5)
-    for _ in range(exam.draw.integer(3, 8)):
+    for _ in range(exam.draw.integer(5, 9)):
         _says(exam, topic, rule, "running", _WHILE)
         time.sleep(0.06)
     time.sleep(1.0)
