@@ -1,9 +1,10 @@
-"""Grading against nbgrader: `course run python tests/bench/grading.py [SUBMISSIONS] [many|plain]`.
+"""Grading against nbgrader: `course run python tests/bench/grading.py [SUBMISSIONS] [plain] [many[:COUNT]]`.
 
 The notebook of chapter 05, handed in by SUBMISSIONS students (30), a third of them with a wrong answer each,
 is graded by `course grade` without nbval's run, by `course grade --validate all`, and by `nbgrader autograde`
 of a notebook of the same cells, in one run; the ratio is that of the times a notebook. With `many`, 1,000
-submissions are graded besides, and the memory of all the grader's processes is watched.
+submissions (or COUNT) are graded besides, and the memory of all the grader's processes is watched; with
+`plain`, only points are compared.
 
 nbgrader is installed into a folder of its own under the cache, the version of the comparison pinned below.
 What remains of the time, and in what: the table says.
@@ -45,11 +46,12 @@ def main() -> None:
         handed_in(here / "submissions", count)
         ours = timed(lambda: grade(here / "submissions", here / "out", "none")) / count
         report("course grade, points alone", ours)
-        whole = timed(lambda: grade(here / "submissions", here / "whole", "all")) / count
-        report("course grade --validate all", whole)
-        if "many" in words:
-            many(here, ours)
+        for word in words:
+            if word.startswith("many"):
+                many(here, ours, int(word.partition(":")[2] or 1000))
         if "plain" not in words:
+            whole = timed(lambda: grade(here / "submissions", here / "whole", "all")) / count
+            report("course grade --validate all", whole)
             theirs = nbgrader(here, min(count, 4))
             report("nbgrader autograde", theirs)
             print(f"ratio {theirs / ours:.1f} (bar {BAR:g}); all of them run by nbval {theirs / whole:.1f}")
@@ -88,12 +90,12 @@ def grade(submissions: Path, out: Path, validate: str) -> None:
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def many(here: Path, few: float) -> None:
-    """Grade 1,000, and say how the time for each and the memory compare with few."""
-    handed_in(here / "many", 1000)
+def many(here: Path, few: float, count: int) -> None:
+    """Grade `count`, and say how the time for each and the memory compare with few."""
+    handed_in(here / "many", count)
     with watched() as seen:
-        each = timed(lambda: grade(here / "many", here / "many-out", "none")) / 1000
-    report("course grade, 1,000 submissions", each)
+        each = timed(lambda: grade(here / "many", here / "many-out", "none")) / count
+    report(f"course grade, {count} submissions", each)
     early, late = statistics.median(seen[10:40]), statistics.median(seen[-40:-10])
     print(
         f"throughput {few / each:.2f} of that of few (bar {MANY_BAR:g}); memory {early:.0f} -> {late:.0f} MiB"
