@@ -100,6 +100,7 @@ def test_a_busy_kernel_is_said_to_be_busy(lab: Lab, page: Page) -> None:
         topic = listening(page)
         page.locator(".jp-CodeCell").last.locator(".jp-InputPrompt").click()
         page.keyboard.press("Control+Enter")
+        expect(page.locator(".jp-CodeCell").last.locator(".jp-InputPrompt")).to_have_text("[*]:")
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Waiting for the kernel: it is busy with another cell.")).to_be_visible()
         expect(topic.get_by_text("Message 1 went to nobody")).to_be_visible(timeout=15_000)
