@@ -11,26 +11,45 @@ import ast
 import builtins
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 
 LONGEST = 20_000  # characters of a cell that is looked at: nobody writes more, and parsing takes its time
 MAGICAL = 300  # lines of one with magics, for which IPython takes a time that grows with their square
 KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
 
 
+@dataclass(frozen=True)
+class _Cell:
+    """The names that a cell gives to what comes after it, and those that it looks up and does not give."""
+
+    gives: frozenset[str]
+    uses: frozenset[str]
+
+
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
     """Return those of the sources `above` that `answer` needs, in their order; `before` is run anyway."""
-    given = set(KNOWN | _binds(before))
-    bound = [_binds(source) for source in above]
+    given = KNOWN | _read(before).gives
+    cells = [_read(source) for source in above]
     chosen: set[int] = set()
-    todo = [(answer, len(above))]
+    todo = [(_read(answer), len(above))]
     while todo:
-        source, end = todo.pop()
-        for name in _uses(source) - given:
-            found = next((n for n in range(end - 1, -1, -1) if name in bound[n]), None)
+        cell, end = todo.pop()
+        for name in cell.uses - given:
+            found = next((n for n in range(end - 1, -1, -1) if name in cells[n].gives), None)
             if found is not None and found not in chosen:
                 chosen.add(found)
-                todo.append((above[found], found))
+                todo.append((cells[found], found))
     return tuple(above[number] for number in sorted(chosen))
+
+
+def _read(source: str) -> _Cell:
+    tree = _tree(source)
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+    own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
+    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+    gives = _given(tree)
+    return _Cell(gives, frozenset(loaded - own - arguments) - gives)
 
 
 def _tree(source: str) -> ast.Module:
@@ -49,11 +68,12 @@ def _tree(source: str) -> ast.Module:
     return empty
 
 
-def _binds(source: str) -> frozenset[str]:
-    """Return the names that a cell gives to what comes after it."""
+def _given(tree: ast.Module) -> frozenset[str]:
+    """Return the names that stand at the end of a cell; those inside of a function or a class are its own."""
     names = set()
-    for statement in _tree(source).body:
-        for node in ast.walk(statement) if not _opens(statement) else [statement]:
+    for statement in tree.body:
+        opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        for node in [statement] if opens else ast.walk(statement):
             if isinstance(node, ast.Import | ast.ImportFrom):
                 names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
             elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
@@ -61,21 +81,3 @@ def _binds(source: str) -> frozenset[str]:
             elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
                 names.add(node.id)
     return frozenset(names)
-
-
-def _opens(statement: ast.stmt) -> bool:
-    """Return whether names inside of `statement` are its own."""
-    return isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
-
-
-def _uses(source: str) -> frozenset[str]:
-    """Return the names that a cell looks up and does not give itself."""
-    tree = _tree(source)
-    loaded = {
-        node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-    }
-    own = {
-        node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-    }
-    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
-    return frozenset(loaded - own - arguments) - _binds(source)

@@ -7,7 +7,6 @@ points.json     other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -16,6 +15,7 @@ from pathlib import Path
 from course_pkg.errors import GradingError
 from course_pkg.examiner.parts import add_private, chapters, parts_of
 from course_pkg.examiner.report import Report
+from course_pkg.provision.stamps import digest
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,8 @@ class Extras:
     def digest(self) -> str:
         """What changes with any file of the folder."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
-        texts = [f"{path.name}\0{path.read_text('utf-8')}" for path in files]
-        return hashlib.sha256("\0".join([*texts, json.dumps(dict(self.points))]).encode()).hexdigest()
+        texts = [part for path in files for part in (path.name, path.read_bytes())]
+        return digest([*texts, json.dumps(dict(self.points))])
 
     def weighed(self, report: Report) -> Report:
         """Return `report` with the points that the instructor gives to its part."""

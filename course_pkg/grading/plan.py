@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -12,6 +11,7 @@ from course_pkg.authoring.shelf import Shelf, read
 from course_pkg.examiner.answers import around
 from course_pkg.examiner.parts import Part, exercise_of, parts_of
 from course_pkg.grading.rebuild import Rebuilder
+from course_pkg.provision.stamps import digest
 
 
 @dataclass(frozen=True)
@@ -58,11 +58,8 @@ def course_digest() -> str:
     """Return what changes with any file that a grade depends on: code, checks, types, solutions."""
     root = Path(course_pkg.__file__).parent
     folders = [root, root.parent / "srv", root.parent / "solutions", root.parent / "launch"]
-    digest = hashlib.sha256()
-    for path in sorted(path for folder in folders for path in folder.rglob("*") if _counts(path)):
-        digest.update(f"{path.relative_to(root.parent)}\0".encode())
-        digest.update(hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()
+    paths = sorted(path for folder in folders for path in folder.rglob("*") if _counts(path))
+    return digest(part for path in paths for part in (str(path.relative_to(root.parent)), path.read_bytes()))
 
 
 def _counts(path: Path) -> bool:

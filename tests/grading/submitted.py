@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import copy
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
 from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import code_cells, exercise_of
-from course_pkg.authoring.shelf import Shelf, read
+from course_pkg.authoring.shelf import Shelf
+from tests.grading.handing_in import folder as write_files
+from tests.grading.handing_in import raw, reference
 
 WRONG = "def handle_geometry(request):\n    return geometryResponse(area=1.0, volume=2.0)\n"
 
@@ -18,13 +18,10 @@ def hand_in(
     folder: Path, student: str, chapter: str = "05", answers: Mapping[str, str] | None = None
 ) -> Path:
     """Write the solution of `chapter` as `student`'s, with `answers` by part; "" leaves a cell blank."""
-    path = Shelf().solutions([chapter])[0]
-    notebook = copy.deepcopy(read(path))
+    notebook = reference(chapter)
     for cell in code_cells(notebook):
         part = exercise_of(cell)
         if answers and part in answers:
             cell["source"] = answers[part] or handed_out(part, cell["source"])
-    target = folder / student / path.name
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(json.dumps(notebook), "utf-8")
-    return target
+    name = f"{student}/{Shelf().solutions([chapter])[0].name}"
+    return write_files(folder, {name: raw(notebook)}) / name

@@ -12,6 +12,7 @@ from course_pkg.grading import namespaces
 
 STUDENT = 1000  # uid and gid, as the student's code sees them
 MEMORY = 1 << 30  # bytes of addresses a process
+JUDGE = 2 << 30  # bytes of addresses of a judge; its threads' stacks are most of what it takes
 TOGETHER = 768 << 20  # bytes of memory that all processes of a part may use
 PROCESSES = 200  # and threads: a launch file of three nodes has about 60
 DISK = 128 << 20  # bytes below /student, and as much below /tmp

@@ -20,13 +20,14 @@ from course_pkg.grading.ward import confinement
 from course_pkg.grading.ward.errands import run_errands
 from course_pkg.grading.ward.job import PartJob, job_from
 from course_pkg.grading.ward.student import attend, speaker
-from course_pkg.grading.ward.wire import end, fork, send
+from course_pkg.grading.ward.wire import end_all_below, fork, send
 from course_pkg.graph.leashed import descendants
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
 USUAL_PORT = 11311
+CLEARING = 5.0  # s
 LOOK = 0.1  # s between looks at the memory
 HELD = ("RssAnon:", "RssShmem:")  # proc(5): KiB of its own, and shared without a file
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
@@ -46,7 +47,7 @@ def lead(
     port = USUAL_PORT if walls else closed_port()
     with socket.create_server(("127.0.0.1", 0)) as desk, open("/proc/self/ns/net") as network:
         _surroundings(folder, port, desk.getsockname()[1])
-        _start(lambda: _be_master(port))
+        _start(lambda: be_master(port))
         _await_port(port)
         student = _start(lambda: _be_student(job, shell, said, walls=walls))
         _start(lambda: _be_errands(errands, walls=walls))
@@ -95,7 +96,8 @@ def _start(work: Callable[[], None]) -> int:
     return fork(alone)
 
 
-def _be_master(port: int) -> None:
+def be_master(port: int) -> None:
+    """Be a master at `port` until this process is ended."""
     import rosmaster.master
 
     rosmaster.master.Master(port, num_workers=3).start()
@@ -153,11 +155,7 @@ def memory_below(ancestor: int) -> int:
 
 def _end_all(folder: str, *, walls: bool) -> None:
     """Kill all that is below, wait for it, and remove the folder; a namespace takes its mounts along."""
-    deadline = time.monotonic() + 5.0
-    while (left := descendants(os.getpid())) and time.monotonic() < deadline:
-        end(left)
-        with suppress(ChildProcessError):
-            os.waitpid(-1, 0)
+    end_all_below(CLEARING)
     if not walls:
         shutil.rmtree(folder, ignore_errors=True)
 

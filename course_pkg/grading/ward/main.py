@@ -18,7 +18,7 @@ from dataclasses import replace
 from typing import Any
 
 from course_pkg.grading import namespaces
-from course_pkg.grading.ward import leader, nursery
+from course_pkg.grading.ward import confinement, leader, nursery
 from course_pkg.grading.ward.job import PartJob, PartOutcome, job_from
 from course_pkg.grading.ward.wire import end, fork, pair, receive, send
 
@@ -26,7 +26,6 @@ STARTING = 60.0  # s for the nursery to have all imported
 PLACING = 15.0  # s for a leader to have all in place
 ENDING = 8.0  # s for a leader to end all below it
 AFTERTHOUGHT = 3.0  # s for a judge to come to its verdict when the student is gone
-JUDGE = 2 << 30  # bytes of addresses; its threads' stacks are most of what it takes
 WORDS = 65536  # bytes of what the student's side may say
 
 ENDINGS = {
@@ -89,7 +88,9 @@ class Session:
             try:
                 network, port, desk = self._placed(stack)
                 record, ending = self._judged(network, port, desk, errands)
-            except (TimeoutError, EOFError, OSError) as error:
+            except TimeoutError:
+                raise  # nobody knows what the nursery says next, and for whom: this ward is lost
+            except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_leader()
             took = time.monotonic() - self._began
@@ -145,7 +146,7 @@ class Session:
         from course_pkg.grading.ward.judging import judge_part
 
         namespaces.die_with_parent()
-        namespaces.limit(AS=JUDGE)  # a submission decides how much it sends to its judge
+        namespaces.limit(AS=confinement.JUDGE)  # a submission decides how much it sends to its judge
         judge_part(self._job, network, port, desk, errands, out, walls=self._walls)
 
     def _wait(self, files: list[Any]) -> list[Any]:

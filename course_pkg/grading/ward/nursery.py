@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import os
 import socket
-from contextlib import suppress
 from typing import NoReturn
 
 from course_pkg.examiner import checks
 from course_pkg.grading import namespaces
 from course_pkg.grading.ward.leader import lead
 from course_pkg.grading.ward.student import prepare
-from course_pkg.grading.ward.wire import end, fork, receive, send
-from course_pkg.graph.leashed import descendants
+from course_pkg.grading.ward.wire import end_all_below, fork, receive, send
+
+CLEARING = 60.0  # s
 
 
 def tend(sock: socket.socket, private: str, *, walls: bool) -> NoReturn:
@@ -30,7 +30,7 @@ def tend(sock: socket.socket, private: str, *, walls: bool) -> NoReturn:
             for descriptor in (job_file, said, errands):
                 os.close(descriptor)
             status = os.waitpid(leader, 0)[1]
-            _clear_away()
+            end_all_below(CLEARING)  # behind walls nothing is left
             send(sock, {"over": status})
     except (EOFError, OSError):
         os._exit(0)
@@ -41,11 +41,3 @@ def _forget_checks(private: str) -> None:
     namespaces.unshare(namespaces.MOUNT)
     for folder in filter(None, [*checks.__path__, private]):
         namespaces.mount_memory(folder, read_only=True)
-
-
-def _clear_away() -> None:
-    """End whatever is left below this process, and forget it; behind walls nothing is."""
-    while left := descendants(os.getpid()):
-        end(left)
-        with suppress(ChildProcessError):
-            os.waitpid(-1, 0)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -23,7 +22,7 @@ from course_pkg.examiner import checks
 from course_pkg.grading import namespaces
 from course_pkg.grading.nbval_plugin import RECORD
 from course_pkg.grading.ward import confinement
-from course_pkg.grading.ward.leader import LOOK, USUAL_PORT, memory_below
+from course_pkg.grading.ward.leader import LOOK, USUAL_PORT, be_master, memory_below
 from course_pkg.grading.ward.wire import end, fork
 from course_pkg.graph.leashed import descendants
 
@@ -45,7 +44,7 @@ def main() -> None:
         record.touch()
         with socket.create_server(("127.0.0.1", 0)) as desk:
             _surroundings(Path(folder), record, desk.getsockname()[1])
-            helpers = [fork(_be_master), fork(lambda: _be_judges(desk))]
+            helpers = [fork(lambda: be_master(USUAL_PORT)), fork(lambda: _be_judges(desk))]
         try:
             _watched(_command(path, sys.argv[1]))
         finally:
@@ -135,13 +134,6 @@ def _command(notebook: Path, cell: str) -> list[str]:
     ]
 
 
-def _be_master() -> None:
-    import rosmaster.master
-
-    rosmaster.master.Master(USUAL_PORT, num_workers=3).start()
-    signal.pause()
-
-
 def _be_judges(desk: socket.socket) -> None:
     """Fork a judge for each check that the notebook asks for."""
     from course_pkg.examiner.parts import every_part
@@ -160,7 +152,7 @@ def _judge(sock: socket.socket) -> None:
     from course_pkg.examiner.judge import judge
     from course_pkg.examiner.link import Link
 
-    namespaces.limit(AS=2 << 30)
+    namespaces.limit(AS=confinement.JUDGE)  # a submission decides how much it sends to its judge
     with tempfile.TemporaryDirectory() as folder:
         judge(Link(sock), Path(folder))
 

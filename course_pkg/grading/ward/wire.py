@@ -7,9 +7,12 @@ import os
 import select
 import signal
 import socket
+import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
+
+from course_pkg.graph.leashed import descendants
 
 WORDS = 65536  # bytes of a message
 
@@ -46,6 +49,15 @@ def fork(work: Callable[[], None]) -> int:
         work()
     finally:
         os._exit(1)
+
+
+def end_all_below(patience: float) -> None:
+    """Kill all processes below this one, those too that their deaths bring here, for at most `patience` s."""
+    deadline = time.monotonic() + patience
+    while (left := descendants(os.getpid())) and time.monotonic() < deadline:
+        end(left)
+        with suppress(ChildProcessError):
+            os.waitpid(-1, 0)
 
 
 def end(pids: Sequence[int]) -> None:
