@@ -68,6 +68,7 @@ class Station:
         self._told = 0
         self._trouble = ""
         self._around: dict[str, Any] = {}
+        self._leaving = threading.Lock()  # held while it registers, so that it cannot do so after its sign-off
 
     def run(self) -> None:
         """Do what one is told until the wire ends."""
@@ -79,6 +80,12 @@ class Station:
                 command = self._wire.receive()
                 assert command is not None
                 self._obey(command)
+
+    def leave(self) -> None:
+        """Sign off."""
+        with self._leaving:
+            if rospy.core.is_initialized():
+                rospy.signal_shutdown("the panel is no longer shown")
 
     def _join(self) -> None:
         """Become a node; rospy would wait for a master without a word."""
@@ -132,9 +139,10 @@ class Station:
     def _look(self) -> None:
         """See who is on the topic, and be on the master's books again after it was restarted."""
         try:
-            # In this order: a node that is signing off is unknown, too, and must not come back.
-            if not node_known(self._master) and not rospy.is_shutdown():
-                register_all(self._master)
+            with self._leaving:
+                # A node that has signed off is unknown, too, and must not come back.
+                if not rospy.is_shutdown() and not node_known(self._master):
+                    register_all(self._master)
             self._around = look_around(self._master, self._topic).as_dict()
             self._trouble = ""
         except GraphError as error:
@@ -191,9 +199,9 @@ def main(argv: list[str]) -> None:
     """Run a station until its wire ends, then sign off."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)  # whoever ends the owner ends the wire, and that is enough
-    Station(Wire(socket.socket(fileno=int(argv[1]))), argv[2]).run()
-    if rospy.core.is_initialized():
-        rospy.signal_shutdown("the panel is no longer shown")
+    station = Station(Wire(socket.socket(fileno=int(argv[1]))), argv[2])
+    station.run()
+    station.leave()
     os._exit(0)  # rospy's threads need not be waited for
 
 

@@ -7,6 +7,7 @@ import socket
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -20,7 +21,9 @@ from course_pkg.graph.stale import remove_stale
 from course_pkg.graph.station.wire import Wire
 
 TAIL = 600  # characters of what it printed, in an error message
-GRACE = 1.5  # s to sign off
+GRACE = 6.0  # s to sign off: a slow machine may only just be importing rospy
+# What a killed node said last may reach a busy master after its death. Hence more than one look.
+LOOKS = (0.0, 0.5, 2.0)  # s before each
 
 
 class TopicStation:
@@ -86,8 +89,10 @@ class TopicStation:
 
     def _forget(self) -> None:
         """Sign off in the place of a node that was killed."""
-        with suppress(GraphError):
-            remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
+        for pause in LOOKS:
+            time.sleep(pause)
+            with suppress(GraphError):
+                remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
 
     def _tail(self) -> str:
         descriptor = self._output.fileno()
