@@ -13,6 +13,7 @@ from typing import Any
 import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
+from traitlets.config import Config
 
 from course_pkg.authoring.cells import Notebook, code_cells
 from course_pkg.authoring.shelf import Shelf, read, text_of
@@ -43,7 +44,11 @@ def run(name: str, notebook: Notebook) -> None:
 
     with surroundings() as (folder, environment):
         client = NotebookClient(
-            nbformat.from_dict(notebook), timeout=CELL, kernel_name="python3", on_cell_executed=progress
+            nbformat.from_dict(notebook),
+            timeout=CELL,
+            kernel_name="python3",
+            on_cell_executed=progress,
+            config=_by_files(folder.parent),
         )
         client.resources = {"metadata": {"path": str(folder)}}
         try:
@@ -67,6 +72,11 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
         environment = {**os.environ, "COURSE_STATE": str(Path(folder, "state"))}
         environment.pop("ROS_MASTER_URI", None)
         yield work, environment
+
+
+def _by_files(folder: Path) -> Config:
+    """Have the kernel talk through files in `folder`: another program can take a port before it does."""
+    return Config(KernelManager={"transport": "ipc", "connection_file": str(folder / "kernel.json")})
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
