@@ -26,6 +26,7 @@ CourseError
 │   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
 │   └── AnswersBroken: the file of right and wrong answers cannot be read
 ├── CameraSilent: the camera of chapter 03's shop says nothing, so nobody can tell who is there
+├── PrinterFailed: the printer of chapter 12's till has printed nothing
 ├── AuthoringError: a solution notebook cannot be taken as it is
 ├── GradingError: submissions cannot be graded as they are, or not here
 │   ├── WallsMissing: this machine cannot keep a submission from the rest of it
@@ -214,6 +215,10 @@ class AnswersBroken(ExamError):
 
 class CameraSilent(CourseError):
     """The camera of a shop has said nothing for so long that nobody can tell who is at the counter."""
+
+
+class PrinterFailed(CourseError):
+    """The printer of a till has jammed or is out of paper, and has printed nothing."""
 
 
 class AuthoringError(CourseError):

@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from course_pkg.shop.cases import CASES, OPTIONS
     from course_pkg.shop.counter import Counter, Visit
     from course_pkg.shop.drawing import shop_picture
+    from course_pkg.shop.eye import Eye, await_customer
     from course_pkg.shop.findings import Findings, side_by_side
+    from course_pkg.shop.frames import frame_points, sees_customer
+    from course_pkg.shop.till import OpenTill, Printer
     from course_pkg.shop.trial import age_of_knowledge, try_out
     from course_pkg.shop.watch import Customer, Watch
 
@@ -20,10 +23,16 @@ __all__ = [
     "OPTIONS",
     "Counter",
     "Customer",
+    "Eye",
     "Findings",
+    "OpenTill",
+    "Printer",
     "Visit",
     "Watch",
     "age_of_knowledge",
+    "await_customer",
+    "frame_points",
+    "sees_customer",
     "shop_picture",
     "side_by_side",
     "try_out",
@@ -35,7 +44,10 @@ __getattr__ = lazily(
         "cases": "CASES OPTIONS",
         "counter": "Counter Visit",
         "drawing": "shop_picture",
+        "eye": "Eye await_customer",
         "findings": "Findings side_by_side",
+        "frames": "frame_points sees_customer",
+        "till": "OpenTill Printer",
         "trial": "age_of_knowledge try_out",
         "watch": "Customer Watch",
     },
