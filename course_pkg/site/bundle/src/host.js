@@ -1,6 +1,7 @@
 /* Draws every panel of the page from the state that it was saved with. There is no kernel, and the panels are told so:
    whatever they send cannot be sent. */
 
+import { letters } from "./letters.js";
 import { nameParts } from "./names.js";
 
 export async function drawPanels() {
@@ -9,12 +10,22 @@ export async function drawPanels() {
     const states = await unpacked(packed.textContent);
     for (const [index, place] of places.entries()) {
       draw(place, states[index]);
-      if (!index) await new Promise((resume) => setTimeout(resume)); // so that the first is seen before the rest is there
+      if (!index) await painted(); // so that the first is seen before the rest is there
     }
   }
+  await letters();
   nameParts();
   // What was drawn has moved what is below it.
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: "instant" });
+}
+
+const NO_FRAMES = 200; // ms; a window that nobody sees is not painted
+
+function painted() {
+  return new Promise((resume) => {
+    requestAnimationFrame(() => setTimeout(resume));
+    setTimeout(resume, NO_FRAMES);
+  });
 }
 
 /** The states of a page are a third of it, and less than a tenth when they are packed. @param {string} text base64 */
