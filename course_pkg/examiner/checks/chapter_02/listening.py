@@ -118,11 +118,16 @@ def _stances(exam: Exam, count: int) -> list[dict[str, Any]]:
         {
             "header": {"stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)}},
             "name": names,
-            "position": exam.draw.numbers(4, -3.0, 3.0),
-            "velocity": exam.draw.numbers(4, -3.0, 3.0),
+            "position": _of_both_signs(exam),
+            "velocity": _of_both_signs(exam),
         }
         for number in range(count)
     ]
+
+
+def _of_both_signs(exam: Exam) -> list[float]:
+    """Draw four numbers that tell every slip with signs from every other."""
+    return exam.draw.shuffled([*exam.draw.numbers(2, 0.1, 3.0), *exam.draw.numbers(2, -3.0, -0.1)])
 
 
 @contextmanager
