@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 from course_pkg.errors import ExamError, GraphError
 from course_pkg.examiner.calls import PATIENCE, Service
 from course_pkg.examiner.draw import Draw
+from course_pkg.examiner.faults import FaultyServer, Work
 from course_pkg.examiner.folder import SLACK, Folder
 from course_pkg.examiner.hearing import Hearing
 from course_pkg.examiner.ledger import Hints, Ledger, RuleBroken, hint_for, same
@@ -136,6 +137,10 @@ class Exam:
         """
         cls = self.service_class(kind) if isinstance(kind, str) else kind
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
+
+    def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
+        """Serve `name` with `work`, and with the faults that are put into its `plan`; see faults.py."""
+        return self._open.enter_context(FaultyServer(self._node, name, self.service_class(kind), work))
 
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Take `name` off the graph until the check is over; `stale` leaves an entry that leads nowhere."""

@@ -1,0 +1,261 @@
+"""10.5: a service that a new master hears of."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from course_pkg.errors import GraphError
+from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.folder import Folder, Running
+from course_pkg.examiner.scripted import closed_port
+from course_pkg.graph.rpc import MasterClient
+
+EVERY = 0.1  # s between two looks of the watchdog
+SOON = 5.0  # s for something that takes a few looks: a busy machine is no mistake
+LEFT_ALONE = 0.8  # s in which a watchdog that does wrong would have done it
+READY = 15.0  # s for a master to answer
+LOOK = 0.02  # s between looks of the check
+
+# A service of the kernel's, a client of the second master that can be held up in the middle of a look, and
+# the student's watchdog between them.
+A_WATCH = """
+import threading
+import time
+
+import rosgraph
+import rospy
+from std_srvs.srv import Trigger
+
+
+class CheckedMaster(rosgraph.Master):
+    def __init__(self, uri):
+        super().__init__(rospy.get_name(), uri)
+        self.hold, self.inside, self.go = False, threading.Event(), threading.Event()
+        self.registered, self.looks = [], 0
+
+    def lookupService(self, name):
+        self.looks += 1
+        if not self.hold:
+            return super().lookupService(name)
+        self.inside.set()
+        self.go.wait(5)
+        raise rosgraph.MasterError("no provider")
+
+    def registerService(self, *what):
+        self.registered.append(time.monotonic())
+        return super().registerService(*what)
+
+
+class CheckedWatch:
+    def open(self, kind, name, uri, every):
+        self.service = rospy.Service(name, Trigger, lambda request: (True, "here"))
+        self.master = CheckedMaster(uri)
+        self.watchdog = kind(self.service.resolved_name, self.service.uri, self.master, every)
+        return self.service.uri
+
+    def looks(self):
+        return self.master.looks
+
+    def stop_amid_a_look(self):
+        '''Return whether it registers anything once stop() has returned, 0.5 s later.'''
+        self.master.hold = True
+        if not self.master.inside.wait(5):
+            return "no look"
+        stopped = []
+        stopping = threading.Thread(target=lambda: (self.watchdog.stop(), stopped.append(time.monotonic())))
+        stopping.start()
+        stopping.join(0.3)
+        self.master.hold = False
+        self.master.go.set()
+        stopping.join(5)
+        time.sleep(0.5)
+        if not stopped:
+            return "stop() hangs"
+        return "after stop" if any(when > stopped[0] for when in self.master.registered) else "quiet"
+
+    def close(self):
+        self.watchdog.stop()
+        self.service.shutdown("checked")
+
+
+checked_watch = CheckedWatch()
+"""
+DIED = (
+    "While there was no master, a look raised, and that ended the watchdog's thread. Catch what a look may "
+    "raise "
+    "(OSError, rosgraph.MasterException) inside the loop, and look again."
+)
+NEVER = (
+    "The master knows nobody by this name, and is not told. Where lookupService raises "
+    "rosgraph.MasterError, call "
+    "master.registerService(name, uri, rospy.get_node_uri())."
+)
+
+
+class SecondMaster:
+    """A real master beside the kernel, which can be restarted."""
+
+    def __init__(self, exam: Exam) -> None:
+        self.port = closed_port()
+        self.uri = f"http://localhost:{self.port}"
+        self._folder: Folder = exam.folder()
+        self._running: Running | None = None
+
+    def start(self) -> MasterClient:
+        """Start it anew, and return a client when it answers."""
+        words = ("rosmaster", "--core", "-p", str(self.port))
+        self._running = self._folder.start(*words, worded="a second master")
+        client = MasterClient(self.uri, 1.0)
+        deadline = time.monotonic() + READY
+        while time.monotonic() < deadline:
+            try:
+                client.pid()
+            except GraphError:
+                time.sleep(LOOK)
+            else:
+                break
+        return client
+
+    def stop(self) -> None:
+        """End it, with all that it knows."""
+        if self._running is not None:
+            self._running.stop()
+            self._running = None
+
+
+@part(
+    "10.5",
+    points=3,
+    goal="Register a service again when the master has forgotten it, until it is told to stop.",
+    needs=["Watchdog"],
+    deadline=90.0,
+)
+def a_watchdog(exam: Exam) -> None:
+    """Have a new master, none, and another new one; then take the name, and stop in the middle of a look."""
+    name = f"/{exam.draw.word()}"
+    second = SecondMaster(exam)
+    master = second.start()
+    exam.prepare(A_WATCH)
+    opened = exam.run(
+        "checked_watch.open",
+        Its("Watchdog"),
+        name,
+        second.uri,
+        EVERY,
+        worded="Watchdog(name, uri, master, every)",
+    )
+    exam.hold(
+        "a Watchdog is made from a name, an address, a master and a pause",
+        not opened.error,
+        seen=opened.error,
+        hints={
+            says(
+                "TimesUp"
+            ): "Watchdog(...) does not come back: what goes on for ever belongs on a thread of its own.",
+        },
+    )
+    uri = str(opened.value)
+    try:
+        _restarted(exam, name, uri, second, master)
+    finally:
+        exam.run("checked_watch.close")
+        second.stop()
+
+
+def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: MasterClient) -> None:
+    _known(exam, master, name, uri, "a master that does not know the service is told of it", NEVER)
+    second.stop()
+    looks = int(exam.read("checked_watch.master.looks"))
+    _soon(lambda: int(exam.read("checked_watch.master.looks")) > looks + 2)
+    exam.hold(
+        "without a master it goes on looking",
+        int(exam.read("checked_watch.master.looks")) > looks + 2,
+        expected="look after look",
+        seen="no look any more",
+        hints=DIED,
+    )
+    master = second.start()
+    _known(exam, master, name, uri, "a master that was restarted is told again", DIED)
+    _taken(exam, master, name)
+    _known(
+        exam,
+        master,
+        name,
+        uri,
+        "a name that is free again is taken",
+        "The other one has gone: look again and again.",
+    )
+    _quiet(exam)
+    _stopped(exam)
+
+
+def _known(exam: Exam, master: MasterClient, name: str, uri: str, rule: str, hint: str) -> None:
+    seen = _soon(lambda: master.lookup_service(name)) or "nobody"
+    exam.hold(
+        rule, seen != "nobody", expected="the service on its books", seen="nobody by this name", hints=hint
+    )
+    exam.hold(
+        "it is registered at its own address",
+        seen == uri,
+        expected="the uri that it was given",
+        seen="another address",
+        hints=("The address of a service begins with rosrpc, and comes second. The node's own goes last."),
+    )
+
+
+def _taken(exam: Exam, master: MasterClient, name: str) -> None:
+    """Give the name to another node, which serves it by right: the last one wins."""
+    other = f"rosrpc://localhost:{closed_port()}"
+    master.register_service("/another", name, other, f"http://localhost:{closed_port()}/")
+    fought = _soon(lambda: master.lookup_service(name) != other, LEFT_ALONE)
+    master.unregister_service("/another", name, other)
+    exam.hold(
+        "a name that another node has taken is left to it",
+        not fought,
+        expected="the other node's address",
+        seen="the student's again",
+        hints="Another node serves this name now, and the watchdog took it away. With two such "
+        "watchdogs they would fight for ever. Register only where the master knows nobody.",
+    )
+
+
+def _quiet(exam: Exam) -> None:
+    before = len(exam.read("checked_watch.master.registered"))
+    looks = int(exam.read("checked_watch.master.looks"))
+    _soon(lambda: int(exam.read("checked_watch.master.looks")) > looks + 3)
+    looked = int(exam.read("checked_watch.master.looks")) - looks
+    again = len(exam.read("checked_watch.master.registered")) - before
+    exam.hold(
+        "where all is well it only looks",
+        again == 0,
+        expected="no registration",
+        seen=f"{again} of them",
+        hints="The master knew the service, and was told of it again and again. Look it up first.",
+    )
+    exam.hold("it looks again and again", looked > 3, expected="look after look", seen=f"{looked} of them")
+
+
+def _stopped(exam: Exam) -> None:
+    outcome = exam.run("checked_watch.stop_amid_a_look", within=20.0, worded="stop()")
+    exam.expect(
+        "after stop() nothing is registered any more",
+        expected="quiet",
+        seen=outcome.value,
+        hints={
+            "after stop": "stop() returned in the middle of a look, and that look registered the service "
+            "afterwards. Have stop() "
+            "wait for the look that is under way: join the thread, or share a lock with it.",
+            "stop() hangs": "stop() waits for itself: a lock that is held already, or a thread that was not "
+            "told to end.",
+            "no look": "It looked no more before it was told to stop.",
+        },
+    )
+
+
+def _soon(condition: Callable[[], object], within: float = SOON) -> object:
+    """Return the first true value of `condition`, or its last one after `within` s."""
+    deadline = time.monotonic() + within
+    while not (value := condition()) and time.monotonic() < deadline:
+        time.sleep(LOOK)
+    return value
