@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from course_pkg.building import my_workspace
     from course_pkg.examiner import check, results
     from course_pkg.graph import join
+    from course_pkg.graph.explanations import explain
     from course_pkg.panels import (
         GraphPanel,
         Plot,
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
         TopicPanel,
         TurtlePanel,
         TypeBrowser,
+        WireView,
         choose,
         predict,
         predictions,
@@ -39,8 +41,10 @@ __all__ = [
     "TopicPanel",
     "TurtlePanel",
     "TypeBrowser",
+    "WireView",
     "check",
     "choose",
+    "explain",
     "join",
     "my_workspace",
     "predict",
@@ -56,9 +60,10 @@ __getattr__ = lazily(
         "building": "my_workspace",
         "examiner": "check results",
         "graph": "join",
+        "graph.explanations": "explain",
         "panels": (
-            "GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser choose predict "
-            "predictions show_image timeline_text"
+            "GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser WireView choose "
+            "predict predictions show_image timeline_text"
         ),
     },
 )

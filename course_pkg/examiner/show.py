@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
-from course_pkg.graph.explanations import explain
+from course_pkg.graph.explanations import known
 from course_pkg.interfaces import rosservice_line, service_type
 
 
@@ -19,7 +19,7 @@ def explained(words: str) -> str:
             "The call has not come back: the handler waits for something that does not happen, or never "
             "returns. rospy sets no time limit on a call."
         )
-    explanation = explain(words)
+    explanation = known(words)
     return f"{explanation.cause} {explanation.remedy}" if explanation else ""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from course_pkg.graph.explanations import explain
+from course_pkg.graph.explanations import explain, known
 
 # The words as rospy 1.15 says them on a real graph, with a stretch of the explanation that fits.
 SAID = "ServiceException: service [/x] responded with an error: "
@@ -36,7 +36,7 @@ WORDS = {
 @pytest.mark.parametrize(("words", "stretch"), WORDS.items(), ids=range(len(WORDS)))
 def test_each_error_has_its_own_explanation(words: str, stretch: str) -> None:
     """Every error of a call is explained by the row that is meant for it, with something to do."""
-    explanation = explain(words)
+    explanation = known(words)
     assert explanation is not None
     assert stretch in explanation.cause
     assert explanation.remedy.endswith((".", ")", "]]."))
@@ -44,4 +44,5 @@ def test_each_error_has_its_own_explanation(words: str, stretch: str) -> None:
 
 def test_unknown_words_are_left_alone() -> None:
     """An error that is not in the table gets no guess."""
-    assert explain("KeyError: 'sprocket'") is None
+    assert known("KeyError: 'sprocket'") is None
+    assert not explain(KeyError("sprocket")).known

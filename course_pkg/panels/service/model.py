@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 from course_pkg.errors import CallCancelled, CallUnderWay, CourseError, FieldError, NothingPicked
-from course_pkg.graph.explanations import explain
+from course_pkg.graph.explanations import known
 from course_pkg.interfaces import ServiceType, service_type
 from course_pkg.panels.forms.form import State, correction
 from course_pkg.panels.forms.rows import rows, summary
@@ -280,7 +280,7 @@ class _Call:
         """Return the outcome for the page: the error as it was worded, and what it means."""
         self.error = error
         name, words = type(error).__name__, str(error)
-        explanation = explain(f"{name}: {words}")
+        explanation = known(f"{name}: {words}")
         said = {"name": name, "words": words} | (asdict(explanation) if explanation else {})
         phase = "cancelled" if isinstance(error, (CallCancelled, KeyboardInterrupt)) else "failed"
         return self._outcome(phase, milliseconds) | {"error": said}

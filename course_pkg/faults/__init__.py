@@ -1,0 +1,42 @@
+"""What goes wrong with services, caused for real and undone: the cases of the lab.
+
+    with caused("stale") as stage:
+        seen = stage.symptom()
+
+`fault` is one thing that goes wrong; `program` and `stage` run it; `catalogue` has all of them.
+"""
+
+from typing import TYPE_CHECKING
+
+from course_pkg.lazy import lazily
+
+if TYPE_CHECKING:
+    from course_pkg.faults.catalogue import every_fault, named, names
+    from course_pkg.faults.fault import Fault
+    from course_pkg.faults.probes import TOOLS, probe
+    from course_pkg.faults.program import Program, Seen
+    from course_pkg.faults.stage import Stage, caused
+
+__all__ = [
+    "TOOLS",
+    "Fault",
+    "Program",
+    "Seen",
+    "Stage",
+    "caused",
+    "every_fault",
+    "named",
+    "names",
+    "probe",
+]
+
+__getattr__ = lazily(
+    __name__,
+    {
+        "catalogue": "every_fault named names",
+        "fault": "Fault",
+        "probes": "TOOLS probe",
+        "program": "Program Seen",
+        "stage": "Stage caused",
+    },
+)

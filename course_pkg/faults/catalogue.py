@@ -1,0 +1,48 @@
+"""All faults, and finding one by its name."""
+
+from __future__ import annotations
+
+from course_pkg.errors import UnknownFault
+from course_pkg.faults.calling import CALLING
+from course_pkg.faults.fault import Fault
+from course_pkg.faults.masters import MASTERS
+from course_pkg.faults.serving import SERVING
+
+GROUPS = ("serving", "calling", "masters")
+
+
+def every_fault() -> tuple[Fault, ...]:
+    """Return all faults."""
+    return (*SERVING, *CALLING, *MASTERS)
+
+
+def names() -> list[str]:
+    """Return the names of all faults."""
+    return [each.name for each in every_fault()]
+
+
+def named(name: str) -> Fault:
+    """Return the fault of this name. Raises UnknownFault."""
+    return _only(select(name), name)
+
+
+def select(*chosen: str) -> tuple[Fault, ...]:
+    """Return the faults of these names and groups, all for none. Raises UnknownFault."""
+    found = [_found(name) for name in chosen] if chosen else [every_fault()]
+    return tuple(dict.fromkeys(each for some in found for each in some))
+
+
+def _found(name: str) -> tuple[Fault, ...]:
+    found = tuple(each for each in every_fault() if name in (each.name, each.group))
+    if not found:
+        raise UnknownFault(
+            f"There is no fault {name!r} in the lab. There are the groups {', '.join(GROUPS)}, and the "
+            f"faults {', '.join(names())}."
+        )
+    return found
+
+
+def _only(found: tuple[Fault, ...], name: str) -> Fault:
+    if len(found) != 1:
+        raise UnknownFault(f"{name!r} is a group of {len(found)} faults. Name one of them.")
+    return found[0]

@@ -1,0 +1,63 @@
+"""The tools with which a student looks into a case: real commands, each within a limit."""
+
+from __future__ import annotations
+
+from course_pkg.errors import GraphError
+from course_pkg.faults.program import Seen
+from course_pkg.faults.stage import Stage
+from course_pkg.graph.rpc import MasterClient
+from course_pkg.graph.stale import remove_stale
+
+PATIENCE = 4.0  # s for a tool, of which it takes 0.5 s to start
+
+COMMANDS = {
+    "services": "rosservice list",
+    "nodes": "rosnode list",
+    "info": "rosservice info /lab/door",
+    "ping": "rosnode ping -c 1 /lab/keeper",
+}
+TOOLS = {
+    **{name: f"`{line}`" for name, line in COMMANDS.items()},
+    "output": "Output of the server",
+    "cleanup": "Remove stale entries",
+    "again": "Call again",
+}
+
+
+def probe(stage: Stage, tool: str) -> Seen:
+    """Use a tool of TOOLS on a case, and return what is seen; it takes at most 10 s."""
+    if tool == "again":
+        return stage.symptom()
+    if tool == "output":
+        return _output(stage)
+    if tool == "cleanup":
+        return _cleaned(stage)
+    program = stage.command(COMMANDS[tool])
+    seen = program.watch(PATIENCE)
+    program.end()
+    return seen
+
+
+def _output(stage: Stage) -> Seen:
+    """Return what the server has printed, and whether its process is there."""
+    keeper = stage.keeper
+    if keeper is None:
+        return Seen("the server's output", "Nobody has started a server in this case.", 0.0, 0)
+    state = "Its process is there." if keeper.running else "Its process has ended."
+    return Seen("the server's output", f"{keeper.output() or '(nothing printed)'}\n{state}".strip(), 0.0, 0)
+
+
+def _cleaned(stage: Stage) -> Seen:
+    """Do what `rosnode cleanup` does, for the nodes of the case alone: the others are not the lab's."""
+    try:
+        nodes = frozenset(
+            node
+            for node in MasterClient(stage.uri).system_state().nodes
+            if node.startswith(f"{stage.namespace}/")
+        )
+        removed = remove_stale(stage.uri, nodes=nodes)
+    except GraphError as error:
+        return Seen("rosnode cleanup, for the nodes of this case", str(error), 0.0, 1)
+    lines = [f"Unregistering {entry.kind} {entry.name} of {entry.node}" for entry in removed]
+    said = "\n".join(lines) or "No entry leads nowhere."
+    return Seen("rosnode cleanup, for the nodes of this case", said, 0.0, 0)

@@ -1,0 +1,84 @@
+"""What a client is told when the server's handler went wrong, or the service was declared wrongly.
+
+A row is (words, cause, remedy, chapter). It matches on the part of a message that is the same in every
+release; the first row that matches counts.
+"""
+
+from __future__ import annotations
+
+Row = tuple[str, str, str, str]
+
+FROM_HANDLERS: tuple[Row, ...] = (
+    (
+        r"service handler returned None",
+        "The handler reached its end without a return, or returned None.",
+        "Return a response from the handler, also when its response has no fields: MyServiceResponse().",
+        "05",
+    ),
+    (
+        r"service cannot process request: .*is not an attribute of \w+",
+        "The handler named a field that the response does not have, most often a typing slip.",
+        "Compare the names with the part below --- that `rossrv show` prints for the service's type.",
+        "05",
+    ),
+    (
+        r"handler returned invalid value",
+        "What the handler returned cannot be made into a response: it has not one value for each field.",
+        "Return a response object, or a tuple, list or dict with one value for each field of the response.",
+        "05",
+    ),
+    (
+        r"handler returned wrong number of values",
+        "The handler returned a list or tuple whose length is not the number of fields in the response.",
+        "Return one value for each field. A single array field needs a list inside a list: [[1, 2, 3]].",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request: field .+ (?:is not|must be)",
+        "A value in the handler's response has the wrong type for its field.",
+        "Convert each value that the handler returns to the type of its field, such as bool(…) or float(…).",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request: .*(?:positional argument|argument.* given)",
+        "The handler takes the wrong arguments: it is called with one, the request.",
+        "Write the handler as a function of one argument, def handle(request), and use what is in it.",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request",
+        "The handler raised an exception. Its message stands above, the traceback in the server's output.",
+        "Read the server's output and mend the handler, or have it refuse the request on purpose.",
+        "05",
+    ),
+    (
+        r"service cannot process request: handler ended with (?:SystemExit|KeyboardInterrupt)",
+        "The handler tried to end the program, by sys.exit() or an interrupt, instead of answering.",
+        "Return or raise ServiceException in a handler; plain rospy would have left the client waiting.",
+        "05",
+    ),
+    (
+        r"service cannot process request",
+        "The handler refused this request on purpose, by raising ServiceException.",
+        "Read the reason above and send a request that the service accepts.",
+        "05",
+    ),
+    (
+        r"responded with an error: b''",
+        "The server refused the request and gave no reason; nodes written in C++ do so.",
+        "Look for the reason in the server's own output.",
+        "05",
+    ),
+    (
+        r"has no attribute '_request_class'|is the (?:request|response) of a service type",
+        "The class of the request or of the response was given where the type of the service belongs.",
+        "Give the type itself: SetBool, and not SetBoolRequest or SetBoolResponse.",
+        "05",
+    ),
+    (
+        r"service \[[^\]]*\] already registered",
+        "This program serves a service of this name already, and the old handler keeps answering.",
+        "Call shutdown() on the old service before declaring it again; node.serve() of the course does.",
+        "05",
+    ),
+)
