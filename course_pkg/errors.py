@@ -23,10 +23,12 @@ CourseError
 │   └── NodeFailed: the process of a node ended; holds the end of its output
 ├── ExamError: a check cannot be carried out
 │   ├── UnknownCheck: no check has this id
+│   ├── ToolMissing: this machine lacks what the part is built with; the student can do nothing in it yet
 │   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
 │   └── AnswersBroken: the file of right and wrong answers cannot be read
 ├── CameraSilent: the camera of chapter 03's shop says nothing, so nobody can tell who is there
 ├── PrinterFailed: the printer of chapter 12's till has printed nothing
+├── UnknownFault: the lab has no fault of this name
 ├── AuthoringError: a solution notebook cannot be taken as it is
 ├── GradingError: submissions cannot be graded as they are, or not here
 │   ├── WallsMissing: this machine cannot keep a submission from the rest of it
@@ -193,6 +195,10 @@ class UnknownCheck(ExamError):
     """No check has this id."""
 
 
+class ToolMissing(ExamError):
+    """This machine lacks what a part is built with: it cannot be attempted here."""
+
+
 class LinkError(ExamError):
     """The link between a kernel and its judge failed."""
 
@@ -219,6 +225,10 @@ class CameraSilent(CourseError):
 
 class PrinterFailed(CourseError):
     """The printer of a till has jammed or is out of paper, and has printed nothing."""
+
+
+class UnknownFault(CourseError):
+    """The lab has no fault of this name."""
 
 
 class AuthoringError(CourseError):
