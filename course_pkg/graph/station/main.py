@@ -68,7 +68,7 @@ class Station:
         self._told = 0
         self._trouble = ""
         self._around: dict[str, Any] = {}
-        self._leaving = threading.Lock()  # held while it registers, so that it cannot do so after its sign-off
+        self._registering = threading.Lock()  # so that nothing registers once it has signed off
 
     def run(self) -> None:
         """Do what one is told until the wire ends."""
@@ -83,7 +83,7 @@ class Station:
 
     def leave(self) -> None:
         """Sign off."""
-        with self._leaving:
+        with self._registering:
             if rospy.core.is_initialized():
                 rospy.signal_shutdown("the panel is no longer shown")
 
@@ -139,7 +139,7 @@ class Station:
     def _look(self) -> None:
         """See who is on the topic, and be on the master's books again after it was restarted."""
         try:
-            with self._leaving:
+            with self._registering:
                 # A node that has signed off is unknown, too, and must not come back.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
