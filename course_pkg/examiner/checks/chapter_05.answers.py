@@ -463,6 +463,15 @@ class Switch:
         self.on = request.data
         return SetBoolResponse(success=moved, message="It is on" if self.on else "It is off")
 
+# %% 05.4 wrong: one value for all switches | hint: they share one value
+class Switch:
+    on = False
+
+    def handle_switch(self, request):
+        moved = request.data != Switch.on
+        Switch.on = request.data
+        return SetBoolResponse(success=moved, message="on" if Switch.on else "off")
+
 # %% 05.5 right: keeps it in the dict
 def open_service(name):
     services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))

@@ -18,6 +18,11 @@ MESSAGE = {
     says("True|False"): "The message is the word on or the word off.",
     says("on|off"): "The message is on or off, in small letters, and nothing else.",
 }
+STARTS_ON = "A new switch was told to go off, where it should have been already: start with False."
+SHARES = (
+    "The switch at /switch was on, and so was a new one, before anybody touched it: they share one value. "
+    "Keep it in self, which each switch has for itself, not in the class or in a global."
+)
 ELSEWHERE = {
     True: "It stood there already, and now it says the other: data is where to go, not a push of a button.",
     False: "That is where it stood before. Turn it first, and answer then.",
@@ -108,11 +113,13 @@ def a_switch_that_tells(exam: Exam) -> None:
             },
         )
         on = data
-    turn(data=False)
     exam.prepare(A_NEW_SWITCH)
-    exam.expect(
-        "a new switch is off",
-        expected={"success": False, "message": "off"},
-        seen=exam.run("a_new_switch", Its("Switch"), False, worded=NEW_AND_OFF).value,
-        hints="A new switch was told to go off, where it should have been already: start with False.",
-    )
+    for stands, hint in ((False, STARTS_ON), (True, SHARES)):
+        turn(data=stands)
+        exam.expect(
+            "a new switch is off",
+            expected={"success": False, "message": "off"},
+            seen=exam.run("a_new_switch", Its("Switch"), False, worded=NEW_AND_OFF).value,
+            hints=hint,
+        )
+    turn(data=False)
