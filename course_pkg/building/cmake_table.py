@@ -135,6 +135,24 @@ FROM_CMAKE: tuple[Row, ...] = (
         "A command is a name and brackets, such as project(my_services); a comment begins with #.",
     ),
     (
+        r"Cannot find source file:\s+(?P<name>\S+)",
+        "",
+        "There is no file {name} where this line says.",
+        "Write its path from the package's own folder, such as src/NAME.cpp, and compare the spelling.",
+    ),
+    (
+        r'Cannot specify link libraries for target "(?P<name>[^"]+)" which is not built',
+        "",
+        "There is no program {name} above this line.",
+        "add_executable comes first, and both have the same name.",
+    ),
+    (
+        r"No CMAKE_CXX_COMPILER could be found|Could not find compiler set in environment variable CXX",
+        "",
+        "CMake finds no C++ compiler.",
+        "Install one: g++ on Debian and Ubuntu, the package compilers of conda.",
+    ),
+    (
         r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
         "{package}",
         "The package has no CMakeLists.txt.",

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from course_pkg.building.cmake import Message, messages
 from course_pkg.building.cmake_table import FROM_CMAKE, SILENT, Row, unknown_command
+from course_pkg.building.compiler import compiler_faults
 from course_pkg.building.fault import Fault
 from course_pkg.building.tool_tables import FROM_BUILD, FROM_TOOLS
 
@@ -38,6 +39,7 @@ def _faults(text: str) -> Iterator[Fault]:
         yield from _of_cmake(message)
     for message in found:
         yield from _matching(SILENT, message.words, message)
+    yield from compiler_faults(text)
     yield from _matching(FROM_TOOLS, text)
     for message in errors:
         yield Fault(

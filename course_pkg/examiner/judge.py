@@ -16,7 +16,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from course_pkg.errors import CourseError, LinkError
+from course_pkg.errors import CourseError, LinkError, ToolMissing
 from course_pkg.examiner.exam import Exam
 from course_pkg.examiner.ledger import RuleBroken
 from course_pkg.examiner.link import PROTOCOL, Link
@@ -85,6 +85,8 @@ def _verdict(part: Part, exam: Exam) -> Report:
             part(exam)
     except RuleBroken:
         return _report(part, Verdict.FAILED, exam.rules)
+    except ToolMissing as error:
+        return _report(part, Verdict.NOT_ATTEMPTED, note=str(error))
     except DeadlinePassed:
         return _report(part, Verdict.FAILED, (*exam.rules, _too_slow(part, exam)))
     except LinkError as error:

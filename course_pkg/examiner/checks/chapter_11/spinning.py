@@ -1,0 +1,147 @@
+"""11.4: a server that answers several callers side by side, and still counts right."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner.calls import Service
+from course_pkg.examiner.checks.chapter_11.programs import PACKAGE, code_of, compiled, serves, started
+
+FILE = f"{PACKAGE}/src/number_server.cpp"
+CALLERS = 6
+THINKING, COUNTING = 0.4, 0.05  # s, as the file that is handed out has them
+TRIES = 2  # a server that takes one after the other is never quick; on a busy machine a good one may be slow
+
+START = f"""%%writefile {FILE}
+#include <mutex>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int served = 0;
+
+// Takes its time, and touches nothing that others need.
+void think() {{
+  ros::WallDuration({THINKING}).sleep();
+}}
+
+// Reads, takes a moment, and writes.
+int count() {{
+  int seen = served;
+  ros::WallDuration({COUNTING}).sleep();
+  served = seen + 1;
+  return served;
+}}
+
+bool handle(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {{
+  think();
+  response.message = std::to_string(count());
+  response.success = true;
+  return true;
+}}
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "number_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("number", handle);
+  ros::spin();
+}}
+"""
+ONE_THREAD = (
+    "ros::spin() hands out one callback after the other. An AsyncSpinner or a MultiThreadedSpinner has "
+    "more threads."
+)
+TOO_FEW = (
+    "All callers are to be served at once, and each takes a thread: write how many. (0 means as many as "
+    "there are cores.)"
+)
+LOCKED_TOO_LONG = (
+    "Whoever holds the lock while it thinks lets all others wait. Lock where `served` is read and written, "
+    "and nowhere else."
+)
+NOT_STARTED = "An AsyncSpinner does nothing before its start()."
+NOT_ATOMIC = (
+    "Each access is safe, and the three lines are not: two threads read the same number, and both add 1 "
+    "to it. Hold a mutex from the reading to the writing."
+)
+NO_LOCK = (
+    "Two threads read the same number, and both add 1 to it. Hold a mutex from the reading to the writing: "
+    "std::lock_guard<std::mutex> lock(mutex);"
+)
+OWN_LOCK = "Each call makes a mutex of its own, which nobody else holds. One for all: outside, or static."
+
+
+@part(
+    "11.4",
+    points=3,
+    goal="Change number_server.cpp so that six callers are served side by side, and counted right.",
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def the_spinner(exam: Exam) -> None:
+    """Call alone, and then six times at once: how long it takes, and which numbers come."""
+    code = code_of(exam, FILE)
+    _still_thinks(exam, code)
+    folder = compiled(exam, FILE)
+    name = f"/{exam.draw.word()}"
+    with started(exam, folder, "number", name) as running:
+        serves(exam, running, "number", name, code)
+        quiet = NOT_STARTED if "Spinner" in code else "Nothing hands out what arrives: ros::spin() is gone."
+        number = exam.service(name, "std_srvs/Trigger", hints=[(says("TimesUp"), quiet)], timeout=6.0)
+        alone = int(number().message)
+        exam.expect("the first caller gets number 1", expected=1, seen=alone)
+        _side_by_side(exam, number, code)
+
+
+def _still_thinks(exam: Exam, code: str) -> None:
+    exam.hold(
+        "it still takes its time",
+        len(re.findall(r"\bsleep\(\)", code)) >= 2 and "think()" in code,
+        expected=f"think() as it was, with its {THINKING:g} s, and count() with its {COUNTING:g} s",
+        seen="a server that has nothing to do",
+        hints="Leave think() and count() as slow as they are: they stand for work. Only the callers overlap.",
+    )
+
+
+def _side_by_side(exam: Exam, number: Service, code: str) -> None:
+    """Hold that six at once get six numbers, and that at least one try is quick."""
+    first, took = 2, []
+    for _ in range(TRIES):
+        replies = number.at_once([{}] * CALLERS)
+        numbers = sorted(int(reply.response.message) for reply in replies)
+        exam.expect(
+            "callers at the same time get different numbers, and none is left out",
+            expected=list(range(first, first + CALLERS)),
+            seen=numbers,
+            hints=_why_lost(code),
+        )
+        first += CALLERS
+        took.append(max(reply.took for reply in replies))
+        if took[-1] < _enough():
+            break
+    exam.hold(
+        "six callers wait little longer than one",
+        min(took) < _enough(),
+        expected=f"six answers after some {THINKING + CALLERS * COUNTING:.1f} s",
+        seen=f"the last of them after {min(took):.1f} s",
+        hints=_why_slow(code),
+    )
+
+
+def _enough() -> float:
+    """Return the time, in s, between six that overlap and six of which not even three do."""
+    return 0.5 * CALLERS * (THINKING + COUNTING)
+
+
+def _why_lost(code: str) -> str:
+    if "atomic" in code:
+        return NOT_ATOMIC
+    return OWN_LOCK if re.search(r"lock_guard|unique_lock|scoped_lock|\.lock\(\)", code) else NO_LOCK
+
+
+def _why_slow(code: str) -> str:
+    if "Spinner" not in code:
+        return ONE_THREAD
+    few = re.search(r"Spinner\s+\w+\s*[({]\s*[0-3]?\s*[)}]|Spinner\s+\w+\s*;", code)
+    return TOO_FEW if few else LOCKED_TOO_LONG
