@@ -43,6 +43,7 @@ class CheckedMaster(rosgraph.Master):
         raise rosgraph.MasterError("no provider")
 
     def registerService(self, *what):
+        self.looks += 1
         self.registered.append(time.monotonic())
         return super().registerService(*what)
 
