@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, Snapshot, TopicSeen, look
     from course_pkg.graph.spoken import Spoken
     from course_pkg.graph.stale import StaleRegistration, remove_stale, stale_registrations
+    from course_pkg.graph.wiretap import Wire, Wiretap, record_call
 
 __all__ = [
     "Activity",
@@ -52,6 +53,8 @@ __all__ = [
     "StaleRegistration",
     "SystemState",
     "TopicSeen",
+    "Wire",
+    "Wiretap",
     "find_or_start_master",
     "guard_against_idle_connections",
     "join",
@@ -59,6 +62,7 @@ __all__ = [
     "look",
     "master_uri",
     "prepare_node",
+    "record_call",
     "remove_stale",
     "service_callers",
     "stale_registrations",
@@ -87,5 +91,6 @@ __getattr__ = lazily(
         "snapshot": "NodeSeen ServiceSeen Snapshot TopicSeen look",
         "spoken": "Spoken",
         "stale": "StaleRegistration remove_stale stale_registrations",
+        "wiretap": "Wire Wiretap record_call",
     },
 )

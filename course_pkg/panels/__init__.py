@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
+    from course_pkg.panels.breakit.view import BreakIt
     from course_pkg.panels.choices.view import choose
     from course_pkg.panels.graph.picture import graph_text
     from course_pkg.panels.graph.view import GraphPanel
@@ -20,8 +21,10 @@ if TYPE_CHECKING:
     from course_pkg.panels.topic.view import TopicPanel
     from course_pkg.panels.turtles.view import TurtlePanel
     from course_pkg.panels.types.view import TypeBrowser
+    from course_pkg.panels.wire.view import WireView
 
 __all__ = [
+    "BreakIt",
     "GraphPanel",
     "Plot",
     "ServicePanel",
@@ -29,6 +32,7 @@ __all__ = [
     "TopicPanel",
     "TurtlePanel",
     "TypeBrowser",
+    "WireView",
     "choose",
     "graph_text",
     "predict",
@@ -40,6 +44,7 @@ __all__ = [
 __getattr__ = lazily(
     __name__,
     {
+        "breakit.view": "BreakIt",
         "choices.view": "choose",
         "graph.picture": "graph_text",
         "graph.view": "GraphPanel",
@@ -52,5 +57,6 @@ __getattr__ = lazily(
         "topic.view": "TopicPanel",
         "turtles.view": "TurtlePanel",
         "types.view": "TypeBrowser",
+        "wire.view": "WireView",
     },
 )

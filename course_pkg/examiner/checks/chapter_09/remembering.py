@@ -1,0 +1,92 @@
+"""09.6: a client that needs the master once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from course_pkg.examiner import Exam, Its, Refuse, part, says
+from course_pkg.examiner.outcome import Outcome
+from course_pkg.examiner.plain import Plain
+from course_pkg.examiner.scripted import Act
+
+GEOMETRY = "course_pkg/geometry"
+MADE = "Remembering(service)"
+MEASURE = "measure(length, width, height)"
+A_CLIENT = """
+def begin(kind, service):
+    global client
+    client = kind(service)
+
+
+def measured(kind, *sides):
+    return client.measure(*sides)
+"""
+
+
+@part(
+    "09.6",
+    points=2,
+    goal="Look the address up once and go on with it; look again only when nobody is there any more.",
+    needs=["Remembering"],
+    deadline=20.0,
+)
+def an_address_that_is_kept(exam: Exam) -> None:
+    """Call; have the master forget; refuse; move the server."""
+    name = f"/{exam.draw.word()}"
+    numbers = [exam.draw.numbers(2, 10.0, 90.0) for _ in range(4)]
+    answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]
+    acts = [answers[0], answers[1], Refuse("not this box")]
+    server = exam.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
+    exam.prepare(A_CLIENT)
+    exam.hold("a client can be made", exam.run("begin", Its("Remembering"), name, worded=MADE).value is None)
+    _measures(exam, "area and volume are returned", numbers[0], {})
+    exam.absent(name)
+    lost = {
+        says("unknown service|no provider|Master"): (
+            "It looked up again, and the master does not know. It had the address from the call before."
+        )
+    }
+    _measures(exam, "a call needs no master when the address is known", numbers[1], lost)
+    before = len(server.requests)
+    _measure(exam, {}).raised(
+        "a refusal comes out",
+        "ServiceException",
+        saying="not this box",
+        hints="The server was there, and said no. Look up again only if nobody is there: OSError.",
+    )
+    exam.expect(
+        "a refusal is not asked again",
+        expected=1,
+        seen=len(server.requests) - before,
+        hints="It asked twice. Only an OSError means that nobody is at the address.",
+    )
+    server.leave()
+    exam.serve(name, GEOMETRY, lambda _: answers[2])
+    moved = {
+        says("refused|OSError|Connection"): (
+            "Nobody is at the old address any more. Catch the OSError, look up again, and ask there."
+        )
+    }
+    _measures(exam, "a server that moved is found again", numbers[2], moved)
+    exam.absent(name)
+    _measures(
+        exam, "the new address is kept, too", numbers[2], {says(""): "Keep what the second look-up said."}
+    )
+
+
+def _measure(exam: Exam, hints: dict[Any, str]) -> Outcome:
+    sides = exam.draw.numbers(3, 0.5, 9.0)
+    return exam.run("measured", Its("Remembering"), *sides, within=3.0, hints=hints, worded=MEASURE)
+
+
+def _measures(exam: Exam, rule: str, numbers: list[float], hints: dict[Any, str]) -> Plain:
+    exam.expect(
+        rule,
+        expected=numbers,
+        seen=_measure(exam, hints).value,
+        near=1e-6,
+        hints={
+            None: "Nothing was returned: return what ask returned.",
+            says(""): "Return what ask returned.",
+        },
+    )

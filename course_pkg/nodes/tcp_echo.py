@@ -1,0 +1,38 @@
+"""The node `tcp_echo`: sends back what it is sent, over bare TCP, at the port in its parameter `~port`.
+
+It speaks no protocol of ROS: what a round trip takes here is the least that any call could take.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+from contextlib import suppress
+
+import rospy
+
+from course_pkg.graph.stepping import step_onto_graph
+
+
+def main() -> None:
+    """Echo until the node is shut down."""
+    if not step_onto_graph("tcp_echo"):
+        return
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        threading.Thread(target=_accept, args=(listener,), daemon=True).start()
+        rospy.set_param("~port", listener.getsockname()[1])
+        rospy.spin()
+
+
+def _accept(listener: socket.socket) -> None:
+    with suppress(OSError):  # closed: over
+        while True:
+            sock, _ = listener.accept()
+            threading.Thread(target=_echo, args=(sock,), daemon=True).start()
+
+
+def _echo(sock: socket.socket) -> None:
+    with sock, suppress(OSError):
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        while data := sock.recv(65536):
+            sock.sendall(data)

@@ -1,0 +1,1 @@
+"""The wire view: a real call, byte by byte."""

@@ -1,0 +1,149 @@
+"""The bytes of TCPROS taken apart: connection headers, requests, replies.
+
+http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte), http://wiki.ros.org/ROS/Connection%20Header (the
+fields), http://wiki.ros.org/msg (how the fields of a message lie in memory). All numbers are little-endian.
+"""
+
+from __future__ import annotations
+
+import struct
+
+from course_pkg.interfaces import Field, Kind, MessageType
+from course_pkg.interfaces.fields import integer_range
+from course_pkg.interfaces.numbers import float32
+from course_pkg.panels.wire.pieces import BAD, KEY, LENGTH, MD5, OK, RAW, VALUE, WORDS, Reader, ShortOfBytes
+
+ERROR = 400  # characters of an error's words
+ITEMS = 8  # elements of an array that are shown one by one
+CODES = {1: "b", 2: "h", 4: "i", 8: "q"}  # of struct, for signed integers; in capitals for unsigned ones
+FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
+
+Pieces = list[dict[str, object]]
+
+
+def header_pieces(data: bytes) -> Pieces:
+    """Take a connection header apart: its length, and for each field a length and name=value."""
+    reader = Reader(data)
+    try:
+        reader.number(LENGTH, "length of the whole header")
+        while reader.rest:
+            _header_field(reader)
+    except ShortOfBytes:
+        pass  # what is left is shown as it is
+    return reader.close()
+
+
+def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
+    """Take a request apart: its length, and its fields."""
+    reader = Reader(data)
+    try:
+        reader.number(LENGTH, "length of the request")
+        _body(reader, kind)
+    except ShortOfBytes:
+        pass
+    return reader.close()
+
+
+def reply_pieces(data: bytes, kind: MessageType | None) -> Pieces:
+    """Take a reply apart: the ok byte, a length, and the response's fields or the words of the error."""
+    reader = Reader(data)
+    try:
+        worked = data[:1] == b"\1"
+        words = "1: the call worked" if worked else "0: it failed, and words follow"
+        reader.take(1, OK if worked else BAD, "ok", "uint8", words)
+        count = reader.number(LENGTH, "length of the response" if worked else "length of the error")
+        if worked:
+            _body(reader, kind)
+        else:
+            _text(reader, count, BAD, "error")
+    except ShortOfBytes:
+        pass
+    return reader.close()
+
+
+def _header_field(reader: Reader) -> None:
+    start = reader.at + 4
+    (count,) = struct.unpack_from("<I", reader.data, reader.at) if reader.rest >= 4 else (0,)
+    name, _, value = reader.data[start : start + count].decode("utf-8", "replace").partition("=")
+    reader.number(LENGTH, "length of the next field")
+    role = {"md5sum": MD5, "error": BAD}.get(name, KEY)
+    at = reader.at
+    reader.take(count, role, name, "name=value")
+    reader.say(at, value, ERROR if role == BAD else WORDS)
+
+
+def _body(reader: Reader, kind: MessageType | None) -> None:
+    if kind is None:
+        reader.take(reader.rest, RAW, "the body", "", "of a type that is not known here")
+        return
+    for field in kind.fields:
+        _field(reader, field, field.name)
+
+
+def _field(reader: Reader, field: Field, name: str) -> None:
+    if field.kind is Kind.ARRAY:
+        _array(reader, field, name)
+    elif field.kind is Kind.STRING:
+        count = reader.number(LENGTH, f"length of {name}")
+        _text(reader, count, VALUE, name)
+    elif field.fields or field.kind is Kind.MESSAGE:
+        with reader.group(name, field.type):
+            for part in field.fields:
+                _field(reader, part, f"{name}.{part.name}")
+    else:
+        _scalar(reader, field, name)
+
+
+def _scalar(reader: Reader, field: Field, name: str) -> None:
+    code, size = _format(field)
+    at = reader.at
+    (number,) = struct.unpack(code, reader.take(size, VALUE, name, field.type))
+    if field.kind is Kind.BOOL:
+        reader.say(at, str(bool(number)))
+    else:
+        reader.say(at, repr(float32(number)) if field.type == "float32" else repr(number))
+
+
+def _text(reader: Reader, count: int, role: str, name: str) -> None:
+    at = reader.at
+    words = reader.take(count, role, name, "string")[:ERROR].decode("utf-8", "replace")
+    if role == BAD:
+        reader.say(at, words, ERROR)
+    else:
+        reader.say(at, repr(words))
+
+
+def _array(reader: Reader, field: Field, name: str) -> None:
+    item = field.item
+    assert item is not None
+    with reader.group(name, field.type):
+        count = reader.number(LENGTH, f"elements of {name}") if field.length is None else field.length
+        for index in range(min(count, ITEMS)):
+            _field(reader, item, f"{name}[{index}]")
+        if (more := count - ITEMS) > 0:
+            with reader.folded(f"{more:,} more of {name}"):
+                _skip(reader, item, more, name)
+
+
+def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
+    """Read elements that are not shown; of numbers all at once, as an image has millions."""
+    if item.fields or not item.kind.is_scalar or item.kind is Kind.STRING:
+        for _ in range(count):
+            before = reader.at
+            _field(reader, item, name)
+            if reader.at == before:
+                return  # elements without fields take no bytes, however many there are said to be
+    else:
+        reader.take(count * _format(item)[1], RAW, name)
+
+
+def _format(field: Field) -> tuple[str, int]:
+    """Return how struct reads a number, and its size in bytes."""
+    if field.kind is Kind.BOOL:
+        return "<B", 1
+    if field.type in FLOATS:
+        return FLOATS[field.type]
+    limits = integer_range(field.type)
+    assert limits is not None
+    size = (limits[1] - limits[0]).bit_length() // 8
+    return "<" + (CODES[size] if limits[0] else CODES[size].upper()), size
