@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from course_pkg.graph import join
     from course_pkg.graph.explanations import explain
     from course_pkg.panels import (
+        BreakIt,
         GraphPanel,
         Plot,
         ServicePanel,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __path__ = extend_path(__path__, __name__)
 
 __all__ = [
+    "BreakIt",
     "GraphPanel",
     "Plot",
     "ServicePanel",
@@ -62,8 +64,8 @@ __getattr__ = lazily(
         "graph": "join",
         "graph.explanations": "explain",
         "panels": (
-            "GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser WireView choose "
-            "predict predictions show_image timeline_text"
+            "BreakIt GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser WireView "
+            "choose predict predictions show_image timeline_text"
         ),
     },
 )

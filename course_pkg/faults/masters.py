@@ -309,7 +309,7 @@ MASTERS: tuple[Fault, ...] = (
     _fault(
         name="port_taken",
         chapter="01",
-        look="start",
+        look="gone",
         story="A master is to be started.",
         play=_own_master,
         visitor="$ roscore -p MASTER_PORT",

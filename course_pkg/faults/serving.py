@@ -172,7 +172,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _served(
         name="request_for_type",
-        look="start",
+        look="gone",
         story="The program that serves the door is started.",
         play=_requests_class,
         visitor="$ rosservice info /lab/door",

@@ -33,9 +33,8 @@ class Explanation:
 
     @property
     def taught(self) -> str:
-        """Where it is taught, such as "chapter 06, Write a client"; "" where no chapter is meant."""
-        title = CHAPTERS.get(self.chapter, "")
-        return f"chapter {self.chapter}, {title}" if title else ""
+        """Where it is taught, as taught() says it."""
+        return taught(self.chapter)
 
     def __repr__(self) -> str:
         lines = [f"Cause: {self.cause}", f"What to do: {self.remedy}"]
@@ -44,6 +43,12 @@ class Explanation:
     def _repr_html_(self) -> str:
         rows = [line.partition(": ") for line in repr(self).splitlines()]
         return "".join(f"<p><b>{escape(name)}:</b> {_marked(text)}</p>" for name, _, text in rows)
+
+
+def taught(chapter: str) -> str:
+    """Return words for a chapter, such as "chapter 06, Write a client"; "" where no chapter is meant."""
+    title = CHAPTERS.get(chapter, "")
+    return f"chapter {chapter}, {title}" if title else ""
 
 
 def _marked(text: str) -> str:

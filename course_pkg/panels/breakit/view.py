@@ -1,0 +1,69 @@
+"""The lab as a widget; text/plain is the same for every student."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, ClassVar
+
+from traitlets import Dict, List
+
+from course_pkg.faults import Stage, probe
+from course_pkg.panels.breakit.cases import cases
+from course_pkg.panels.breakit.model import LabModel
+from course_pkg.panels.breakit.store import CaseStore
+from course_pkg.panels.panel import Panel
+
+HERE = Path(__file__).parent
+
+
+class BreakIt(Panel):
+    """Cases in which something is really broken, on the running graph: find out what, from the symptom.
+
+    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; none for all. A fault is
+    undone when another case begins, when no page shows the lab any more, and when the kernel ends. Which
+    fault a case has goes to the page only when it has been answered. Raises UnknownFault.
+    """
+
+    front_end: ClassVar[Path] = HERE / "breakit.js"
+    style_sheet: ClassVar[Path] = HERE / "breakit.css"
+
+    cases: List[Any] = List(help="the cases by number, and how each stands").tag(sync=True)
+    score = Dict(help="how many are solved, how many at the first try, of how many").tag(sync=True)
+    case = Dict(help="the case that is open, what was seen of it, and the verdict").tag(sync=True)
+    trouble = Dict(help="why a case could not be set up, and what to do about it").tag(sync=True)
+
+    def __init__(self, *chosen: str, store: CaseStore | None = None) -> None:
+        listed = cases(*chosen)
+        super().__init__()
+        self._chosen = chosen
+        self._model = LabModel(
+            listed, store or CaseStore(), self.publish, stage=Stage, use=probe, turn=self.turn
+        )
+        self.publish(**self._model.overview())
+
+    def hidden(self) -> None:
+        """Undo the fault that is there."""
+        self._model.undo()
+
+    def received(self, kind: str, content: dict[str, Any]) -> None:
+        """Answer a click."""
+        if kind == "open":
+            self._model.open(int(content["case"]))
+        elif kind == "use":
+            self._model.use(str(content["tool"]))
+        elif kind == "answer":
+            self._model.answer(str(content["diagnosis"]), str(content["remedy"]))
+        elif kind == "reveal":
+            self._model.reveal()
+        elif kind == "undo":
+            self._model.undo()
+        self.send({"kind": "taken"})
+
+    def close(self) -> None:
+        """Take the lab off every page and undo the fault that is there, which takes up to 0.3 s."""
+        super().close()
+        if hasattr(self, "_model"):  # the constructor may have refused what it was given
+            self._model.close()
+
+    def __repr__(self) -> str:
+        return f"BreakIt({', '.join(map(repr, self._chosen))})"
