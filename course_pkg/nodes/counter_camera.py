@@ -48,10 +48,9 @@ class CounterCamera:
 
     def watch(self, rate: float) -> None:
         """Publish what is seen until the node is shut down."""
-        pace, number = rospy.Rate(rate), 0
+        pace = rospy.Rate(rate)
         while not rospy.is_shutdown():
-            self._publisher.publish(taken(self._there(), number))
-            number += 1
+            self._publisher.publish(taken(self._there()))
             try:
                 pace.sleep()
             except rospy.ROSInterruptException:  # shut down while it slept
@@ -66,12 +65,12 @@ class CounterCamera:
             return len(self._counter.there(now))
 
 
-def taken(customers: int, number: int) -> Image:
+def taken(customers: int) -> Image:
     """Return a frame with so many customers, taken now."""
     frame = Image(height=HEIGHT, width=WIDTH, encoding="mono8", step=WIDTH)  # type: ignore[no-untyped-call]
     frame.header.stamp = rospy.Time.now()
     frame.header.frame_id = "counter"
-    frame.data = frame_points(customers, number)
+    frame.data = frame_points(customers)
     return frame
 
 

@@ -11,12 +11,9 @@ WALL, COAT = 208, 40  # how bright each is, give or take SHADE
 SHADE = 12
 
 
-def frame_points(customers: int, number: int = 0) -> bytes:
-    """Return the points of a frame, row by row: a light wall, and so many dark figures before it.
-
-    The `number` of a frame changes its shades, as light does.
-    """
-    return b"".join(_row(row, customers, number) for row in range(HEIGHT))
+def frame_points(customers: int) -> bytes:
+    """Return the points of a frame, row by row: a light wall, and so many dark figures before it."""
+    return b"".join(_row(row, customers) for row in range(HEIGHT))
 
 
 def sees_customer(frame: Any) -> bool:  # noqa: ANN401 -- a class that genpy generates
@@ -28,7 +25,7 @@ def sees_customer(frame: Any) -> bool:  # noqa: ANN401 -- a class that genpy gen
     if frame.encoding != "mono8":
         raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")
     if not frame.width or not frame.height or frame.step < frame.width:
-        raise ValueError(f"{frame.width} × {frame.height} points in rows of {frame.step} bytes are no frame")
+        raise ValueError(f"{frame.width} by {frame.height} points in rows of {frame.step} bytes are no frame")
     if len(frame.data) != frame.height * frame.step:
         raise ValueError(f"{len(frame.data)} bytes, and {frame.height} rows of {frame.step} bytes each")
     rows = (frame.data[start : start + frame.width] for start in range(0, len(frame.data), frame.step))
@@ -36,12 +33,12 @@ def sees_customer(frame: Any) -> bool:  # noqa: ANN401 -- a class that genpy gen
     return SHARE * dark >= frame.width * frame.height
 
 
-def _row(row: int, customers: int, number: int) -> bytes:
+def _row(row: int, customers: int) -> bytes:
     """Return one row; the figures stand side by side in the lower three quarters."""
-    points = bytearray(WALL + _shade(row, column, number) for column in range(WIDTH))
+    points = bytearray(WALL + _shade(row, column) for column in range(WIDTH))
     if row >= HEIGHT // 4:
         for column in _figures(customers):
-            points[column] = COAT + _shade(row, column, number)
+            points[column] = COAT + _shade(row, column)
     return bytes(points)
 
 
@@ -52,5 +49,5 @@ def _figures(customers: int) -> list[int]:
     return [middle + side for middle in middles for side in range(-half, half + 1) if middle + side < WIDTH]
 
 
-def _shade(row: int, column: int, number: int) -> int:
-    return (7 * row + 13 * column + 5 * number) % SHADE
+def _shade(row: int, column: int) -> int:
+    return (7 * row + 13 * column) % SHADE

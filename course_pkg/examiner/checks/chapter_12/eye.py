@@ -1,0 +1,198 @@
+"""12.2: an eye that knows what the newest good frame shows."""
+
+from __future__ import annotations
+
+import time
+
+from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.plain import Plain
+
+FRAMES = "sensor_msgs/Image"
+SLOW = 0.02  # s that it takes to look at a frame of the flood
+FLOOD = 100  # frames: two seconds' work, said in a fifth of one
+FRESH = 0.6  # s after the flood, in which its last frame has to be known
+STALE = 1.3  # s after which no frame is from the last second
+
+# The first point of a frame says what the check's own way of looking finds in it.
+A_LOOK = """
+import threading
+import time
+
+from sensor_msgs.msg import Image
+
+NOBODY, SOMEBODY, BROKEN = 200, 20, 99
+
+
+def sees(frame):
+    if frame.step == 2:
+        time.sleep(SLOW)
+    if frame.data[0] == BROKEN:
+        raise ValueError("this is no frame")
+    return frame.data[0] == SOMEBODY
+
+
+class Trial:
+    def make(self, cls):
+        self.eye = cls(sees)
+
+    def hear(self, *points):
+        for point in points:
+            self.eye.hear(Image(width=1, height=1, step=1, encoding="mono8", data=bytes([point])))
+        return self.eye.look()
+
+    def look(self):
+        return self.eye.look()
+
+    def wakes(self, point):
+        woken = threading.Event()
+        ready = threading.Event()
+
+        def wait():
+            with self.eye.changed:
+                ready.set()
+                if self.eye.changed.wait(2.0):
+                    woken.set()
+
+        waiter = threading.Thread(target=wait)
+        waiter.start()
+        ready.wait(2.0)
+        with self.eye.changed:
+            pass
+        self.hear(point)
+        waiter.join(2.5)
+        return woken.is_set()
+
+    def start(self, topic):
+        self.subscriber = self.eye.start(topic)
+        return hasattr(self.subscriber, "unregister") or hasattr(self.subscriber, "stop")
+
+    def end(self):
+        for way in ("unregister", "stop"):
+            if hasattr(getattr(self, "subscriber", None), way):
+                getattr(self.subscriber, way)()
+
+
+trial = Trial()
+"""
+NOBODY, SOMEBODY, BROKEN = 200, 20, 99
+ERRORS = {
+    says("un-acquired lock"): "A condition is held while it is notified: with self.changed: ...",
+    says("this is no frame"): (
+        "A malformed frame makes sees(frame) raise a ValueError, and a callback has nobody who catches it: "
+        "catch it in hear(), and leave that frame out."
+    ),
+    says("has no attribute"): "Everything that look() uses has to be there from __init__ on.",
+    says("'NoneType'"): "Before the first frame there is nothing to reckon with: look() is None then.",
+    says("TimesUp"): "It did not come back. hear() and look() wait for nothing.",
+}
+
+
+@part(
+    "12.2",
+    points=3,
+    goal="Know what the newest good frame of a stream shows, and when nobody can tell.",
+    needs=["Eye"],
+    deadline=30.0,
+)
+def an_eye(exam: Exam) -> None:
+    """Show it frames one by one, broken ones among them; let it wait; then flood it."""
+    exam.prepare(A_LOOK.replace("SLOW", str(SLOW)))
+    made = exam.run("trial.make", Its("Eye"), worded="Eye(sees)", hints=ERRORS)
+    exam.hold("an Eye can be made", not made.error, seen=made.error, hints=ERRORS)
+    blind = "Before the first frame nobody can tell: look() is None then, and not False."
+    _knows(exam, "it knows nothing before the first frame", None, _look(exam), blind)
+    _one_by_one(exam)
+    _wakes_who_waits(exam)
+    _grows_old(exam)
+    _flooded(exam)
+
+
+def _look(exam: Exam) -> Plain:
+    return exam.run("trial.look", worded="eye.look()", hints=ERRORS).value
+
+
+def _hear(exam: Exam, *points: int) -> Plain:
+    names = {NOBODY: "nobody", SOMEBODY: "somebody", BROKEN: "malformed"}
+    heard = ", ".join(names[point] for point in points)
+    return exam.run("trial.hear", *points, worded=f"eye.hear(…) of {heard}", hints=ERRORS).value
+
+
+def _knows(exam: Exam, rule: str, expected: bool | None, seen: Plain, hint: str) -> None:
+    exam.expect(rule, expected=expected, seen=seen, hints=hint)
+
+
+def _one_by_one(exam: Exam) -> None:
+    _knows(exam, "somebody is seen", True, _hear(exam, SOMEBODY), "hear() has to keep what sees(frame) says.")
+    went = "Somebody was there, and has gone: only the newest frame counts, and no earlier one."
+    _knows(exam, "the newest frame counts", False, _hear(exam, SOMEBODY, SOMEBODY, NOBODY), went)
+    kept = "A malformed frame says nothing: what was known before it stays, for as long as that is fresh."
+    for point, known in exam.draw.shuffled([(SOMEBODY, True), (NOBODY, False)]):
+        _knows(exam, "a malformed frame is left out", known, _hear(exam, point, BROKEN, BROKEN), kept)
+
+
+def _wakes_who_waits(exam: Exam) -> None:
+    for point in (NOBODY, SOMEBODY):
+        exam.expect(
+            "a good frame wakes up who waits for a change",
+            expected=True,
+            seen=exam.run("trial.wakes", point, worded="eye.changed.wait(2)", hints=ERRORS).value,
+            hints="A thread waited at eye.changed, and the frame did not wake it: self.changed.notify_all().",
+        )
+
+
+def _grows_old(exam: Exam) -> None:
+    """Let a second go by with nothing but malformed frames."""
+    _hear(exam, SOMEBODY)
+    deadline = time.monotonic() + STALE
+    while (rest := deadline - time.monotonic()) > 0:
+        _hear(exam, BROKEN)
+        time.sleep(min(rest, 0.2))
+    hint = (
+        "The last good frame was older than a second. Note when it came (time.monotonic()); malformed ones "
+        "that came since do not count."
+    )
+    _knows(exam, "after a second without a good frame it knows nothing", None, _look(exam), hint)
+
+
+def _flooded(exam: Exam) -> None:
+    topic = f"/{exam.draw.word()}"
+    started = exam.run("trial.start", topic, worded="eye.start(topic)", hints=ERRORS)
+    try:
+        exam.expect(
+            "start() returns its subscriber",
+            expected=True,
+            seen=started.value,
+            hints=("Return the rospy.Subscriber, so that whoever started it can stop it."),
+        )
+        frames = [_frame(NOBODY)] * (FLOOD - 1) + [_frame(SOMEBODY)]
+        flood = exam.publish(topic, FRAMES, frames, every=0.002, once=True)
+        flood.listened(hints="start() makes a rospy.Subscriber for the topic, of type Image.")
+        flood.finish(10.0)
+        seen = _soon(exam)
+    finally:
+        exam.run("trial.end")
+    exam.hold(
+        "in a flood of frames it keeps up with the newest",
+        seen is True,
+        expected=f"the last of {FLOOD} frames, {FRESH:g} s after it came",
+        seen="an older one" if seen is False else "none",
+        hints={
+            says("none"): "No frame of the topic was taken in: start() hands each of them to self.hear.",
+            says(
+                ""
+            ): "It works through all of them, and lags behind. Of those that wait only the newest counts: "
+            "queue_size=1.",
+        },
+    )
+
+
+def _frame(point: int) -> dict[str, Plain]:
+    return {"width": 1, "height": 1, "step": 2, "encoding": "mono8", "data": bytes([point, 0])}
+
+
+def _soon(exam: Exam) -> Plain:
+    """Return what is known as soon as somebody is seen, and after FRESH s in any case."""
+    deadline = time.monotonic() + FRESH
+    while (seen := _look(exam)) is not True and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return seen
