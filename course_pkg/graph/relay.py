@@ -55,7 +55,7 @@ class Conversation:
 
 
 class Relay:
-    """Listens on a port of its own and passes each connection on to `host`, `port`, until it is closed."""
+    """Listens on a `port` of its own and passes each connection on to the target, until it is closed."""
 
     def __init__(self, host: str, port: int) -> None:
         self.target = (host, port)
@@ -66,12 +66,8 @@ class Relay:
         self._lock = threading.Lock()
         self._closed = False
         self._listener = socket.create_server(("127.0.0.1", 0))
+        self.port = int(self._listener.getsockname()[1])
         self._begin(self._accept)
-
-    @property
-    def port(self) -> int:
-        """The port to connect to."""
-        return int(self._listener.getsockname()[1])
 
     @property
     def conversations(self) -> Sequence[Conversation]:

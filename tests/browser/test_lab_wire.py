@@ -1,4 +1,4 @@
-"""The wire view on a page: real calls stepped through by pointer and keyboard, with no kernel and in JupyterLab."""
+"""The wire view on a page: real calls, by pointer and keyboard, with no kernel and in JupyterLab."""
 
 from __future__ import annotations
 
@@ -137,8 +137,8 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
 def test_it_runs_in_jupyterlab(page: Page, lab: Lab) -> None:
     """In a notebook, arrow keys stay in the panel."""
     cells = (
-        "from course_pkg import WireView, join\nnode = join('wire_view')\nserver = node.run('course_pkg', 'server')\n"
-        "server.wait_for_service('/getGeometry', timeout=20)",
+        "from course_pkg import WireView, join\nnode = join('wire_view')\n"
+        "server = node.run('course_pkg', 'server')\nserver.wait_for_service('/getGeometry', timeout=20)",
         "WireView('/getGeometry', length=1.2, width=5.2, height=8.9)",
     )
     with running_notebook(page, lab, "wire", *cells):

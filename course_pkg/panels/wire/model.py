@@ -52,7 +52,7 @@ def _all(wire: Wire) -> list[Conversation]:
 
 def _names(wire: Wire) -> dict[str, str]:
     """Return who is at both ends, as they call themselves in the first headers that say so."""
-    names = {"client": "the client", "server": "the server", "master": "the master"}
+    names = {"client": "the client", "server": "the server", "master": "master"}
     for conversation in reversed(wire.conversations):
         for end, by_client in (("client", True), ("server", False)):
             said = said_first(conversation.said(by_client=by_client)).get("callerid")

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-SHOWN = 48  # bytes of one piece
+SHOWN = 144  # bytes of one piece
 MOST = 160  # pieces of one message
 WORDS = 80  # characters of a value
 

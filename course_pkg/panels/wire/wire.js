@@ -38,7 +38,7 @@ class WireView {
       steps.length ? h("ol", { class: "ros-ladder", "aria-label": `Steps between ${names.client} and ${names.server}` }, ...this.rungs)
         : h("p", { class: "ros-empty", text: "No connection came by while this was recorded." }),
       this.details, this.table,
-      h("p", { class: "ros-foot ros-muted", text: ["Recorded from a real call: it can be stepped through without a kernel.", ...notes].join(" ") }));
+      h("p", { class: "ros-foot ros-muted", text: ["Recorded from a real call: it can be stepped through without a kernel. The relay that took it down adds some time of its own.", ...notes].join(" ") }));
     const request = steps.findIndex((step) => step.title === "Request");
     this.#go(Math.max(request, 0));
   }
@@ -157,7 +157,7 @@ class WireView {
 
   /** @param {Piece} piece @param {number} number @param {string} hue */
   #row(piece, number, hue) {
-    const name = h("td", { style: `padding-left: ${8 + 14 * piece.depth}px` }, h("span", { class: `ros-swatch ${hue}`, "aria-hidden": "true" }), h("span", { text: piece.name }));
+    const name = h("td", { style: `padding-left: ${24 + 14 * piece.depth}px` }, h("span", { class: `ros-swatch ${hue}`, "aria-hidden": "true" }), h("span", { text: piece.name }));
     return h("tr", { class: `ros-${piece.role}`, tabindex: number ? "-1" : "0", "data-lm-suppress-shortcuts": "true" },
       h("td", {}, h("code", { text: offset(piece.at) })), h("td", { text: piece.size.toLocaleString("en") }), name,
       h("td", {}, h("code", { text: piece.type })), h("td", { class: "ros-says" }, h("code", { text: piece.value })));
