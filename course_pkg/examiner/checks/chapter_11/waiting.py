@@ -58,7 +58,7 @@ def _answered_at_once(exam: Exam, folder: Folder) -> None:
     server = exam.serve(name, BOX, lambda _: {"volume": volume})
     done = _run(folder, name, sides)
     _prints(exam, done, volume, "a server that answers: the volume is printed")
-    given = [round(float(value), 2) for value in list(server.requests[0].values())]  # type: ignore[arg-type]
+    given = [round(float(value), 2) for value in list(server.requests[0].values())]
     exam.expect("length, width and height are sent as they were given", expected=sides, seen=given, near=0.02)
     exam.expect(
         "after an answer it does not ask again",
