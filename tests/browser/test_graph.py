@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import time
 from pathlib import Path
@@ -20,10 +21,12 @@ from course_pkg.graph import (
     TopicSeen,
 )
 from course_pkg.panels import GraphPanel
+from course_pkg.panels.graph.history import History
 from tests.browser.jupyter import Lab, panel, picture, running_notebook
 from tests.browser.test_saved_panels import save
 
 FAINT = Path(__file__).with_name("contrast.js").read_text()
+FRAMES = "async (count) => { while (count--) await new Promise(requestAnimationFrame) }"
 NODES, TOPICS = 20, 40
 TALK = """
 from course_pkg import GraphPanel, join
@@ -116,6 +119,109 @@ def test_a_saved_namespace_tells_what_is_in_it(widget: GraphPanel, page: Page, t
     box.click()
     expect(graph.locator(".ros-details")).to_contain_text("/robot_1/topic_1 10 Hz")
     expect(box).to_have_attribute("aria-expanded", "false")
+
+
+def played(widget: GraphPanel) -> GraphPanel:
+    """Have a panel keep eight seconds: a call that waits, its answer, and a graph without half of it."""
+    whole, began = large(), time.time() - 100
+    half = Snapshot(whole.master, whole.nodes[:10], whole.topics[:8], whole.services[:10])
+
+    def heard(last: float, running: int) -> None:
+        caller = ServiceCaller("/node_5", 12, last, running)
+        widget._model.hear(Activity(last, callers={"/node_1/start": (caller,)}))
+
+    steps = [
+        lambda: heard(began - 60, 0),
+        lambda: heard(began + 2, 1),
+        lambda: heard(began + 4, 0),
+        lambda: widget._model.see(half),
+    ]
+    history = History()
+    history.start(began, **widget._showing())
+    for number, step in enumerate(steps):
+        step()
+        history.note(began + 2 * number, **widget._showing())
+    widget.publish(history=history.state(began + 8), live=True)
+    return widget
+
+
+def seek(graph: Locator, seconds: float) -> None:
+    """Drag the handle to a moment."""
+    graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_what_was_shown_is_played_without_a_kernel(
+    widget: GraphPanel, page: Page, tmp_path: Path, theme: str
+) -> None:
+    """It says so, begins at its end, goes to any moment by handle and keys, and plays to the end."""
+    page.set_viewport_size({"width": 560, "height": 900})
+    page.goto(save(played(widget), tmp_path / "page.html", theme))
+    graph = panel(page, "Graph panel")
+    expect(graph.get_by_text("No kernel answers: this is a recording.")).to_be_visible()
+    expect(graph.get_by_text("8.0 of 8.0 s")).to_be_visible()
+    expect(shape(graph, "node /node_15")).not_to_be_attached()
+    seek(graph, 5)
+    handle = graph.get_by_role("slider")
+    expect(handle).to_have_attribute("aria-valuetext", "5.0 of 8.0 seconds")
+    expect(shape(graph, "node /node_15")).to_be_visible()
+    shape(graph, "service /node_1/start").click()
+    expect(graph.locator(".ros-details")).to_contain_text("called by /node_5 just now, 12 calls")
+    expect(graph.locator(".ros-calls .ros-asked")).to_have_count(1)
+    seek(graph, 3)
+    expect(graph.locator(".ros-calls .ros-waits")).to_have_count(1)
+    expect(graph.locator(".ros-details")).to_contain_text("waits for an answer")
+    picture(page, f"graph-panel-recorded-{theme}")
+    handle.press("ArrowRight")
+    expect(graph.get_by_text("3.1 of 8.0 s")).to_be_visible()
+    assert graph.evaluate(FAINT) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= 560
+    seek(graph, 1)
+    expect(graph.locator(".ros-calls .ros-asked")).to_have_count(0)
+    seek(graph, 7.5)
+    graph.get_by_role("button", name="Play").click()
+    expect(graph.get_by_text("8.0 of 8.0 s")).to_be_visible()
+    expect(graph.get_by_role("button", name="Play")).to_be_visible()
+    expect(shape(graph, "node /node_15")).not_to_be_attached()
+
+
+def test_a_recording_does_not_play_where_nobody_sees_it(
+    widget: GraphPanel, page: Page, tmp_path: Path
+) -> None:
+    """Out of sight its clock stands; who asked for less motion gets a picture a second."""
+    page.emulate_media(reduced_motion="reduce")
+    page.goto(save(played(widget), tmp_path / "page.html"))
+    graph = panel(page, "Graph panel")
+    expect(graph.get_by_text("8.0 of 8.0 s")).to_be_visible()
+    page.evaluate(
+        """() => {
+            globalThis.said = [];
+            new MutationObserver(() => said.push(document.querySelector("output").textContent))
+                .observe(document.querySelector("output"), { childList: true });
+        }"""
+    )
+    graph.get_by_role("button", name="Play").click()
+    page.wait_for_function("said.length >= 3")
+    times = [float(text.split()[0]) for text in page.evaluate("said")]
+    assert all(after - before >= 1 for before, after in itertools.pairwise(times))
+    page.evaluate("document.body.style.paddingTop = '5000px'")
+    page.wait_for_function("document.querySelector('.ros-graph').getBoundingClientRect().top > innerHeight")
+    page.evaluate(FRAMES, 10)  # until it is told that nobody sees it
+    stood = page.evaluate("said.length")
+    page.evaluate(FRAMES, 150)
+    assert page.evaluate("said.length") == stood
+    expect(graph.get_by_role("button", name="Pause")).to_be_attached()
+
+
+def test_lines_of_calls_lead_somewhere(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
+    """A saved panel is drawn before it stands on a page, where nothing has a size yet."""
+    troubles: list[str] = []
+    page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
+    page.goto(save(widget, tmp_path / "page.html"))
+    lines = panel(page, "Graph panel").locator(".ros-calls path")
+    expect(lines).to_have_count(1)
+    assert "NaN" not in (lines.get_attribute("d") or "")
+    assert troubles == []
 
 
 def test_paper_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:

@@ -48,6 +48,35 @@ def test_a_rate_comes_by_itself_while_a_page_shows_the_panel(panel: GraphPanel, 
     assert panel._listener._stop is None
 
 
+def test_what_was_shown_is_handed_over_once_when_no_page_shows_it(panel: GraphPanel) -> None:
+    """While a page shows it, nothing grows; hidden, it has the pictures of that time; shown again, none."""
+    told: list[object] = []
+    panel.observe(lambda change: told.append(change["new"]), "history")
+    panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
+    panel._model.choose(noise=True, show_own=True)
+    panel._dispatch(panel, {"kind": "hello", "view": "b"}, [])
+    panel._model.choose(noise=False, show_own=True)
+    panel._dispatch(panel, {"kind": "bye", "view": "a"}, [])
+    assert told == []
+    panel._dispatch(panel, {"kind": "bye", "view": "b"}, [])
+    assert told == [panel.history]
+    drawings = [panel.history["scenes"][scene]["drawing"] for _, scene, _ in panel.history["moments"]]
+    assert any("/pulse/get_loggers" in drawing for drawing in drawings)
+    assert "/pulse/get_loggers" not in drawings[-1]
+    panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
+    assert panel.history == {}
+
+
+def test_a_panel_that_stays_as_it_is_keeps_nothing(pulse: NodeProcess) -> None:
+    """With live=False there is one picture."""
+    assert pulse.running
+    panel = GraphPanel(live=False)
+    panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
+    panel._model.choose(noise=True, show_own=True)
+    panel.close()
+    assert panel.history == {}
+
+
 def test_a_click_folds_a_namespace(panel: GraphPanel) -> None:
     """With the loggers shown, those of a node are a namespace that a click folds."""
     panel.received("choose", {"noise": True, "show_own": True})

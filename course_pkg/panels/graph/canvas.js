@@ -13,17 +13,21 @@ export class Canvas {
     this.zoom = 0; // 0: by itself
     this.fresh = true; // nobody has scrolled it yet
     this.chosen = "";
+    /** @type {import("./words.js").Activity} */
+    this.activity = {};
+    this.clock = /** @type {number | null} */ (null);
     this.id = freshId("ros-canvas");
     this.el = h("div", { class: "ros-canvas", id: this.id, onclick: (/** @type {Event} */ event) => this.#pick(event.target),
       onkeydown: (/** @type {KeyboardEvent} */ event) => this.#key(event) });
     this.tools = h("div", { class: "ros-tools", role: "group", "aria-label": "Size of the drawing", hidden: true },
       this.#tool("−", "Smaller", () => this.#resize(this.scale / STEP)), this.#tool("+", "Larger", () => this.#resize(this.scale * STEP)),
-      this.#tool("Fit", "Show the whole drawing", () => this.#resize(this.#whole())));
+      this.#tool("Fit", "Fit: show the whole drawing", () => this.#resize(this.#whole())));
     // Only another width counts: the height is that of the drawing, which is made here.
     let width = 0;
     new ResizeObserver(() => {
       if (width === (width = this.el.clientWidth)) return;
       this.#fit();
+      this.#drawCalls(); // now it is on the page, or where it is to be seen again
     }).observe(this.el);
   }
 
@@ -41,7 +45,7 @@ export class Canvas {
 
   /** Show what is chosen, and the lines that touch it. @param {string} key */
   choose(key) {
-    this.chosen = this.#shape(key) ? key : "";
+    this.chosen = key; // also where it is not drawn just now: it may come back
     for (const shape of this.#shapes()) {
       const chosen = shape.getAttribute("data-key") === this.chosen;
       shape.classList.toggle("ros-chosen", chosen);
@@ -56,21 +60,28 @@ export class Canvas {
     this.el.firstElementChild?.classList.toggle("ros-some-chosen", some);
   }
 
-  /** @param {import("./words.js").Activity} activity */
-  happen(activity) {
+  /** @param {import("./words.js").Activity} activity @param {number | null} [clock] when that was, in s since the epoch;
+   * none: it is now, and goes on */
+  happen(activity, clock = null) {
+    this.activity = activity;
+    this.clock = clock;
     for (const shape of this.el.querySelectorAll(".ros-topic")) {
       const note = shape.querySelector(".ros-note");
-      if (note) say(note, activity.notes?.[shape.getAttribute("data-key") ?? ""] ?? "");
+      if (!note) continue;
+      say(note, activity.notes?.[shape.getAttribute("data-key") ?? ""] ?? "");
+      shape.setAttribute("aria-label", [shape.querySelector("title")?.textContent, note.textContent].join(" ").trim());
     }
-    this.#drawCalls(activity.calls ?? []);
+    this.#drawCalls();
   }
 
-  /** Lines from callers to services, which fade; Graphviz has no part in them, so nothing else moves.
-   * @param {{tail: string, head: string, last: number, running: number}[]} calls */
-  #drawCalls(calls) {
+  /** Lines from callers to services, which fade; Graphviz has no part in them, so nothing else moves. */
+  #drawCalls() {
+    if (!this.el.clientWidth) return; // what is not on the page has no size, and a line would lead nowhere
+    const now = this.clock ?? Date.now() / 1000;
+    this.el.classList.toggle("ros-stopped", this.clock !== null);
     const shapes = [...this.el.querySelectorAll(".ros-shape")];
     const found = (/** @type {string} */ key) => shapes.find((shape) => shape.getAttribute("data-key") === key);
-    const fresh = calls.map((each) => ({ ...each, age: each.running ? 0 : Math.max(0, Date.now() / 1000 - each.last) }))
+    const fresh = (this.activity.calls ?? []).map((each) => ({ ...each, age: each.running ? 0 : Math.max(0, now - each.last) }))
       .filter(({ tail, head, age }) => age < FADE && found(tail) && found(head));
     const places = new Map(fresh.length ? shapes.map((shape) => [shape.getAttribute("data-key"), place(shape)]) : []);
     this.el.querySelector(".ros-calls")?.replaceChildren(...fresh.map(({ tail, head, running, age }) => {

@@ -72,7 +72,7 @@ class _Drawing:
         (x, y), name = framed.corner, framed.frame.name
         size = {"width": framed.width, "height": framed.height}
         SubElement(canvas, "rect", {"class": "ros-frame", **_numbers(x=x, y=y, rx=6, **size)})
-        said = f"namespace {name}, unfolded"
+        said = f"{_named('namespace', framed.label, name)}, unfolded"
         group = self._button(canvas, "ros-title", framed.frame.key, said, expanded=True)
         label = f"▾ {framed.label}"
         SubElement(group, "rect", _numbers(x=x + 4, y=y + 3, width=7.3 * len(label) + 8, height=20, rx=3))
@@ -81,15 +81,17 @@ class _Drawing:
     def _shape(self, canvas: Element, placed: Placed) -> None:
         shape = placed.shape
         classes = f"ros-shape ros-{shape.kind.value}" + ("" if shape.reachable else " ros-lost")
-        said = f"{shape.kind.value} {shape.name}"
-        said += f", folded: {placed.note}" if shape.kind is Kind.SPACE else ""
+        said = _named(shape.kind.value, placed.label, shape.name)
+        said += f" {placed.note}, folded" if shape.kind is Kind.SPACE else ""
         said += "" if shape.reachable else ", does not answer"
         folded = False if shape.kind is Kind.SPACE else None
         group = self._button(canvas, classes, shape.key, said, expanded=folded)
         _outline(group, placed)
         (x, y), low = placed.centre, shape.kind in (Kind.TOPIC, Kind.SPACE)
         mark = "▸ " if shape.kind is Kind.SPACE else ""
-        SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0))).text = mark + placed.label
+        name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
+        name.text = mark + placed.label
+        name.tail = " "  # or the last word of the name and the first one under it are one
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})
             under.text = placed.note or self._notes.get(shape.key, "")
@@ -104,6 +106,11 @@ class _Drawing:
         group = SubElement(canvas, "g", attributes)
         SubElement(group, "title").text = said
         return group
+
+
+def _named(kind: str, label: str, name: str) -> str:
+    """Return the name of a button: with what is written on it, so that it can be said aloud."""
+    return f"{kind} {name}" if label == name else f"{kind} {name}: {label}"
 
 
 def _outline(group: Element, placed: Placed) -> None:

@@ -1,12 +1,16 @@
 /* The graph panel: the drawing, the details of what is clicked, and the same facts as a list. */
 import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
+import { Replay, watch } from "../replay.js";
 import { Canvas } from "./canvas.js";
+import { recordingOf } from "./recording.js";
 import { pairs } from "./words.js";
+
+const TICK = 250; // ms of a recording in which a line that fades is drawn once
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
   const ending = new AbortController();
-  const panel = new GraphView(model);
+  const panel = new GraphView(model, ending.signal);
   el.append(panel.el);
   kernelLink(model, ending.signal, (live) => panel.kernel(live));
   const clock = setInterval(() => panel.tick(), 1000);
@@ -15,28 +19,34 @@ function render({ model, el }) {
 }
 
 class GraphView {
-  /** @param {import("../kit.js").Model} model */
-  constructor(model) {
+  /** @param {import("../kit.js").Model} model @param {AbortSignal} signal */
+  constructor(model, signal) {
     this.model = model;
     this.live = true;
     this.chosen = "";
+    /** @type {import("./recording.js").Recording | null} */
+    this.recording = null; // what is played; null where a kernel answers, or nothing was kept
+    /** @type {any} */
+    this.moment = null; // of the recording
+    this.step = 0; // of its clock
     this.#build();
+    watch(this.el, signal, (visible) => this.replay.see(visible));
+    signal.addEventListener("abort", () => this.replay.stop());
     model.on("change:drawing", () => this.#draw());
     model.on("change:facts", () => this.#drawFacts());
     model.on("change:activity", () => this.#drawActivity());
     model.on("change:spaces", () => this.#drawFolding());
     for (const trait of ["trouble", "notice"]) model.on(`change:${trait}`, () => this.#drawBanner());
     for (const trait of ["noise", "own", "show_own"]) model.on(`change:${trait}`, () => this.#drawBoxes());
-    this.#draw();
-    this.#drawFacts();
-    this.#drawBanner();
     this.#drawBoxes();
-    this.#drawFolding();
+    this.#drawAll();
   }
 
   #build() {
     this.banner = h("div", { class: "ros-banner", role: "status", hidden: true });
     this.canvas = new Canvas((key, folded) => this.#choose(key, folded));
+    this.replay = new Replay((time) => this.#see(time));
+    setAttribute(this.replay.el, "hidden", true);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
     this.noise = box("loggers and /rosout", () => this.#toggle());
     this.own = box("this notebook's node", () => this.#toggle());
@@ -45,48 +55,61 @@ class GraphView {
       sample("service", "service: a question and its answer"), sample("asked", "a call lately; dashed: still waits"));
     this.folding = h("div", { class: "ros-boxes", role: "group", "aria-label": "Namespaces", hidden: true },
       h("span", { class: "ros-muted", text: "Namespaces" }), this.#fold("Fold all", true), this.#fold("Unfold all", false));
-    this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas.tools, this.canvas.el, this.details,
+    this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas.tools, this.canvas.el, this.replay.el, this.details,
       h("div", { class: "ros-foot" }, legend, this.folding,
         h("div", { class: "ros-boxes", role: "group", "aria-label": "Show" }, h("span", { class: "ros-muted", text: "Show" }), this.noise.el, this.own.el)),
       h("details", { class: "ros-list" }, h("summary", { text: "The same as a list" }), h("table", {}, h("thead", {}, h("tr", {},
         ...["Kind", "Name", "Details"].map((text) => h("th", { scope: "col", text })))), this.list)));
   }
 
+  /** What is shown: of the recording where one is played, else what is. @param {string} trait */
+  #get(trait) {
+    return this.moment ? this.moment[trait] : this.model.get(trait);
+  }
+
+  #drawAll() {
+    this.#draw();
+    this.#drawFacts();
+    this.#drawBanner();
+    this.#drawFolding();
+  }
+
   #draw() {
-    this.canvas.draw(this.model.get("drawing"));
+    this.canvas.draw(this.#get("drawing"));
     this.#drawActivity();
   }
 
   #drawActivity() {
-    this.canvas.happen(this.#activity());
+    this.canvas.happen(this.#activity(), this.#clock());
     this.#drawList();
     this.#drawDetails();
   }
 
   #drawFacts() {
     const list = /** @type {HTMLDetailsElement} */ (this.el.querySelector(".ros-list"));
-    if (!this.model.get("drawing") && this.model.get("facts").length) list.open = true;
+    if (!this.#get("drawing") && this.#get("facts").length) list.open = true;
     this.#drawList();
     this.#drawDetails();
   }
 
   #drawList() {
     /** @type {import("./words.js").Fact[]} */
-    const facts = this.model.get("facts").filter((/** @type {import("./words.js").Fact} */ each) => each.kind !== "namespace");
+    const facts = this.#get("facts").filter((/** @type {import("./words.js").Fact} */ each) => each.kind !== "namespace");
     const said = JSON.stringify([facts, this.#activity().details, this.#activity().callers, this.live]);
     if (said === this.listed) return;
     this.listed = said;
     this.list.replaceChildren(...facts.map((fact) => h("tr", {}, h("td", { text: fact.kind }), h("td", {}, h("code", { text: fact.name })),
-      h("td", {}, ...pairs(fact, this.#activity(), false)))));
+      h("td", {}, ...pairs(fact, this.#activity(), null)))));
     if (!facts.length) this.list.replaceChildren(h("tr", {}, h("td", { colspan: 3, text: "Nothing is on the graph yet." })));
   }
 
   #drawDetails() {
-    const fact = this.model.get("facts").find((/** @type {import("./words.js").Fact} */ each) => each.key === this.chosen);
-    const some = this.model.get("facts").length > 0;
+    const fact = this.#get("facts").find((/** @type {import("./words.js").Fact} */ each) => each.key === this.chosen);
+    const some = this.#get("facts").length > 0;
+    const now = this.#clock() ?? (this.live ? Date.now() / 1000 : null);
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
-      ...pairs(fact, this.#activity(), this.live)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
-      "Nothing is on the graph yet. Start a node; it appears here by itself." })];
+      ...pairs(fact, this.#activity(), now)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
+      this.moment ? "Nothing was on the graph then." : "Nothing is on the graph yet. Start a node; it appears here by itself." })];
     // Only what differs is written: a selection and a reader's place stay.
     const said = parts.map((part) => part.textContent).join("\n");
     if (said !== this.said) this.details.replaceChildren(...parts);
@@ -95,8 +118,9 @@ class GraphView {
 
   #drawBanner() {
     const notice = this.model.get("notice");
-    const trouble = notice ? `The panel itself failed: ${notice}` : this.model.get("trouble");
-    const text = trouble || (this.live || !this.model.get("live") ? "" : "No kernel answers: this picture was saved and does not follow the graph.");
+    const trouble = notice ? `The panel itself failed: ${notice}` : this.#get("trouble");
+    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or drag the handle." : "No kernel answers: this picture was saved and does not follow the graph.";
+    const text = trouble || (this.live || !this.model.get("live") ? "" : saved);
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(trouble));
     setAttribute(this.banner, "hidden", !text);
@@ -111,7 +135,7 @@ class GraphView {
 
   #drawFolding() {
     /** @type {{name: string, folded: boolean}[]} */
-    const spaces = this.model.get("spaces") ?? [];
+    const spaces = this.#get("spaces") ?? [];
     setAttribute(this.folding, "hidden", !spaces.length);
     const [fold, unfold] = /** @type {NodeListOf<HTMLButtonElement>} */ (this.folding.querySelectorAll("button"));
     fold.disabled = !this.live || spaces.every((each) => each.folded);
@@ -121,10 +145,46 @@ class GraphView {
   /** @param {boolean} live */
   kernel(live) {
     this.live = live;
-    this.#drawBanner();
     this.#drawBoxes();
+    this.#turnTo(live ? null : recordingOf(this.model.get("history")));
+    this.#drawBanner();
     this.#drawFolding();
     this.#drawDetails();
+  }
+
+  /** Show a recording, its end at first; null: what is. @param {import("./recording.js").Recording | null} recording */
+  #turnTo(recording) {
+    const was = this.recording;
+    this.recording = recording;
+    setAttribute(this.replay.el, "hidden", !recording);
+    this.replay.stop();
+    if (recording) {
+      this.replay.be(recording.length, recording.length, true);
+      this.replay.show();
+      this.#see(recording.length);
+    } else if (was) {
+      this.moment = null;
+      this.canvas.el.style.minHeight = "";
+      this.#drawAll();
+    }
+  }
+
+  /** Show a moment of the recording. @param {number} time in ms */
+  #see(time) {
+    const [before, now, step] = [this.moment, this.recording?.at(time), Math.floor(time / TICK)];
+    if (!now || (now === before && step === this.step)) return;
+    this.moment = now;
+    this.step = step;
+    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // who plays it looks at it
+    if (before?.scene === now.scene) return this.#drawActivity();
+    // What stands below the drawing is not to jump up and down while it is played.
+    this.canvas.el.style.minHeight = `${this.canvas.el.offsetHeight}px`;
+    this.#drawAll();
+  }
+
+  /** When what is shown was, in s since the epoch; null: it is now, or nobody knows. */
+  #clock() {
+    return this.recording && this.moment ? this.recording.clock(this.replay.time) : null;
   }
 
   /** A second has passed: what was said to be so long ago is longer ago. */
@@ -134,7 +194,7 @@ class GraphView {
 
   /** @returns {import("./words.js").Activity} */
   #activity() {
-    return this.model.get("activity") ?? {}; // a panel that was saved by an older release has none
+    return this.#get("activity") ?? {}; // a panel that was saved by an older release has none
   }
 
   #toggle() {

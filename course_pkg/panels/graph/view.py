@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -9,6 +10,7 @@ from traitlets import Bool, Dict, List, Unicode
 
 from course_pkg.graph import Activity, Listener, Node, Snapshot, look, this_node
 from course_pkg.panels.follower import Follower
+from course_pkg.panels.graph.history import SCENE, History
 from course_pkg.panels.graph.model import GraphModel
 from course_pkg.panels.panel import Panel
 
@@ -23,6 +25,7 @@ class GraphPanel(Panel):
     It follows the graph while a page shows it, or stays as it is now with `live=False`: with how often
     topics carry messages, and who called a service lately. `noise` shows what every graph has, too: /rosout
     and the logger services. The kernel's own `node`, by default what join() made of it, can be hidden.
+    What it showed on its last page is kept, and can be played again where no kernel answers.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
@@ -33,6 +36,7 @@ class GraphPanel(Panel):
     facts: List[Any] = List(help="each shape and namespace in words").tag(sync=True)
     spaces: List[Any] = List(help="the namespaces, and whether they are folded").tag(sync=True)
     activity = Dict(help="rates of topics, callers of services").tag(sync=True)
+    history = Dict(help="what was shown on the last page; see history.py").tag(sync=True)
     trouble = Unicode(help="why there is no picture, or why it is old").tag(sync=True)
     live = Bool(help="whether the picture follows the graph").tag(sync=True)
     noise = Bool(help="whether /rosout and the logger services are shown").tag(sync=True)
@@ -43,7 +47,8 @@ class GraphPanel(Panel):
         super().__init__()
         ours = node or this_node()
         own = ours.name if ours else ""
-        self._model = GraphModel(self.publish, noise=noise, own=own, turn=self.turn)
+        self._history = History()
+        self._model = GraphModel(self._changed, noise=noise, own=own, turn=self.turn)
         self._follower: Follower[Snapshot] = Follower(self._look, self._model.see, self._lost)
         self._ear = Listener()
         self._listener: Follower[Activity] = Follower(
@@ -58,15 +63,19 @@ class GraphPanel(Panel):
         return self._model.still()
 
     def shown(self) -> None:
-        """Follow the graph."""
+        """Follow the graph, and keep what it shows."""
         if self.live:
+            self._remember()
             self._follower.start()
             self._listener.start()
 
     def hidden(self) -> None:
-        """Leave the graph alone."""
+        """Leave the graph alone, and hand over what was kept, at once: a page that shows it pays nothing."""
         self._follower.stop()
         self._listener.stop()
+        with self.turn:
+            self._history.stop()
+            self.publish(history=self._history.state(time.time()))
 
     def received(self, kind: str, content: dict[str, Any]) -> None:
         """Answer a click: on one of the two boxes, or on a namespace."""
@@ -79,6 +88,20 @@ class GraphPanel(Panel):
 
     def __repr__(self) -> str:
         return "GraphPanel()"
+
+    def _changed(self, **traits: object) -> None:
+        with self.turn:
+            self.publish(**traits)
+            self._history.note(time.time(), **self._showing())
+
+    def _remember(self) -> None:
+        with self.turn:
+            if not self._history.running:  # or another view of it has begun already
+                self.publish(history={})
+                self._history.start(time.time(), **self._showing())
+
+    def _showing(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in (*SCENE, "activity")}
 
     def _look(self) -> Snapshot:
         """Look at the graph; again where a node did not answer in time for once: the machine may be busy."""

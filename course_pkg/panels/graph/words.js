@@ -7,12 +7,12 @@ import { h } from "../kit.js";
  *   callers?: Record<string, Caller[]>, calls?: {tail: string, head: string, last: number, running: number}[]}} Activity */
 
 /** Each fact of a shape, and what happens there. @param {Fact} fact @param {Activity} activity
- * @param {boolean} live whether it is said how long ago something was @returns {HTMLElement[]} */
-export function pairs(fact, activity, live) {
+ * @param {number | null} now in s since the epoch, to say how long ago something was; null: at what time of day @returns {HTMLElement[]} */
+export function pairs(fact, activity, now) {
   const lost = fact.lost && fact.kind !== "namespace" ? [["state", "does not answer"]] : [];
   const told = [...lost, ...fact.facts.filter(([label]) => label !== "address"), ...(activity.details?.[fact.key] ?? [])];
   const address = fact.facts.filter(([label]) => label === "address");
-  const said = [...told.map(([label, value]) => pair(label, value)), ...asked(fact, activity, live)];
+  const said = [...told.map(([label, value]) => pair(label, value)), ...asked(fact, activity, now)];
   return [...said, ...address.map(([label, value]) => pair(label, value))];
 }
 
@@ -21,32 +21,32 @@ function pair(label, value, more = "") {
   return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }), more);
 }
 
-/** Who called a service lately, and which services a node called. @param {Fact} fact @param {Activity} activity @param {boolean} live */
-function asked(fact, activity, live) {
-  if (fact.kind === "service" && activity.callers) return callers(activity.callers[fact.key], live);
+/** Who called a service lately, and which services a node called. @param {Fact} fact @param {Activity} activity @param {number | null} now */
+function asked(fact, activity, now) {
+  if (fact.kind === "service" && activity.callers) return callers(activity.callers[fact.key], now);
   if (fact.kind !== "node") return [];
   return Object.entries(activity.callers ?? {}).flatMap(([service, told]) => told.filter((each) => each.node === fact.name)
-    .map((each) => pair("called", service.slice("service ".length), ` ${calls(each, live)}`)));
+    .map((each) => pair("called", service.slice("service ".length), ` ${calls(each, now)}`)));
 }
 
-/** @param {Caller[] | undefined} told @param {boolean} live */
-function callers(told, live) {
+/** @param {Caller[] | undefined} told @param {number | null} now */
+function callers(told, now) {
   if (!told) return [pair("called by", "", "somebody or nobody: its server does not tell who calls")];
   if (!told.length) return [pair("called by", "", "nobody yet")];
-  return told.map((each) => pair("called by", each.node, `${each.gone ? " (gone)" : ""} ${calls(each, live)}`));
+  return told.map((each) => pair("called by", each.node, `${each.gone ? " (gone)" : ""} ${calls(each, now)}`));
 }
 
-/** @param {Caller} caller @param {boolean} live */
-function calls(caller, live) {
+/** @param {Caller} caller @param {number | null} now */
+function calls(caller, now) {
   const count = `${caller.calls} ${caller.calls === 1 ? "call" : "calls"}`;
-  return caller.running && !caller.gone ? `${count}, waits for an answer` : `${when(caller.last, live)}, ${count}`;
+  return caller.running && !caller.gone ? `${count}, waits for an answer` : `${when(caller.last, now)}, ${count}`;
 }
 
-/** How long ago, in words that change seldom; a page without a kernel says the time of day.
- * @param {number} last in s since the epoch @param {boolean} live */
-function when(last, live) {
-  if (!live) return `at ${new Date(1000 * last).toTimeString().slice(0, 8)}`;
-  const seconds = Math.max(0, Date.now() / 1000 - last);
+/** How long ago, in words that change seldom; a picture that was saved says the time of day.
+ * @param {number} last in s since the epoch @param {number | null} now */
+function when(last, now) {
+  if (now === null) return `at ${new Date(1000 * last).toTimeString().slice(0, 8)}`;
+  const seconds = Math.max(0, now - last);
   if (seconds < 2) return "just now";
   if (seconds < 10) return `${Math.floor(seconds)} s ago`;
   if (seconds < 60) return `${10 * Math.floor(seconds / 10)} s ago`;
