@@ -143,11 +143,11 @@ def test_every_kind_of_field_reaches_the_server(lab: Lab, page: Page) -> None:
         form.get_by_label("flag").check()
         form.get_by_role("group", name="gains").get_by_label("[2]").fill("3")
         for text in ("7", "8", "9"):
-            form.get_by_role("button", name="Add an element to ids").click()
+            form.get_by_role("button", name="Add element to ids").click()
             page.keyboard.press("Control+a")
             page.keyboard.type(text)
         form.get_by_role("button", name="Remove ids[1]").click()
-        form.get_by_role("button", name="Add an element to path").click()
+        form.get_by_role("button", name="Add element to path").click()
         page.keyboard.press("Control+a")
         page.keyboard.type("4")
         covariance = form.get_by_label("covariance")

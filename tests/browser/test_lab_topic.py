@@ -166,7 +166,7 @@ def test_dark_and_narrow(tmp_path: Path, page: Page) -> None:
     with running_lab(tmp_path, theme="Dark") as lab, running_notebook(page, lab, "dark", JOIN, panels):
         page.set_viewport_size({"width": 760, "height": 1600})
         topic = listening(page)
-        topic.get_by_role("button", name="Add an element to position").click()
+        topic.get_by_role("button", name="Add element to position").click()
         page.keyboard.press("Control+a")
         page.keyboard.type("0.5")
         topic.get_by_label("Latch").check()

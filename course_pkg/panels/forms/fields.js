@@ -116,7 +116,7 @@ export class FieldsForm {
     const count = `${texts.length} ${texts.length === 1 ? "element" : "elements"}`;
     return h("fieldset", { class: "ros-group" }, legend(label, `${field.type} · ${fixed ? "always " : ""}${count}`), help(field),
       h("ol", { class: item.kind === "message" ? "ros-tall" : "ros-flat" }, ...elements),
-      fixed ? null : h("button", { type: "button", class: "ros-quiet", text: "Add element", "aria-label": `Add an element to ${path}`,
+      fixed ? null : h("button", { type: "button", class: "ros-quiet", text: "Add element", "aria-label": `Add element to ${path}`,
         "data-add": path, onclick: () => this.#resize(path, [...texts, blank(item)], texts.length) }));
   }
 

@@ -19,8 +19,9 @@ function render({ model, el }) {
 function tabulated({ head, rows, note }) {
   const [first, ...others] = head;
   const row = ([name, ...values]) => h("tr", {}, h("th", { scope: "row", text: name }), ...values.map((text) => h("td", { class: "ros-value", text })));
+  const corner = h(first ? "th" : "td", first ? { scope: "col", text: first } : {}); // an empty one heads nothing
   return h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Values" },
-    h("table", {}, h("thead", {}, h("tr", {}, ...[first, ...others].map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows.map(row))),
+    h("table", {}, h("thead", {}, h("tr", {}, corner, ...others.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows.map(row))),
     note ? h("p", { class: "ros-muted", text: note }) : null);
 }
 

@@ -35,12 +35,8 @@ async function unpacked(text) {
 }
 
 function draw(place, state) {
-  const { activity } = state;
-  const model = saved({ ...state, ...(activity && { activity: { ...activity, calls: [] } }) });
   try {
-    globalThis.coursePanels[place.dataset.panel].render({ model, el: place });
-    // Where the lines of calls go can be measured only when the drawing is on the page.
-    if (activity) model.change("activity", activity);
+    globalThis.coursePanels[place.dataset.panel].render({ model: saved(state), el: place });
   } catch (error) {
     place.textContent = "This panel could not be drawn.";
     console.error(error); // a panel less must not take the page along
@@ -49,20 +45,13 @@ function draw(place, state) {
 
 /** A model of a widget, as far as the panels use one. */
 function saved(state) {
-  const heard = new Map();
   return {
     get: (name) => state[name],
     set: (name, value) => {
       state[name] = value;
     },
-    change(name, value) {
-      state[name] = value;
-      for (const callback of heard.get(`change:${name}`) ?? []) callback();
-    },
     save_changes() {},
-    on(event, callback) {
-      heard.set(event, [...(heard.get(event) ?? []), callback]);
-    },
+    on() {}, // nothing changes by itself
     off() {},
     send() {
       throw new Error("no kernel");
