@@ -1,8 +1,9 @@
 """What is done with a panel while its notebook runs, so that the page has something to show.
 
 `rehearsals.json` says it: for a notebook's name and a cell's id either `record`, the requests that a service
-panel really makes then, and answers from ever after; or `watch`, for how many seconds a panel does what it
-otherwise does only while a page shows it.
+panel really makes then, and answers from ever after (`pick` says of which service, where the cell names
+none); or `watch`, for how many seconds a panel does what it otherwise does only while a page shows it.
+`calls` are made meanwhile by the notebook's own node: a service's name, its type, the fields of the request.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import copy
 import json
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -48,13 +49,27 @@ def without_rehearsal(notebook: Notebook) -> Notebook:
 
 def rehearse(panel: Any, plan: Plan) -> None:  # noqa: ANN401 -- a panel of whatever kind
     """Do what `plan` says, in the kernel of the notebook; where nobody answers, nothing is recorded."""
+    if "pick" in plan:
+        panel.received("pick", {"service": plan["pick"]})
     if "record" in plan:
         with suppress(CourseError):  # a student's notebook has no server yet where the solution has one
             panel.record(plan["record"])
     if "watch" in plan:
         panel.shown()
-        time.sleep(plan["watch"])
+        _let_pass(plan["watch"], plan.get("calls", ()))
         panel.hidden()
+
+
+def _let_pass(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, Any]]]) -> None:
+    """Let so much time pass, with calls at even distances."""
+    from course_pkg.graph import this_node  # with rospy, which building a site does without
+
+    for name, kind, fields in calls:
+        time.sleep(seconds / (len(calls) + 1))
+        if node := this_node():
+            with suppress(CourseError):  # as above
+                node.call(name, kind, **fields)
+    time.sleep(seconds / (len(calls) + 1))
 
 
 def _added(shown: Cell, plan: Plan) -> Cell:

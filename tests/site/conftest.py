@@ -23,7 +23,7 @@ PANELS = [
     "server = node.run('course_pkg', 'server'); server.wait_for_service('/getGeometry', timeout=20); "
     "simulator = node.run('turtlesim', 'turtlesim_node'); simulator.wait_for_service('/spawn', timeout=20)",
     "turtles = TurtlePanel(); turtles",
-    "GraphPanel()",
+    "graph = GraphPanel(); graph",
     "form = ServicePanel('/getGeometry'); form",
     "form.record([{'length': 1.0, 'width': 2.0, 'height': 3.0}, {'length': 4.0}])",
     "ServicePanel('/getGeometry')",
@@ -39,6 +39,7 @@ PANELS = [
     "predictions('00')",
     "1 / 0",
     "turtles._keep()",
+    "graph.shown(); graph.received('choose', {'noise': True, 'show_own': True}); graph.hidden()",
 ]
 
 

@@ -14,7 +14,11 @@ from course_pkg.site.scripts import fronts
 from tests.browser.jupyter import picture
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-OPTIONS = {"rules": {"target-size": {"enabled": True}}, "preload": False}  # a page may fetch nothing
+RULES = ("target-size", "label-content-name-mismatch")  # beyond those that axe-core has on by itself
+OPTIONS = {
+    "rules": {name: {"enabled": True} for name in RULES},
+    "preload": False,  # a page may fetch nothing
+}
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PAGE = "00_panels.html"
@@ -132,6 +136,19 @@ def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None
         expect(handle).to_be_enabled()
         handle.fill("0")
         expect(turtles).to_contain_text("0.0 of")
+
+
+def test_the_graph_can_be_played_again(browser: Browser, panels: Path) -> None:
+    """Its beginning, which was another picture than its end, by a handle that keys move, too."""
+    with reader(browser) as page:
+        open_page(page, panels, PAGE)
+        graph = page.get_by_role("region", name="Graph panel")
+        expect(graph.get_by_text("this is a recording")).to_be_visible()
+        loggers = graph.locator('[data-key="service /server/get_loggers"]')
+        expect(loggers).to_be_visible()
+        graph.get_by_role("slider").press("Home")
+        expect(graph).to_contain_text("0.0 of")
+        expect(loggers).not_to_be_attached()
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
