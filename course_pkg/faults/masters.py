@@ -28,9 +28,10 @@ def handle(request):
 
 rospy.init_node("keeper", disable_signals=True)
 try:
+    print("spinning", flush=True)
     rospy.spin()
 except KeyboardInterrupt:
-    pass
+    print("interrupted", flush=True)
 
 # the next cells of the notebook
 
@@ -168,16 +169,15 @@ def _ring(stage: Stage) -> None:
 
 
 def _spin_and_interrupt(stage: Stage) -> None:
-    master = MasterClient(stage.uri)
     program = stage.keep(SPUN)
-    stage.await_that(lambda: master.lookup_node(f"{stage.namespace}/keeper"), program)
+    stage.await_that(lambda: "spinning" in program.output(), program)
     program.signal(signal.SIGINT)
     stage.await_that(lambda: program.over, program)
 
 
 def _twin(stage: Stage) -> None:
-    first = stage.serve(keeper())
     twin = stage.program("guard.py", keeper().replace("/lab/door", "/lab/gate"))
+    first = stage.serve(keeper())
     twin.begin()
     stage.await_that(lambda: first.over, twin)
 

@@ -62,9 +62,10 @@ rospy.spin()
 
 
 def _two_providers(stage: Stage) -> None:
+    code = keeper('return SetBoolResponse(False, "no door here: this is the wardrobe")', keeper="wardrobe")
+    other = stage.program("wardrobe.py", code)
     stage.serve(keeper())
-    other = keeper('return SetBoolResponse(False, "no door here: this is the wardrobe")', keeper="wardrobe")
-    stage.serve_too("wardrobe.py", other)
+    stage.serve_too(other)
 
 
 def _requests_class(stage: Stage) -> None:

@@ -28,7 +28,7 @@ from course_pkg.graph.ports import port_of
 from course_pkg.graph.probe import ask_all, service_probe
 from course_pkg.graph.rpc import MasterClient
 
-BROOM = "course_pkg.faults.broom"
+BROOM = Path(__file__).with_name("broom.py")
 READY = 10.0  # s for a program of a case to be on the graph; it takes 0.4 s
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
@@ -58,7 +58,8 @@ class Stage:
         """Cause the fault; what was begun is undone when that fails."""
         try:
             self.fault.play(self)
-            self.expect_visitor()
+            if not self.fault.is_command:
+                self.expect_visitor()  # not before: on a busy machine it would hold up the fault itself
         except BaseException:
             self.undo()
             raise
@@ -80,7 +81,7 @@ class Stage:
         self._end()
 
     def expect_visitor(self) -> None:
-        """Have the visitor start already, while the rest of the case does."""
+        """Have the visitor start already, so that what it shows comes at once when it is asked for."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -100,19 +101,15 @@ class Stage:
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Begin the program that a student may look at, the visitor's start with it, and return at once."""
+        """Begin the program that a student may look at, and return at once."""
         self.keeper = self.program("keeper.py", code, env)
-        if not self.fault.is_command:
-            self.expect_visitor()
         self.keeper.begin()
         return self.keeper
 
-    def serve_too(self, name: str, code: str) -> Program:
-        """Run another program that serves the door, and return when it does."""
-        program = self.program(name, code)
+    def serve_too(self, program: Program) -> None:
+        """Begin another program that serves the door, and return when it does."""
         program.begin()
         self.await_that(lambda: self._answers(self.door, program), program)
-        return program
 
     def program(self, name: str, code: str, env: dict[str, str] | None = None) -> Program:
         """Start a Python text, which waits for begin()."""
@@ -147,8 +144,11 @@ class Stage:
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
         """Return as soon as `condition` holds. Raises NodeFailed when `program` ends first, or after 10 s."""
         deadline = time.monotonic() + READY
-        while not condition():
-            if not program.running or time.monotonic() > deadline:
+        while True:
+            over = program.over or time.monotonic() > deadline  # before the last look at what is waited for
+            if condition():
+                return
+            if over:
                 raise NodeFailed(f"A case of the lab could not be set up. It printed: {program.output()}")
             time.sleep(LOOK)
 
@@ -200,7 +200,9 @@ class _Props:
         self._namespace = namespace
         self.folder = Path(tempfile.mkdtemp(prefix="course-lab-"))
         # Should this process be killed, it withdraws what processes that were killed on purpose left behind.
-        self._broom = Leash([sys.executable, "-m", BROOM, uri, namespace, str(self.folder)], env=os.environ)
+        self._broom = Leash(
+            [sys.executable, "-I", "-S", str(BROOM), uri, namespace, str(self.folder)], env=os.environ
+        )
 
     def clear(self) -> None:
         """End everything; whatever fails, the rest is still done."""

@@ -12,13 +12,20 @@ from functools import cache
 from pathlib import Path
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "(\.{1,2}/[^"]+)";\n', re.MULTILINE)
+_DEFAULT, _FRAMED = "export default { render };", "export default { render: framed(render) };"
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MULTILINE)
 
 
 @cache
-def module(path: Path) -> str:
-    """Return the ES module at `path` with the relative modules it imports written into it, each once."""
-    return _inlined(path.resolve(), set())
+def module(path: Path, frame: Path | None = None) -> str:
+    """Return the ES module at `path` with the relative modules it imports written into it, each once.
+
+    `frame` is a module with a function `framed`, through which what the panel renders goes.
+    """
+    done: set[Path] = set()
+    around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""
+    panel = _inlined(path.resolve(), done)
+    return around + (panel.replace(_DEFAULT, _FRAMED) if frame else panel)
 
 
 @cache

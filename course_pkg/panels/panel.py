@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import anywidget
-from traitlets import Unicode
+from traitlets import Dict, Unicode
 
+from course_pkg.graph.explanations import explain
 from course_pkg.panels.assets import module, sheet
 
 HERE = Path(__file__).parent
+SHOWN = ("notice", "trouble")  # where panels keep what went wrong, in one line
 
 
 class Panel(anywidget.AnyWidget):
@@ -26,6 +28,7 @@ class Panel(anywidget.AnyWidget):
     shared_sheets: ClassVar[tuple[Path, ...]] = ()  # of the parts that it has in common with other panels
 
     notice = Unicode(help="what went wrong inside the panel itself, in one line").tag(sync=True)
+    explained = Dict(help="what that means, where the course knows it").tag(sync=True)
 
     def __init__(self) -> None:
         # Messages from the page and updates from threads take turns: ipywidgets swaps methods on the instance
@@ -34,14 +37,15 @@ class Panel(anywidget.AnyWidget):
         self._views: set[str] = set()
         super().__init__()
         self.on_msg(self._dispatch)
+        self.observe(self._explain, names=list(SHOWN))
 
     @property
     def _esm(self) -> str:
-        return module(self.front_end)
+        return module(self.front_end, HERE / "explained.js")
 
     @property
     def _css(self) -> str:
-        return sheet(HERE / "look.css", *self.shared_sheets, self.style_sheet)
+        return sheet(HERE / "look.css", HERE / "explained.css", *self.shared_sheets, self.style_sheet)
 
     def shown(self) -> None:
         """Begin what the panel does only while a page shows it; told again for each further view."""
@@ -71,6 +75,17 @@ class Panel(anywidget.AnyWidget):
                 self._views.clear()
                 self.hidden()
             super().close()
+
+    def _explain(self, _change: object) -> None:
+        """Offer an explanation of what the panel shows as an error, if there is one."""
+        shown = (getattr(self, name, "") for name in SHOWN)
+        words = next((text for text in shown if text and isinstance(text, str)), "")
+        meaning = explain(words) if words else None
+        self.explained = (
+            {"cause": meaning.cause, "remedy": meaning.remedy, "taught": meaning.taught}
+            if meaning and meaning.known
+            else {}
+        )
 
     def _handle_msg(self, msg: dict[str, Any]) -> None:
         with self.turn:

@@ -10,6 +10,7 @@ import pytest
 MODELS = [
     "service.model",
     "graph.model",
+    "breakit.model",
     "choices.model",
     "graph.drawing",
     "plot.model",

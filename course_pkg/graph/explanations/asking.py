@@ -10,7 +10,7 @@ from course_pkg.errors import CourseError
 from course_pkg.graph.explanations.explanation import Explanation
 from course_pkg.graph.explanations.finding import known
 
-LONGEST = 200_000  # characters of a text that are looked at, from its end
+LONGEST = 50_000  # characters of a text that are looked at, from its end
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
@@ -37,7 +37,7 @@ def explain(error: object) -> Explanation:
     """
     if isinstance(error, BaseException):
         return _of_exception(error)
-    text = _COLOUR.sub("", "" if error is None else str(error))[-LONGEST:].replace("\r\n", "\n")
+    text = _COLOUR.sub("", "" if error is None else _said(error))[-LONGEST:].replace("\r\n", "\n")
     if not text.strip():
         return NOTHING
     return _of_text(text) or UNKNOWN
@@ -46,12 +46,20 @@ def explain(error: object) -> Explanation:
 def _of_exception(error: BaseException) -> Explanation:
     """Return the explanation of an exception, of what caused it, or the course's own words."""
     for each in _chain(error):
-        words = f"{type(each).__name__}: {each}"
+        words = f"{type(each).__name__}: {_said(each)}"
         if found := known(words) or _of_build(words):
             return found
     if isinstance(error, CourseError):
-        return Explanation(str(error), "The message says it: what happened, where, and what to do next.")
+        return Explanation(_said(error), "The message says it: what happened, where, and what to do next.")
     return UNKNOWN
+
+
+def _said(thing: object) -> str:
+    """Return a thing as text, and an empty one for what cannot be shown as such."""
+    try:
+        return thing.decode("utf-8", "replace") if isinstance(thing, bytes) else str(thing)
+    except Exception:  # noqa: BLE001 -- whatever a student's own class does when it is shown
+        return ""
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:

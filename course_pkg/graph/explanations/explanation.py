@@ -33,7 +33,7 @@ class Explanation:
 
     @property
     def taught(self) -> str:
-        """Where it is taught, as taught() says it."""
+        """Where it is taught, in words; "" where no chapter is meant."""
         return taught(self.chapter)
 
     def __repr__(self) -> str:

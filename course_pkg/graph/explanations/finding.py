@@ -15,6 +15,6 @@ TABLE = (*FROM_HANDLERS, *FROM_GRAPH, *FROM_CALLS)
 def known(words: str) -> Explanation | None:
     """Return the explanation of an error given as `TypeName: message`, None for one not in the table."""
     for pattern, cause, remedy, chapter in TABLE:
-        if re.search(pattern, words, re.DOTALL):
+        if re.search(pattern, words):
             return Explanation(cause, remedy, chapter)
     return None

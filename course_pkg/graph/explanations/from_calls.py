@@ -18,7 +18,7 @@ FROM_CALLS: tuple[Row, ...] = (
         "06",
     ),
     (
-        r"service \[.*\] unavailable|unknown service|Service \[.*\] is not available|Unknown service",
+        r"service \[.{0,300}\] unavailable|[Uu]nknown service|Service \[.{0,300}\] is not available",
         "The master knows no provider of this name: it never started, has ended, or uses another name.",
         "Start the server, or look the name up with `rosservice list`. After a restart of the master, start "
         "the servers again.",
@@ -55,7 +55,7 @@ FROM_CALLS: tuple[Row, ...] = (
         "10",
     ),
     (
-        r"CallTimeout.*takes connections and does not speak",
+        r"CallTimeout.{0,300}takes connections and does not speak",
         "The server did not answer in time: it is stopped, or busy with a connection that says nothing.",
         "Look at its process: `kill -CONT` lets a stopped one go on. Otherwise start the server again.",
         "10",
@@ -103,7 +103,7 @@ FROM_CALLS: tuple[Row, ...] = (
         "05",
     ),
     (
-        r"SerializationError|must be an? .*(?:type|integer|float|string)|field \w+ is not a bool",
+        r"SerializationError|must be an? .{0,300}(?:type|integer|float|string)|field \w+ is not a bool",
         "A value in the request has the wrong type for its field.",
         "Give each field a value of its own type.",
         "06",

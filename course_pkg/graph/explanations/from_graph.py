@@ -12,7 +12,8 @@ MALFORMED = "ROS_MASTER_URI is not of the form http://HOST:PORT; most often http
 
 FROM_GRAPH: tuple[Row, ...] = (
     (
-        r"invalid master URI|MalformedMasterUri|Unable to register with master node \[(?!http)",
+        r"invalid master URI|MalformedMasterUri|ROS_MASTER_URI is '.{0,300}has to be of the form|"
+        r"Unable to register with master node \[(?!http)",
         MALFORMED,
         "Write it whole, as in `export ROS_MASTER_URI=http://localhost:11311`, and start the program again.",
         "10",
@@ -24,20 +25,20 @@ FROM_GRAPH: tuple[Row, ...] = (
         "10",
     ),
     (
-        r"MasterSilent|the master at \S+ does not answer",
+        r"MasterSilent|takes connections and did not answer within|the master at \S+ does not answer",
         "The master takes connections and does not answer: it is stopped, or hangs.",
         "Let it go on (`kill -CONT` with its process id), or end it, start a new one and all nodes again.",
         "10",
     ),
     (
-        r"NotAMaster",
+        r"NotAMaster|is not a ROS master",
         "Another program answers at the address where ROS_MASTER_URI has the master.",
         "Correct ROS_MASTER_URI, or unset it to have a master of your own.",
         "01",
     ),
     (
-        r"unable to contact master|Unable to communicate with master|MasterUnreachable|"
-        r"master .*(?:not answer|unreachable)|^\s*(?:[\w.]+: )?ConnectionRefusedError|"
+        r"unable to contact master|No ROS master at|Unable to communicate with master|MasterUnreachable|"
+        r"master .{0,300}(?:not answer|unreachable)|^\s*(?:[\w.]+: )?ConnectionRefusedError|"
         r"^ERROR: unable to communicate with master",
         NO_MASTER,
         "Start a master, or correct ROS_MASTER_URI, and start the nodes again.",

@@ -16,7 +16,7 @@ FROM_HANDLERS: tuple[Row, ...] = (
         "05",
     ),
     (
-        r"service cannot process request: .*is not an attribute of \w+",
+        r"service cannot process request: .{0,300}is not an attribute of \w+",
         "The handler named a field that the response does not have, most often a typing slip.",
         "Compare the names with the part below --- that `rossrv show` prints for the service's type.",
         "05",
@@ -34,13 +34,13 @@ FROM_HANDLERS: tuple[Row, ...] = (
         "05",
     ),
     (
-        r"[Ee]rror processing request: field .+ (?:is not|must be)",
+        r"[Ee]rror processing request: field .{1,300} (?:is not|must be)",
         "A value in the handler's response has the wrong type for its field.",
         "Convert each value that the handler returns to the type of its field, such as bool(…) or float(…).",
         "05",
     ),
     (
-        r"[Ee]rror processing request: .*(?:positional argument|argument.* given)",
+        r"[Ee]rror processing request: .{0,300}(?:positional argument|argument.{0,300} given)",
         "The handler takes the wrong arguments: it is called with one, the request.",
         "Write the handler as a function of one argument, def handle(request), and use what is in it.",
         "05",
@@ -76,7 +76,7 @@ FROM_HANDLERS: tuple[Row, ...] = (
         "05",
     ),
     (
-        r"service \[[^\]]*\] already registered",
+        r"service \[[^\]]{0,300}\] already registered",
         "This program serves a service of this name already, and the old handler keeps answering.",
         "Call shutdown() on the old service before declaring it again; node.serve() of the course does.",
         "05",

@@ -126,7 +126,7 @@ class LabView {
   #drawCase(open) {
     say(this.story, `Case ${open.number}. ${open.story}`);
     say(this.status, this.#words(open));
-    this.status.className = `ros-status ros-${open.phase}`;
+    this.status.className = `ros-status ros-${this.live ? open.phase : "over"}`;
     this.#drawLooks(open);
     if (!same([open.number, open.tools], this.drawn.tools)) {
       this.drawn.tools = [open.number, open.tools];
@@ -142,6 +142,7 @@ class LabView {
   #words(open) {
     const words = { causing: "Breaking something, and looking at what one sees of it…", looking: "Looking…", ready: "The fault is there. Look closer, and answer.",
       over: "The fault is undone. Press the case again to have it back." };
+    if (!this.live) return "This is how the case stood.";
     if (open.phase === "ready" && settled(open)) return "The fault is still there: look closer with what you know now, or undo it.";
     return words[/** @type {keyof typeof words} */ (open.phase)] ?? "";
   }
@@ -167,7 +168,8 @@ class LabView {
     const told = verdict.diagnosis ? [h("p", {}, h("b", { text: "What it is: " }), ...prose(verdict.diagnosis)), h("p", {}, h("b", { text: "Why: " }), ...prose(verdict.reason)),
       h("p", {}, h("b", { text: "What helps: " }), ...prose(verdict.remedy)), h("p", { class: "ros-muted", text: `Taught in ${verdict.taught}.` })]
       : verdict.reason ? [h("p", {}, ...prose(verdict.reason))] : [];
-    this.verdict.replaceChildren(...(verdict.words ? [h("p", { class: "ros-mark" }, h("b", { text: verdict.words })), ...told] : []));
+    const server = verdict.server ? [h("details", {}, h("summary", { text: "The server of this case" }), h("pre", { class: "ros-shown ros-whole", tabindex: "0", "aria-label": "The server's program", text: verdict.server }))] : [];
+    this.verdict.replaceChildren(...(verdict.words ? [h("p", { class: "ros-mark" }, h("b", { text: verdict.words })), ...told, ...server] : []));
     if (verdict.diagnosis) {
       this.diagnoses.pick(verdict.diagnosis);
       this.remedies.pick(verdict.remedy);

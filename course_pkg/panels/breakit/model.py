@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.probes import TOOLS
-from course_pkg.faults.program import Seen
+from course_pkg.faults.program import Program, Seen
 from course_pkg.graph.explanations import explain
 from course_pkg.graph.explanations.explanation import taught
 from course_pkg.panels.breakit.cases import Case, meant
@@ -24,6 +24,8 @@ State = dict[str, Any]
 
 class Scene(Protocol):
     """A fault on a stage."""
+
+    keeper: Program | None
 
     def cause(self) -> None:
         """Cause it."""
@@ -116,6 +118,8 @@ class LabModel:
             first = record.first or (solved and not record.tries and not record.shown)
             self._keep(replace(record, tries=record.tries + 1, first=first, solved=record.solved or solved))
             self._state["verdict"] = _verdict(case.fault, diagnosis, right=right, helps=helps)
+            if solved:
+                self._state["verdict"]["server"] = self._server()
             self._tell(**self.overview())
 
     def reveal(self) -> None:
@@ -125,7 +129,8 @@ class LabModel:
                 return
             record = self._record(self._case)
             self._keep(replace(record, shown=record.shown or not record.solved))
-            self._state["verdict"] = _told(self._case.fault, "shown", "This is it.")
+            told = _told(self._case.fault, "shown", "This is it.")
+            self._state["verdict"] = {**told, "server": self._server()}
             self._tell(**self.overview())
 
     def undo(self) -> None:
@@ -188,6 +193,11 @@ class LabModel:
                 "taught": meaning.taught,
             }
             self._tell(trouble=said)
+
+    def _server(self) -> str:
+        """Return the text of the program that serves in this case, "" where none does."""
+        keeper = self._scene.keeper if self._scene else None
+        return keeper.shown.rstrip() if keeper else ""
 
     def _record(self, case: Case) -> CaseRecord:
         return self._store.read().get(case.fault.name, CaseRecord(case.fault.name))

@@ -290,10 +290,11 @@ class ServiceView {
 /** @param {HTMLElement} button */
 const disabled = (button) => button.hasAttribute("aria-disabled");
 
-/** @param {{name: string, words: string, cause?: string, remedy?: string}} error */
+/** @param {{name: string, words: string, cause?: string, remedy?: string, taught?: string}} error */
 function failure(error) {
   return [h("pre", { class: "ros-words", tabindex: "0", "aria-label": "The error as ROS words it" }, h("b", { text: error.name }), `: ${error.words}`),
-    ...(error.cause ? [h("p", { class: "ros-cause" }, ...prose(error.cause)), h("p", { class: "ros-remedy" }, ...prose(error.remedy ?? ""))] : [])];
+    ...(error.cause ? [h("p", { class: "ros-cause" }, ...prose(error.cause)), h("p", { class: "ros-remedy" }, ...prose(error.remedy ?? "")),
+      error.taught ? h("p", { class: "ros-muted", text: `Taught in ${error.taught}.` }) : ""] : [])];
 }
 
 export default { render };

@@ -1,0 +1,429 @@
+"""Every row of the table of what goes wrong with ROS 1 services, and how it is held to the code.
+
+A row is a slip with the stable part of what is seen of it. What can happen at run time names the faults of
+the lab that cause it; what happens while building names a package with that slip, or a command.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Shows:
+    """What a fault of the lab shows: words that the visitor prints, or the server; whether the visitor hangs.
+
+    `cause` is a stretch of the explanation of what is printed, "" where ROS says nothing to be explained.
+    """
+
+    fault: str
+    said: str = ""
+    cause: str = ""
+    server: str = ""
+    hangs: bool = False
+
+
+@dataclass(frozen=True)
+class Builds:
+    """A slip in building: its name in the tests' table of slips, what is printed, a stretch of the cause."""
+
+    slip: str
+    said: str
+    cause: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row: the section of the table, the slip, and all that shows it."""
+
+    section: str
+    slip: str
+    shown: tuple[Shows | Builds, ...]
+
+
+REPLY = "responded with an error: b"
+
+BUILDING = (
+    Row(
+        "Building",
+        "message_generation missing in find_package",
+        (
+            Builds(
+                "no message_generation",
+                'Unknown CMake command "add_service_files"',
+                "message_generation brings it",
+            ),
+        ),
+    ),
+    Row(
+        "Building",
+        "wrong order in CMakeLists.txt",
+        (
+            Builds(
+                "generated too early",
+                "generate_messages() must be called after add_service_files()",
+                "comes after generate_messages",
+            ),
+            Builds(
+                "generated too late",
+                "generate_messages() must be called before catkin_package()",
+                "generate_messages comes after catkin_package",
+            ),
+        ),
+    ),
+    Row(
+        "Building",
+        "generate_messages left commented",
+        (Builds("not generated", "No module named 'my_services'", "Python finds no my_services"),),
+    ),
+    Row(
+        "Building",
+        "wrong file name",
+        (Builds("wrong file", "service file not found", "There is no file Bocks.srv"),),
+    ),
+    Row(
+        "Building",
+        "- - - for ---",
+        (Builds("blanks in the dashes", "Invalid declaration: - - -", "where three dashes belong"),),
+    ),
+    Row(
+        "Building",
+        "not sourced",
+        (
+            Builds("not sourced: Python", "No module named 'my_services'", "Python finds no my_services"),
+            Builds("not sourced: rospack", "[rospack] Error: package 'my_services' not found", "No package"),
+        ),
+    ),
+    Row(
+        "Building",
+        "wrong case",
+        (Builds("wrong case", "cannot import name 'box'", "has no box"),),
+    ),
+    Row(
+        "Building",
+        "another Python first on PATH",
+        (Builds("another Python", 'import parse_package" failed', "The build runs another Python"),),
+    ),
+    Row(
+        "Building",
+        "roslaunch for rosrun; rosservice show",
+        (
+            Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
+            Builds("rosservice show", "Commands:", "rosservice does not know that command"),
+        ),
+    ),
+    Row(
+        "Building",
+        "script without run bit or shebang",
+        (
+            Builds("no run bit", "Couldn't find executable named plain.py", "has no program plain.py"),
+            Builds("no shebang", "command not found", "The shell took the Python script"),
+        ),
+    ),
+)
+
+SERVING = (
+    Row(
+        "Serving",
+        "handler returns None",
+        (
+            Shows(
+                "returns_none",
+                f"{REPLY}'service cannot process request: service handler returned None'",
+                "reached its end without a return",
+            ),
+        ),
+    ),
+    Row(
+        "Serving",
+        "handler raises ValueError('boom')",
+        (Shows("raises", "error processing request: ", "raised an exception", server="KeyError"),),
+    ),
+    Row(
+        "Serving",
+        "handler raises ServiceException('x')",
+        (Shows("refuses", f"{REPLY}'service cannot process request: somebody", "on purpose"),),
+    ),
+    Row(
+        "Serving",
+        "returns 42, text, or another response type",
+        (
+            Shows(
+                "returns_number",
+                "handler returned invalid value: Invalid number of arguments",
+                "cannot be made into a response",
+            ),
+        ),
+    ),
+    Row(
+        "Serving",
+        "list or tuple of the wrong length; a list for one array field",
+        (
+            Shows("wrong_length", "handler returned wrong number of values", "length is not the number"),
+            Shows("flat_list", "handler returned wrong number of values", "length is not the number"),
+        ),
+    ),
+    Row(
+        "Serving",
+        "dict with a typing slip",
+        (Shows("dict_slip", "sucess is not an attribute of SetBoolResponse", "the response does not have"),),
+    ),
+    Row(
+        "Serving",
+        "value of the wrong type in a field",
+        (
+            Shows(
+                "wrong_type",
+                f"{REPLY}'error processing request: field success is not a bool'",
+                "response has the wrong type",
+            ),
+        ),
+    ),
+    Row(
+        "Serving",
+        "wrong arity",
+        (Shows("wrong_arity", "takes 0 positional arguments but 1 was given", "takes the wrong arguments"),),
+    ),
+    Row(
+        "Serving",
+        "handler sleeps for ever, or calls sys.exit, or gets KeyboardInterrupt",
+        (Shows("sleeps", hangs=True), Shows("exits", hangs=True)),
+    ),
+    Row(
+        "Serving",
+        "Request or Response class passed as the service type",
+        (
+            Shows(
+                "request_for_type",
+                server="has no attribute '_request_class'",
+                cause="where the type of the service belongs",
+            ),
+        ),
+    ),
+    Row(
+        "Serving",
+        "Service cell run twice",
+        (
+            Shows(
+                "declared_twice",
+                "not yet written",
+                server="service [/lab/door] already registered",
+                cause="the old handler keeps answering",
+            ),
+        ),
+    ),
+    Row(
+        "Serving",
+        "two nodes, one service name",
+        (Shows("two_providers", "this is the wardrobe"),),
+    ),
+    Row(
+        "Serving",
+        "a lock held across a call to a service that needs it",
+        (Shows("lock", hangs=True),),
+    ),
+)
+
+CALLING = (
+    Row(
+        "Calling",
+        "no such service",
+        (Shows("no_service", "service [/lab/dor] unavailable", "knows no provider"),),
+    ),
+    Row(
+        "Calling",
+        "wait_for_service(n, 2) in vain",
+        (
+            Shows(
+                "wait_in_vain",
+                "ROSException: timeout exceeded while waiting for service /lab/door",
+                "Nobody has begun to serve",
+            ),
+        ),
+    ),
+    Row(
+        "Calling",
+        "wait_for_service without a timeout",
+        (
+            Shows("wait_for_ever", hangs=True),
+            Shows("zero_timeout", "ValueError: timeout must be non-zero", "a time above 0"),
+        ),
+    ),
+    Row(
+        "Calling",
+        "too few or too many positional arguments",
+        (Shows("too_few", "TypeError: Invalid number of arguments", "fewer or more fields"),),
+    ),
+    Row(
+        "Calling",
+        "positional and keyword mixed",
+        (
+            Shows(
+                "mixed",
+                "publish() can be called with arguments or keywords, but not both.",
+                "by position and by keyword",
+            ),
+        ),
+    ),
+    Row(
+        "Calling",
+        "keyword misspelt",
+        (
+            Shows(
+                "misspelt",
+                "AttributeError: dat is not an attribute of SetBoolRequest",
+                "the request does not have",
+            ),
+        ),
+    ),
+    Row("Calling", "keyword left out, or None", (Shows("left_out", 'message: "shut"'),)),
+    Row(
+        "Calling",
+        "wrong type of value",
+        (Shows("wrong_value", "genpy.message.SerializationError: field data", "wrong type for its field"),),
+    ),
+    Row(
+        "Calling",
+        "definitions differ",
+        (Shows("md5", "md5sums do not match", "different definitions"),),
+    ),
+    Row(
+        "Calling",
+        "server killed, registration stale",
+        (
+            Shows(
+                "stale",
+                "unable to connect to service: [Errno 111] Connection refused",
+                "still lists a server",
+            ),
+        ),
+    ),
+    Row(
+        "Calling",
+        "server dies during the call",
+        (
+            Shows(
+                "died",
+                "transport error completing service call: unable to receive data from sender",
+                "went away while the call",
+            ),
+        ),
+    ),
+    Row(
+        "Calling",
+        "server stopped (SIGSTOP), or an idle connection that hogs its accept thread",
+        (Shows("stopped", hangs=True), Shows("hogged", hangs=True)),
+    ),
+    Row(
+        "Calling",
+        "persistent proxy after the server died",
+        (Shows("persistent", "TransportTerminated: 32Broken pipe", "A persistent proxy keeps"),),
+    ),
+    Row(
+        "Calling",
+        "bad ROS_HOSTNAME on the server",
+        (Shows("hostname", "Name or service not known", "a host name that this machine cannot look up"),),
+    ),
+    Row(
+        "Calling",
+        "proxy shared between threads",
+        (Shows("shared_proxy", "went to the wrong thread, or nowhere: True"),),
+    ),
+)
+
+NODES_AND_MASTERS = (
+    Row(
+        "Nodes and masters",
+        "no master",
+        (
+            Shows("no_master", "Unable to register with master node", "No master answers", hangs=True),
+            Shows("no_master_call", "unable to contact master", "No master answers"),
+            Shows("no_master_param", "ConnectionRefusedError", "No master answers"),
+        ),
+    ),
+    Row(
+        "Nodes and masters",
+        "master restarted",
+        (Shows("restarted_master", "service [/lab/door] unavailable", "knows no provider"),),
+    ),
+    Row("Nodes and masters", "master hung", (Shows("hung_master", hangs=True),)),
+    Row(
+        "Nodes and masters",
+        "init_node again with other arguments",
+        (
+            Shows(
+                "init_again",
+                "rospy.init_node() has already been called with different arguments",
+                "One program is one node",
+            ),
+        ),
+    ),
+    Row(
+        "Nodes and masters",
+        "init_node on a thread",
+        (Shows("init_on_thread", "signal only works in main thread", "init_node() was called on a thread"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "rospy.spin() in a cell, then Interrupt",
+        (Shows("spun", "service [/lab/door] unavailable", "knows no provider", server="the door is served"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "two kernels, one node name",
+        (Shows("same_name", server="new node registered with same name", cause="Two nodes have one name"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "killed hard",
+        (Shows("killed", "ERROR: connection refused to [", "killed and could not sign off"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "port taken: roscore",
+        (
+            Shows(
+                "port_taken",
+                "roscore cannot run as another roscore/master is already running",
+                "A master runs on this port already",
+            ),
+        ),
+    ),
+    Row(
+        "Nodes and masters",
+        "port taken: rosmaster",
+        (Shows("port_taken_rosmaster", "OSError: [Errno 98]", "Another program has the port", hangs=True),),
+    ),
+    Row(
+        "Nodes and masters",
+        "URI malformed",
+        (
+            Shows(
+                "malformed_uri",
+                "Unable to register with master node [localhost:",
+                "http:// is missing",
+                hangs=True,
+            ),
+            Shows("malformed_uri_call", "ValueError: invalid master URI", "http:// is missing"),
+        ),
+    ),
+    Row(
+        "Nodes and masters",
+        "first message published at once",
+        (Shows("first_message", "the keeper heard 0"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "topic types differ",
+        (Shows("topic_types", "published 10, the keeper heard 0"),),
+    ),
+    Row(
+        "Nodes and masters",
+        "print in a callback",
+        (Shows("print_in_callback", "below cell 2: ['heard: ring'"),),
+    ),
+)
+
+ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
+# How many rows each section of the table has; a row added there has to be added here.
+COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

@@ -1,0 +1,131 @@
+"""The table of mistakes is held to the code, row by row: each is caused for real, and explained."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from course_pkg.faults import caused, names
+from course_pkg.graph import MasterClient, PrivateMaster, explanations, look
+from course_pkg.graph.leashed import descendants
+from course_pkg.graph.ports import family, listening_ports
+from tests.building.packages import GOOD, build, shell, spoilt, write
+from tests.faults.mistakes import COUNTS, ROWS, Builds, Shows
+from tests.support import eventually
+
+SHOWN = [each for row in ROWS for each in row.shown if isinstance(each, Shows)]
+BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
+
+
+def surroundings() -> tuple[object, ...]:
+    """Return what has to be as before: the graph, processes, ports, environment."""
+    me = os.getpid()
+    return look(), sorted(descendants(me)), listening_ports(family(me)), dict(os.environ)
+
+
+def test_no_row_is_left_out() -> None:
+    """Each section has all its rows, and each row has something that shows it."""
+    assert Counter(row.section for row in ROWS) == COUNTS
+    assert all(row.shown for row in ROWS)
+
+
+def test_each_fault_of_the_lab_stands_for_a_row() -> None:
+    """The lab has no fault that the table does not know, and the table none that the lab lacks."""
+    assert sorted(each.fault for each in SHOWN) == sorted(names())
+
+
+def test_what_is_no_hang_says_something() -> None:
+    """A row that shows no words and no hang would hold nothing."""
+    assert all(each.said or each.server or each.hangs for each in SHOWN)
+
+
+@pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
+def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
+    """Caused for real it shows what the table says, that is explained, and afterwards all is as before."""
+    assert master.uri
+    before = surroundings()
+    with caused(shows.fault) as stage:
+        seen = stage.symptom()
+        keeper = stage.keeper
+        printed = eventually(lambda: keeper.output() if keeper else " ") if shows.server else ""
+    assert surroundings() == before
+    assert seen.waiting == shows.hangs, seen
+    assert shows.said in seen.said
+    assert shows.server in printed
+    if shows.cause:
+        explained = [explanations.explain(text) for text in (seen.said, printed)]
+        assert any(each.known and shows.cause in each.cause for each in explained), explained
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A workspace with a package that builds, and scripts that rosrun cannot run as they are."""
+    folder = tmp_path_factory.mktemp("mistakes")
+    scripts = {"scripts/plain.py": "print(1)\n", "scripts/shell.py": "import os\n"}
+    write(folder, {**GOOD, **scripts})
+    (folder / "src" / "my_services" / "scripts" / "shell.py").chmod(0o755)
+    assert build(folder)[0] == 0
+    return folder
+
+
+FIND = "find_package(catkin REQUIRED COMPONENTS message_generation)\n"
+ADD, GENERATE = "add_service_files(FILES Box.srv)\n", "generate_messages()\n"
+PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
+SPOILT = {
+    "no message_generation": ("CMakeLists.txt", (" COMPONENTS message_generation", "")),
+    "generated too early": ("CMakeLists.txt", (ADD, ""), (GENERATE, GENERATE + ADD)),
+    "generated too late": ("CMakeLists.txt", (GENERATE, ""), (PACKAGE, PACKAGE + GENERATE)),
+    "wrong file": ("CMakeLists.txt", ("Box.srv", "Bocks.srv")),
+    "blanks in the dashes": ("srv/Box.srv", ("---", "- - -")),
+}
+LINES = {
+    "not sourced: Python": ("python3 -c 'import my_services'", False),
+    "not sourced: rospack": ("rospack find my_services", False),
+    "wrong case": ("python3 -c 'from my_services.srv import box'", True),
+    "roslaunch for rosrun": ("roslaunch my_services plain", True),
+    "rosservice show": ("rosservice show /box", True),
+    "no run bit": ("rosrun my_services plain.py", True),
+    "no shebang": ("rosrun my_services shell.py", True),
+}
+
+
+def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
+    """Return what ROS really prints for this slip."""
+    if built.slip in LINES:
+        line, sourced = LINES[built.slip]
+        return shell(workspace, line, sourced=sourced)
+    if built.slip == "another Python":
+        subprocess.run(["python3", "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
+        write(tmp_path, GOOD)
+        return build(tmp_path, path=str(tmp_path / "other" / "bin"))[1]
+    if built.slip == "not generated":
+        write(tmp_path, spoilt("CMakeLists.txt", (GENERATE, f"# {GENERATE}")))
+        assert build(tmp_path)[0] == 0
+        return shell(tmp_path, "python3 -c 'from my_services.srv import Box'")
+    file, *changes = SPOILT[built.slip]
+    write(tmp_path, spoilt(file, *changes))
+    return build(tmp_path)[1]
+
+
+@pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
+def test_a_slip_in_building_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
+    """What catkin_make and the tools really print holds the stable words, and is explained."""
+    text = printed(built, workspace, tmp_path)
+    assert " ".join(built.said.split()) in " ".join(text.split())
+    explained = explanations.explain(text)
+    assert explained.known
+    assert built.cause in explained.cause
+
+
+def test_two_labs_on_one_graph(master: PrivateMaster) -> None:
+    """Two kernels may each have a case at once: neither sees the other's door."""
+    client = MasterClient(master.uri)
+    with caused("stale") as one, caused("returns_none") as other:
+        assert one.namespace != other.namespace
+        assert "Connection refused" in one.symptom().said
+        assert "returned None" in other.symptom().said
+    assert not [node for node in client.system_state().nodes if node.startswith("/lab")]

@@ -1,0 +1,119 @@
+"""Whatever becomes of a case, the graph is as before."""
+
+from __future__ import annotations
+
+import signal
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import NodeFailed, UnknownFault
+from course_pkg.faults import TOOLS, Stage, caused, named, probe
+from course_pkg.faults.catalogue import every_fault, select
+from course_pkg.graph import MasterClient, PrivateMaster
+from course_pkg.graph.leashed import descendants
+from tests.kernel import Kernel
+from tests.support import eventually, process_state
+
+CAUSE = """
+from course_pkg.faults import Stage, named
+stages = [Stage(named(name)) for name in {names!r}]
+for stage in stages:
+    stage.cause()
+result = [str(stage._props.folder) for stage in stages]
+"""
+
+
+def nodes(master: PrivateMaster) -> list[str]:
+    """Return the nodes of the lab on the graph."""
+    return [node for node in MasterClient(master.uri).system_state().nodes if node.startswith("/lab")]
+
+
+@pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
+def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
+    """After SIGKILL no process of a case is left, no registration, not even of what was killed on purpose."""
+    (folder,) = kernel.run(CAUSE.format(names=[name]))
+    pids = descendants(kernel.pid)
+    assert pids
+    kernel.kill()
+    eventually(lambda: all(process_state(pid) == "Z" for pid in pids))
+    eventually(lambda: not nodes(master))
+    eventually(lambda: not Path(folder).exists())
+
+
+def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kernel) -> None:
+    """Its last act is to take the case off the graph."""
+    kernel.run(CAUSE.format(names=["stale"]))
+    assert nodes(master)
+    kernel.exit()
+    assert not nodes(master)
+
+
+def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
+    """A case whose server does not come says so in bounded time, and leaves nothing."""
+
+    def play(stage: Stage) -> None:
+        stage.serve("raise SystemExit(3)")
+
+    stage = Stage(replace(named("stale"), play=play))
+    with pytest.raises(NodeFailed, match="could not be set up"):
+        stage.cause()
+    assert not nodes(master)
+
+
+def test_undone_twice_is_undone(master: PrivateMaster) -> None:
+    """A second undo changes nothing."""
+    stage = Stage(named("returns_none"))
+    stage.cause()
+    stage.undo()
+    stage.undo()
+    assert not nodes(master)
+
+
+def test_a_fault_can_be_mended_by_hand(master: PrivateMaster) -> None:
+    """What the tools do is real: a stopped server goes on by SIGCONT, and answers the next call."""
+    assert master.uri
+    with caused("stopped") as stage:
+        assert stage.keeper is not None
+        stage.keeper.signal(signal.SIGCONT)
+        assert "open" in probe(stage, "again").said
+
+
+def test_the_tools_show_what_is_there(master: PrivateMaster) -> None:
+    """Each tool is a real command, and ends; a clean-up takes the dead entries of the case away."""
+    assert master.uri
+    with caused("stale") as stage:
+        said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}
+        assert "/lab/door" in said["services"]
+        assert "/lab/keeper" in said["nodes"]
+        assert "Unable to communicate with service" in said["info"] or "/lab/keeper" in said["info"]
+        assert "connection refused" in said["ping"]
+        assert "Its process has ended." in said["output"]
+        assert "Unregistering service /lab/door of /lab/keeper" in said["cleanup"]
+        assert "unavailable" in probe(stage, "again").said
+
+
+def test_names_and_groups_are_found() -> None:
+    """By name, by group, all for none; what there is not is said, with what there is."""
+    assert select() == every_fault()
+    assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
+    assert {each.group for each in select("serving")} == {"serving"}
+    with pytest.raises(UnknownFault, match=r"no fault 'rust'.*serving.*stale"):
+        named("rust")
+    with pytest.raises(UnknownFault, match="group"):
+        named("calling")
+
+
+def test_each_fault_is_told_apart() -> None:
+    """Names, diagnoses and reasons are each their own; every text is a sentence; every chapter is known."""
+    faults = every_fault()
+    for texts in (
+        [each.name for each in faults],
+        [each.diagnosis for each in faults],
+        [each.reason for each in faults],
+    ):
+        assert len(set(texts)) == len(faults)
+    assert all(text.endswith(".") for each in faults for text in (each.diagnosis, each.remedy, each.reason))
+    known = {each.name for each in faults}
+    assert all(set(each.unlike) <= known for each in faults)
