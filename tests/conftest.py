@@ -9,6 +9,19 @@ import pytest
 from course_pkg.graph.master import PrivateMaster
 from tests.kernel import Kernel
 
+ANSWERS, NOTEBOOKS = "tests/examiner/test_answers.py", "tests/notebooks/test_validation.py"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep a file's tests on one worker (`--dist loadgroup`), and begin with what takes longest.
+
+    The tests of a file share a master, or a browser; each notebook has its own of everything.
+    """
+    files = {item: item.path.relative_to(item.config.rootpath).as_posix() for item in items}
+    items.sort(key=lambda item: (files[item] != ANSWERS, files[item] != NOTEBOOKS))
+    for item, file in files.items():
+        item.add_marker(pytest.mark.xdist_group(item.nodeid if file == NOTEBOOKS else file))
+
 
 @pytest.fixture(scope="module")
 def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:

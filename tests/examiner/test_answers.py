@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Iterator
+from pathlib import Path
+from typing import TypeGuard
 
 import pytest
 
@@ -14,28 +16,51 @@ from course_pkg.authoring.shelf import read
 from course_pkg.examiner.answers import Answer, every_answer
 from course_pkg.examiner.parts import Part, every_part, find
 from course_pkg.examiner.report import Report, Verdict
-from course_pkg.grading.walls import refusal
 from course_pkg.grading.ward.job import PartJob
-from course_pkg.grading.wards import Ward
+from tests.examiner.lanes import Lanes
 
 ANSWERS = list(every_answer())
 PARTS = list(every_part())
-CHECK_CELLS = [cell for path in Shelf().solutions() for cell in code_cells(read(path)) if check_of(cell)]
+STORED = {
+    check: cell["outputs"][0]["data"]
+    for path in Shelf().solutions()
+    for cell in code_cells(read(path))
+    if (check := check_of(cell))
+}
+
+
+def _job(answer: Answer, source: str) -> PartJob:
+    deadline = find(answer.check).deadline
+    return PartJob(answer.check, answer.before, (source,), answer.after, secrets.randbits(32), deadline)
+
+
+def _blank(part: Part) -> PartJob:
+    """Return the job of a part that nobody has begun."""
+    right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
+    return _job(right, handed_out(part.check, right.source))
+
+
+JOBS: dict[Answer | Part, PartJob] = {
+    **{answer: _job(answer, answer.source) for answer in ANSWERS},
+    **{part: _blank(part) for part in PARTS},
+}
 
 
 @pytest.fixture(scope="session")
-def ward() -> Iterator[Ward]:
-    """One ward for each worker: answers run as submissions do, behind walls where the machine has them."""
-    with Ward(walls=not refusal()) as warm:
-        yield warm
+def lanes(request: pytest.FixtureRequest) -> Iterator[Lanes]:
+    """Run what was chosen as submissions do, behind walls where the machine has them, some at once."""
+    chosen = [item.callspec.params for item in request.session.items if _takes_lanes(item)]
+    with Lanes([JOBS[each.get("answer") or each["part"]] for each in chosen]) as lanes:
+        yield lanes
 
 
-def examined(ward: Ward, answer: Answer, source: str | None = None) -> Report:
-    """Run `answer`, or `source` in its place, and return what the judge recorded."""
-    own = answer.source if source is None else source
-    deadline = find(answer.check).deadline
-    job = PartJob(answer.check, answer.before, (own,), answer.after, secrets.randbits(32), deadline)
-    outcome = ward.run(job)
+def _takes_lanes(item: pytest.Item) -> TypeGuard[pytest.Function]:
+    return item.path == Path(__file__) and isinstance(item, pytest.Function) and "lanes" in item.fixturenames
+
+
+def examined(lanes: Lanes, job: PartJob) -> Report:
+    """Return what the judge recorded of an answer."""
+    outcome = lanes.outcome(job)
     assert not [words for words in outcome.said if words["cell"] == "before"], outcome
     assert outcome.report is not None, outcome.ending
     return outcome.report
@@ -46,29 +71,26 @@ def _name(answer: Answer) -> str:
 
 
 @pytest.mark.parametrize("answer", ANSWERS, ids=_name)
-def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, ward: Ward) -> None:
-    """A right answer passes; a wrong one fails, and the report holds the hint for that mistake."""
-    report = examined(ward, answer)
+def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, lanes: Lanes) -> None:
+    """A right answer passes; a wrong one fails, and the report holds the hint for that mistake.
+
+    The text and the HTML of a pass stand in the solution, and nbval compares both: whatever was drawn, they
+    are the same.
+    """
+    report = examined(lanes, JOBS[answer])
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     assert " ".join(answer.hint.split()) in " ".join(str(report).split())
+    if answer.right:
+        stored = STORED[answer.check]
+        assert str(report) == stored["text/plain"]
+        assert report.html() == stored["text/html"]
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
-def test_exercise_left_as_it_is_reads_not_attempted(part: Part, ward: Ward) -> None:
+def test_exercise_left_as_it_is_reads_not_attempted(part: Part, lanes: Lanes) -> None:
     """The blanked answer is no failure and no error: it has not been attempted."""
-    right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
-    report = examined(ward, right, handed_out(part.check, right.source))
+    report = examined(lanes, JOBS[part])
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
-
-
-@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
-def test_a_pass_reads_as_it_is_stored_whatever_was_drawn(part: Part, ward: Ward) -> None:
-    """The text and the HTML of a pass stand in the solution, and nbval compares both."""
-    right = next(answer for answer in ANSWERS if answer.check == part.check and answer.right)
-    report = examined(ward, right)
-    stored = next(cell for cell in CHECK_CELLS if check_of(cell) == part.check)["outputs"][0]["data"]
-    assert str(report) == stored["text/plain"]
-    assert report.html() == stored["text/html"]
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.check)
