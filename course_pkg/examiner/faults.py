@@ -14,6 +14,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import cast
 
 from course_pkg.errors import GraphError
 from course_pkg.examiner.node import Node
@@ -62,6 +63,7 @@ class FaultyServer(ScriptedServer):
         self.plan: deque[Fault] = deque()
         self.arrivals: list[float] = []  # of requests and of frozen connections; s of time.monotonic()
         self._work = work
+        self._planning = threading.Lock()
         self._moving = threading.RLock()  # of what is registered where
         self._returns: list[threading.Timer] = []
 
@@ -74,24 +76,31 @@ class FaultyServer(ScriptedServer):
             super().leave()
 
     def _scripted(self, request: Message) -> Act:
-        self.arrivals.append(time.monotonic())
-        fault = self.plan.popleft() if self.plan else None
+        fault = self._arrived()
         response = self._work(request) if fault is None or fault.worked else {}
         if fault is None:
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return fault.what  # type: ignore[return-value] -- the two that _act knows besides
+        return cast(Act, fault.what)  # _act knows the others, too
+
+    def _arrived(self, *, frozen: bool = False) -> Fault | None:
+        """Take the next fault and note the time; `frozen`: only one that comes before a request."""
+        with self._planning:
+            due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
+            if due or not frozen:
+                self.arrivals.append(time.monotonic())
+            return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
         """Answer the handshake, unless the plan is to be frozen; who only looks does not use a fault up."""
-        frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)
-        if not frozen:
+        if header.get("probe") == "1":
+            with self._planning:
+                frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)
+            return not frozen and super()._greet(sock, header)
+        if self._arrived(frozen=True) is None:
             return super()._greet(sock, header)
-        if header.get("probe") != "1":
-            self.plan.popleft()
-            self.arrivals.append(time.monotonic())
-            self._over.wait()
+        self._over.wait()
         return False
 
     def _act(self, sock: socket.socket, act: Act) -> bool:

@@ -341,7 +341,7 @@ class Shop:
             return TriggerResponse(success=False, message="not paid")
         return TriggerResponse(success=True, message=str(receipt))
 
-# %% 10.2 wrong: no lock at all | hint: Two customers saw the same last thing
+# %% 10.2 wrong: no lock at all | hint: Two changed the shelf at the same time
 class Shop:
     def __init__(self, shelf, cents, till):
         self.shelf, self.cents, self.till = shelf, cents, till

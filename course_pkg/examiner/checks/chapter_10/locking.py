@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
-from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, PATIENCE, TRIGGER
+from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TRIGGER
 
 STUCK = (
     "A caller waits for ever: somebody took the lock and never gave it back. `with self.lock:` gives it back "
@@ -33,27 +33,27 @@ def safe_under_fifty(exam: Exam) -> None:
     name = f"/{exam.draw.word()}"
     exam.prepare(A_SHELF)
     few = exam.draw.integer(2, 4)
-    take = _opened(exam, name, few)
+    take = _opened(exam, name, few, ONE)
     try:
         for left in [*range(few - 1, -1, -1), None, None]:
             _one(exam, take, left)
     finally:
         exam.run("checked_shop.close")
     count = exam.draw.integer(28, 36)
-    take = _opened(exam, name, count)
+    take = _opened(exam, name, count, PATIENCE)
     try:
         _all(exam, take, count)
     finally:
         exam.run("checked_shop.close")
 
 
-def _opened(exam: Exam, name: str, count: int) -> Service:
+def _opened(exam: Exam, name: str, count: int, patience: float) -> Service:
     services = {name: "handle_take"}
     opened = exam.run(
         "checked_shop.open", Its("Stock"), count, services, worded=f"Stock(shelf) with {count} on it"
     )
     exam.hold("a Stock is made from a shelf", not opened.error, seen=opened.error)
-    return exam.service(name, TRIGGER, hints=ERRORS, timeout=PATIENCE)
+    return exam.service(name, TRIGGER, hints=ERRORS, timeout=patience)
 
 
 def _one(exam: Exam, take: Service, left: int | None) -> None:

@@ -190,8 +190,7 @@ def _gave_up(words: str, took: float) -> str:
     if took > DEADLINE / 2:
         return begin + (
             "The first try took all the time there was. Give each try half a second at most, and what is "
-            "left "
-            "of the deadline if that is less."
+            "left of the deadline if that is less."
         )
     return f"{begin}It was back long before the deadline, and you had given up. Go on until the deadline."
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
 from course_pkg.examiner.checks.chapter_10.selling import CHARGE
-from course_pkg.examiner.checks.chapter_10.shelf import SMALL_STACKS
-from course_pkg.examiner.plain import Plain
+from course_pkg.examiner.checks.chapter_10.shelf import ONE, PATIENCE, SMALL_STACKS
+from course_pkg.examiner.ledger import Hints
 
-PATIENCE = 20.0  # s for fifty at once, on a machine that is busy
 AT_ONCE = 50
 BUYERS = 10  # who send their request five times each
 A_PURSE = (
@@ -56,8 +55,7 @@ checked_desk = CheckedDesk()
 )
 AGAIN = (
     "The same request came again, and was charged again. Keep the receipt under its request_id, and look "
-    "there "
-    "before you take money."
+    "there before you take money."
 )
 RACE = (
     "The same request came five times at the same moment, and more than one was charged: between looking and "
@@ -87,17 +85,14 @@ def charge_once(exam: Exam) -> None:
     exam.prepare(A_PURSE)
     opened = exam.run("checked_desk.open", Its("Till"), name, worded="Till(purse)")
     exam.hold("a Till is made from a purse", not opened.error, seen=opened.error)
-    charge = exam.service(
-        name,
-        CHARGE,
-        hints={says("TimesUp"): STUCK, says("cannot process request"): REFUSED},
-        timeout=PATIENCE,
-    )
+    hints = {says("TimesUp"): STUCK, says("cannot process request"): REFUSED}
+    charge = exam.service(name, CHARGE, hints=hints, timeout=ONE)
+    crowd = exam.service(name, CHARGE, hints=hints, timeout=PATIENCE)
     try:
         _in_turn(exam, charge)
         _stuck(exam, charge)
         _unnamed(exam, charge)
-        _at_once(exam, charge)
+        _at_once(exam, crowd)
     finally:
         exam.run("checked_desk.close")
 
@@ -114,7 +109,7 @@ def _in_turn(exam: Exam, charge: Service) -> None:
         exam,
         "another request is charged, also one of the same amount",
         [cents, cents],
-        says_one("Two customers may pay the same amount. What tells requests apart is the request_id."),
+        _only_one("Two customers may pay the same amount. What tells requests apart is the request_id."),
     )
     exam.hold(
         "another request gets another receipt",
@@ -140,7 +135,7 @@ def _in_turn(exam: Exam, charge: Service) -> None:
         )
 
 
-def says_one(words: str) -> dict[Plain, str]:
+def _only_one(words: str) -> Hints:
     """Return hints for a purse that was used once where it should have been used twice."""
     return {(lambda seen: len(seen) < 2): words}
 
@@ -211,7 +206,7 @@ def _at_once(exam: Exam, charge: Service) -> None:
     )
 
 
-def _taken(exam: Exam, rule: str, expected: list[int], hints: object) -> None:
+def _taken(exam: Exam, rule: str, expected: list[int], hints: Hints) -> None:
     exam.expect(rule, expected=expected, seen=_purse(exam), hints=hints)
 
 

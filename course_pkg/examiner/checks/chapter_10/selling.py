@@ -7,7 +7,7 @@ import threading
 from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, Its, Refuse, part, says
 from course_pkg.examiner.calls import Service
-from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, PATIENCE, TRIGGER
+from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TRIGGER
 from course_pkg.examiner.plain import Message
 from course_pkg.examiner.scripted import Act, HangUp
 from course_pkg.graph.calls import BoundedProxy
@@ -20,6 +20,10 @@ LOCKED = (
 )
 STUCK = "A caller waits for ever: a lock that is taken is given back on every way out. `with` does that."
 ERRORS = {says("TimesUp"): STUCK}
+TORN = (
+    "Two changed the shelf at the same time, and one of the changes is lost. Reading, deciding and writing "
+    "belong under one lock, also where something is put back."
+)
 SOLD_OUT = "Sold out is an ordinary answer: success=False, and no error."
 NOT_CAUGHT = (
     "The till failed, and its error came out of the handler. Catch rospy.ServiceException (and CallTimeout), "
@@ -86,7 +90,7 @@ def no_lock_across_a_call(exam: Exam) -> None:
     try:
         failed = {says("sold out"): SOLD_OUT, says("process request"): NOT_CAUGHT, **ERRORS}
         buying = exam.service(buy, TRIGGER, hints=failed, timeout=PATIENCE)
-        looking = exam.service(left, TRIGGER, hints=ERRORS, timeout=PATIENCE)
+        looking = exam.service(left, TRIGGER, hints=ERRORS, timeout=ONE)
         _sold(exam, buying, till, cents, count)
         _not_sold(exam, buying, looking, till, count - 1)
         _fifty(exam, buying, looking, till, count - 1)
@@ -144,7 +148,8 @@ def _sold(exam: Exam, buying: Service, till: Till, cents: int, count: int) -> No
 
 
 def _not_sold(exam: Exam, buying: Service, looking: Service, till: Till, count: int) -> None:
-    for way in exam.draw.shuffled([Refuse("no money on this card"), HangUp()]):
+    ways: list[Act | None] = [Refuse("no money on this card"), HangUp()]
+    for way in exam.draw.shuffled(ways):
         till.ways = [way]
         response = buying()
         exam.expect(
@@ -190,17 +195,11 @@ def _fifty(exam: Exam, buying: Service, looking: Service, till: Till, count: int
         sold <= count,
         expected=f"at most {count} sales",
         seen=sold,
-        hints="Two customers saw the same last thing, and both got it. Reading, deciding and writing belong "
-        "under "
-        "one lock.",
+        hints=TORN,
     )
     exam.expect(
         f"{CALLERS} at once: nothing is sold twice, nothing is lost",
         expected=str(count - sold),
         seen=looking().message,
-        hints=(
-            "Two changed the shelf at the same time, and one of the changes is lost. Reading and writing "
-            "belong under one "
-            "lock, also where something is put back."
-        ),
+        hints=TORN,
     )

@@ -84,8 +84,7 @@ checked_watch = CheckedWatch()
 """
 DIED = (
     "While there was no master, a look raised, and that ended the watchdog's thread. Catch what a look may "
-    "raise "
-    "(OSError, rosgraph.MasterException) inside the loop, and look again."
+    "raise (OSError, rosgraph.MasterException) inside the loop, and look again."
 )
 NEVER = (
     "The master knows nobody by this name, and is not told. Where lookupService raises "
@@ -178,6 +177,7 @@ def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: Ma
     )
     master = second.start()
     _known(exam, master, name, uri, "a master that was restarted is told again", DIED)
+    _quiet(exam)
     _taken(exam, master, name)
     _known(
         exam,
@@ -187,7 +187,6 @@ def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: Ma
         "a name that is free again is taken",
         "The other one has gone: look again and again.",
     )
-    _quiet(exam)
     _stopped(exam)
 
 
