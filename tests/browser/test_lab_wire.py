@@ -111,7 +111,7 @@ def test_a_failure_says_where_it_came_from(page: Page, tmp_path: Path) -> None:
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
     """A call that nobody takes says so, and a long field is shown by its beginning and counted."""
     wire = show(page, tmp_path, WireView("/nobody"))
-    expect(wire.locator("[aria-current]")).to_contain_text("Look-up")
+    expect(wire.locator("[aria-current]")).to_contain_text("Nobody serves it")
     expect(wire.get_by_text("unavailable")).to_be_visible()
     headers = {"long": "x" * 3000}
     wire = show(page, tmp_path, WireView("/getGeometry", None, headers, **SIDES))

@@ -39,8 +39,8 @@ class WireView {
         : h("p", { class: "ros-empty", text: "No connection came by while this was recorded." }),
       this.details, this.table,
       h("p", { class: "ros-foot ros-muted", text: ["Recorded from a real call: it can be stepped through without a kernel. The relay that took it down adds some time of its own.", ...notes].join(" ") }));
-    const request = steps.findIndex((step) => step.title === "Request");
-    this.#go(Math.max(request, 0));
+    const failed = steps.findIndex((step) => step.bad);
+    this.#go(Math.max(failed < 0 ? steps.findIndex((step) => step.title === "Request") : failed, 0));
   }
 
   /** @param {Step} step @param {number} number */
