@@ -61,8 +61,10 @@ def _called(name: str, args: Any) -> Words:  # noqa: ANN401 -- whatever a strang
     cls = rosservice.get_service_class_by_name(name)
     if cls is None:
         raise ValueError(f"service [{name}] is of a type that is not known here")
+    if not isinstance(args, (dict, list)):
+        raise ValueError("args is neither an object, by name, nor an array, by position")
     request = cls._request_class()
-    genpy.message.fill_message_args(request, [args] if isinstance(args, dict) else list(args))
+    genpy.message.fill_message_args(request, [args] if isinstance(args, dict) else args)
     response: Words = _fields(BoundedProxy(name, cls, timeout=PATIENCE)(request))
     return response
 

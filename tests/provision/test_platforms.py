@@ -33,6 +33,14 @@ def test_each_distribution_is_known_by_its_codename(name: str, tmp_path: Path) -
     assert {"python3-rospy", "catkin", "rosbash", "ros-message-generation"} <= set(platform.course)
 
 
+@pytest.mark.parametrize("name", RELEASES)
+def test_each_distribution_gets_what_chapters_11_and_13_build_with(name: str, tmp_path: Path) -> None:
+    """A compiler and roscpp, and what actions are made of and written with."""
+    platform = read_platform(tmp_path, release(tmp_path, RELEASES[name]))
+    assert {"g++", "make", "libroscpp-dev"} <= set(platform.course)
+    assert {"libactionlib-msgs-dev", "ros-actionlib-msgs", "python3-actionlib"} <= set(platform.course)
+
+
 def test_a_derivative_counts_as_what_it_is_built_on(tmp_path: Path) -> None:
     """Linux Mint 21 takes Ubuntu 22.04's packages."""
     assert read_platform(tmp_path, release(tmp_path, MINT)).name == "Ubuntu 22.04"

@@ -313,13 +313,13 @@ int main(int argc, char** argv) {
   ros::spin();
 }
 
-# %% 11.2 wrong: a field misspelt | hint: There is no field or method hight
+# %% 11.2 wrong: a field misspelt | hint: There is no field or method high
 %%writefile src/cpp_boxes/src/box_server.cpp
 #include <course_pkg/geometry.h>
 #include <ros/ros.h>
 
 bool measure(course_pkg::geometry::Request& request, course_pkg::geometry::Response& response) {
-  if (request.length < 0 || request.width < 0 || request.hight < 0) return false;
+  if (request.length < 0 || request.width < 0 || request.high < 0) return false;
   response.area = request.length * request.width;
   response.volume = response.area * request.height;
   return true;

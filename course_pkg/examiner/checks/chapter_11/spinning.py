@@ -11,7 +11,7 @@ from course_pkg.examiner.checks.chapter_11.programs import PACKAGE, code_of, com
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # s, as the file that is handed out has them
-TRIES = 2  # a server that takes one after the other is never quick; on a busy machine a good one may be slow
+TRIES = 3  # a server that takes one after the other is never quick; on a busy machine a good one may be slow
 
 START = f"""%%writefile {FILE}
 #include <mutex>
@@ -105,7 +105,7 @@ def _still_thinks(exam: Exam, code: str) -> None:
 
 
 def _side_by_side(exam: Exam, number: Service, code: str) -> None:
-    """Hold that six at once get six numbers, and that at least one try is quick."""
+    """Hold that six at once get six numbers, and that at least one try of three is quick."""
     first, took = 2, []
     for _ in range(TRIES):
         replies = number.at_once([{}] * CALLERS)
