@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, asking, calling, keeper, serving
+from course_pkg.faults.texts import VISITOR, asking, calling, keeper, kill_server, running, serving
 from course_pkg.graph.ports import port_of
 from course_pkg.graph.rpc import MasterClient
 
@@ -102,10 +102,6 @@ for thread in threads:
 print("\\n".join(wrong[:3]))
 print("some answers went to the wrong thread, or nowhere:", bool(wrong) or any(t.is_alive() for t in threads))
 """
-
-
-def _kill(stage: Stage) -> None:
-    stage.serve(keeper()).kill()
 
 
 def _freeze(stage: Stage) -> None:
@@ -236,7 +232,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="stale",
-        play=_kill,
+        play=kill_server,
         diagnosis="The server was killed, and the master still lists it.",
         remedy="Start the server again, or remove the dead entry with `rosnode cleanup`.",
         reason="The master led the client to a port where nobody listens any more: `Connection refused`. A "
@@ -245,9 +241,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="died",
-        play=lambda stage: _say_nothing(
-            stage.serve("import os\n" + keeper("os._exit(1)  # the motor takes the power supply down"))
-        ),
+        play=running("import os\n" + keeper("os._exit(1)  # the motor takes the power supply down")),
         diagnosis="The server took the request, and ended before it answered.",
         remedy="Start the server again and repeat the call, if doing it twice does no harm.",
         reason="`unable to receive data from sender`: the connection stood, and broke while the client was "
@@ -279,7 +273,7 @@ CALLING: tuple[Fault, ...] = (
         name="persistent",
         chapter="09",
         story="A door is opened. Its keeper crashes and is started again, and the door is to be shut.",
-        play=lambda stage: _say_nothing(stage.serve(RESTARTED)),
+        play=running(RESTARTED),
         visitor=KEEPS_CALLING,
         diagnosis="The client keeps a connection to a server that is gone, and never makes a new one.",
         remedy="Close the persistent proxy and make a new one, or call without persistent=True.",
@@ -307,7 +301,3 @@ CALLING: tuple[Fault, ...] = (
         "rospy's proxy does not keep its callers apart.",
     ),
 )
-
-
-def _say_nothing(_: object) -> None:
-    """Have a lambda return None."""

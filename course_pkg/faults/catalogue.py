@@ -6,6 +6,7 @@ from course_pkg.errors import UnknownFault
 from course_pkg.faults.calling import CALLING
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.masters import MASTERS
+from course_pkg.faults.nodes import NODES
 from course_pkg.faults.serving import SERVING
 
 GROUPS = ("serving", "calling", "masters")
@@ -13,7 +14,7 @@ GROUPS = ("serving", "calling", "masters")
 
 def every_fault() -> tuple[Fault, ...]:
     """Return all faults."""
-    return (*SERVING, *CALLING, *MASTERS)
+    return (*SERVING, *CALLING, *NODES, *MASTERS)
 
 
 def names() -> list[str]:

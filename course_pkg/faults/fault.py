@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from course_pkg.faults.stage import Stage
 
 HANG = 2.0  # s after which a program that waits is taken to wait for ever
+START = 2.0  # s more for a command, which has its start before it
 PATIENCE = 10.0  # s for one that comes to an end by itself
 
 
@@ -38,7 +39,7 @@ class Fault:
     @property
     def patience(self) -> float:
         """How long its symptom is watched, in s."""
-        return HANG if self.hangs else PATIENCE
+        return (HANG + START if self.is_command else HANG) if self.hangs else PATIENCE
 
     @property
     def is_command(self) -> bool:

@@ -112,9 +112,9 @@ class Program:
         text = os.pread(file, LONGEST, max(size - LONGEST, 0)).decode("utf-8", "replace")
         return _FOR_A_TERMINAL.sub("", text)
 
-    def ports(self) -> frozenset[int]:
-        """Return the ports on which it listens."""
-        return listening_ports(family(self.pid)) or frozenset()
+    def ports(self) -> frozenset[int] | None:
+        """Return the ports on which it listens, None where the system does not tell."""
+        return listening_ports(family(self.pid))
 
     def signal(self, number: int) -> None:
         """Send it a signal."""

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, asking, keeper, serving
+from course_pkg.faults.texts import VISITOR, asking, keeper, running, serving
 
 if TYPE_CHECKING:
     from course_pkg.faults.stage import Stage
@@ -59,6 +59,14 @@ except rospy.ServiceException as error:
     print(error)
 rospy.spin()
 """
+
+
+# A type of ROS itself whose response has a list as its only field.
+LOGGERS = (
+    keeper('return ["rosout", "hinge", "bell"]')
+    .replace("std_srvs.srv import SetBool, SetBoolResponse", "roscpp.srv import GetLoggers")
+    .replace('"/lab/door", SetBool', '"/lab/door", GetLoggers')
+)
 
 
 def _two_providers(stage: Stage) -> None:
@@ -119,9 +127,9 @@ SERVING: tuple[Fault, ...] = (
     _replied(
         name="flat_list",
         visitor=asking(
-            'print(rospy.ServiceProxy("/lab/loggers", GetLoggers)())', "from roscpp.srv import GetLoggers"
+            'print(rospy.ServiceProxy("/lab/door", GetLoggers)())', "from roscpp.srv import GetLoggers"
         ),
-        play=lambda stage: _serve_loggers(stage),
+        play=running(LOGGERS),
         diagnosis="The response has one field that is a list, and the handler returns that list bare.",
         remedy="Put the list into a list, [[…]], or name the field in a dict.",
         reason="rospy takes a returned list for the values of the fields. Three values for one field are two "
@@ -145,7 +153,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _replied(
         name="wrong_arity",
-        play=lambda stage: stage.serve(keeper('return SetBoolResponse(True, "open")', **{"(request)": "()"})),
+        play=running(keeper('return SetBoolResponse(True, "open")', **{"(request)": "()"})),
         diagnosis="The handler does not take the request as its argument.",
         remedy="Give the handler one parameter, the request.",
         reason="`takes 0 positional arguments but 1 was given`: rospy calls every handler with the request, "
@@ -186,7 +194,7 @@ SERVING: tuple[Fault, ...] = (
         name="declared_twice",
         look="quiet",
         story="The handler was mended and its cell run again. The door still does not open.",
-        play=lambda stage: _say_nothing(stage.serve(TWICE)),
+        play=running(TWICE),
         diagnosis="The service was declared a second time in one program, and the old handler still answers.",
         remedy="Call shutdown() on the first service before declaring it again.",
         reason="The server's output says `already registered`: the second declaration was refused, and the "
@@ -204,7 +212,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _silent(
         name="lock",
-        play=lambda stage: _say_nothing(stage.serve(LOCKED)),
+        play=running(LOCKED),
         diagnosis="The handler holds a lock while it calls a service that needs the same lock.",
         remedy="Let go of the lock before calling, or pass on what is needed without a call.",
         reason="Each waits for the other: the handler for the bolt's answer, the bolt for the lock. That a "
@@ -212,17 +220,3 @@ SERVING: tuple[Fault, ...] = (
         unlike=("sleeps",),
     ),
 )
-
-
-def _say_nothing(_: object) -> None:
-    """Have a lambda return None."""
-
-
-def _serve_loggers(stage: Stage) -> None:
-    """Serve a list as the only field of a response, which a type of ROS itself has."""
-    code = keeper('return ["rosout", "hinge", "bell"]')
-    code = code.replace(
-        "from std_srvs.srv import SetBool, SetBoolResponse", "from roscpp.srv import GetLoggers"
-    )
-    code = code.replace('"/lab/door", SetBool', '"/lab/loggers", GetLoggers')
-    stage.serve(code, name="/lab/loggers")

@@ -29,6 +29,7 @@ from course_pkg.graph.probe import ask_all, service_probe
 from course_pkg.graph.rpc import MasterClient
 
 BROOM = Path(__file__).with_name("broom.py")
+FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")  # where programs leave files behind
 READY = 10.0  # s for a program of a case to be on the graph; it takes 0.4 s
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
@@ -36,7 +37,8 @@ NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 class Stage:
     """A fault on the running graph, or on a master of its own.
 
-    It ends with undo(), with this object, or with this process, also by SIGKILL.
+    It ends with undo(), with this object, or with this process, also by SIGKILL. Raises MasterUnreachable and
+    MasterSilent where there is no graph to be on.
     """
 
     def __init__(self, fault: Fault) -> None:
@@ -90,14 +92,10 @@ class Stage:
                 else self.program("visitor.py", text, self.visitor_env)
             )
 
-    def serve(self, code: str, *, name: str = "/lab/door", visitor: dict[str, str] | None = None) -> Program:
-        """Run the program that serves the door, or another service, and return when it does.
-
-        `visitor` is what is otherwise in the environment of who asks.
-        """
-        self.visitor_env = visitor or {}
+    def serve(self, code: str) -> Program:
+        """Run the program that serves the door, and return when it does."""
         keeper = self.keep(code)
-        self.await_that(lambda: self._answers(self.local(name), keeper), keeper)
+        self.await_that(lambda: self._answers(keeper), keeper)
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
@@ -109,7 +107,7 @@ class Stage:
     def serve_too(self, program: Program) -> None:
         """Begin another program that serves the door, and return when it does."""
         program.begin()
-        self.await_that(lambda: self._answers(self.door, program), program)
+        self.await_that(lambda: self._answers(program), program)
 
     def program(self, name: str, code: str, env: dict[str, str] | None = None) -> Program:
         """Start a Python text, which waits for begin()."""
@@ -159,7 +157,7 @@ class Stage:
             "ROS_MASTER_URI": self.uri,
             "ROS_HOSTNAME": "localhost",
             "ROS_NAMESPACE": self.namespace,
-            "ROS_LOG_DIR": str(self._props.folder),
+            **{name: str(self._props.folder) for name in FOLDERS},
         }
         return {**kept, **own, **more}
 
@@ -167,11 +165,12 @@ class Stage:
         """Return a text of the catalogue with the names that it has on this stage."""
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
-    def _answers(self, name: str, program: Program) -> bool:
-        uri = MasterClient(self.uri).lookup_service(name)
-        if uri is None or port_of(uri) not in program.ports():
+    def _answers(self, program: Program) -> bool:
+        uri = MasterClient(self.uri).lookup_service(self.door)
+        ports = program.ports()
+        if uri is None or (ports is not None and port_of(uri) not in ports):
             return False
-        probe = service_probe(name, uri)
+        probe = service_probe(self.door, uri)
         ask_all([probe], timeout=1.0)
         return probe.answered
 
@@ -223,9 +222,6 @@ class _Props:
 
 def _free_namespace(uri: str) -> str:
     """Return a namespace that nobody uses: another notebook on this graph may have a lab, too."""
-    try:
-        taken = nodes_below(MasterClient(uri), "/lab")
-    except GraphError:
-        return NAMESPACES[0]  # the faults that need this graph say what is wrong with it
+    taken = nodes_below(MasterClient(uri), "/lab")
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

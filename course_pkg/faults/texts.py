@@ -40,13 +40,23 @@ def keeper(body: str = WELL, **changes: str) -> str:
     return code
 
 
-def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
-    """Return what causes a fault that is all in the handler."""
+def running(code: str) -> Callable[[Stage], None]:
+    """Return what causes a fault that is all in the program that serves the door."""
 
     def play(stage: Stage) -> None:
-        stage.serve(imports + keeper(body))
+        stage.serve(code)
 
     return play
+
+
+def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
+    """Return what causes a fault that is all in the handler."""
+    return running(imports + keeper(body))
+
+
+def kill_server(stage: Stage) -> None:
+    """Have a server, and kill it."""
+    stage.serve(keeper()).kill()
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:

@@ -13,7 +13,6 @@ from course_pkg.graph.explanations import explain
 from course_pkg.panels.assets import module, sheet
 
 HERE = Path(__file__).parent
-SHOWN = ("notice", "trouble")  # where panels keep what went wrong, in one line
 
 
 class Panel(anywidget.AnyWidget):
@@ -25,6 +24,7 @@ class Panel(anywidget.AnyWidget):
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
+    errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")  # traits that hold the words of an error
     shared_sheets: ClassVar[tuple[Path, ...]] = ()  # of the parts that it has in common with other panels
 
     notice = Unicode(help="what went wrong inside the panel itself, in one line").tag(sync=True)
@@ -37,7 +37,7 @@ class Panel(anywidget.AnyWidget):
         self._views: set[str] = set()
         super().__init__()
         self.on_msg(self._dispatch)
-        self.observe(self._explain, names=list(SHOWN))
+        self.observe(self._explain, names=list(self.errors))
 
     @property
     def _esm(self) -> str:
@@ -78,8 +78,7 @@ class Panel(anywidget.AnyWidget):
 
     def _explain(self, _change: object) -> None:
         """Offer an explanation of what the panel shows as an error, if there is one."""
-        shown = (getattr(self, name, "") for name in SHOWN)
-        words = next((text for text in shown if text and isinstance(text, str)), "")
+        words = next(filter(None, (_words(getattr(self, name, "")) for name in self.errors)), "")
         meaning = explain(words) if words else None
         self.explained = (
             {"cause": meaning.cause, "remedy": meaning.remedy, "taught": meaning.taught}
@@ -106,3 +105,9 @@ class Panel(anywidget.AnyWidget):
                 self.received(kind, content)
         except Exception as error:  # noqa: BLE001 - an error in a click must show in the panel, not in some cell
             self.complain(error)
+
+
+def _words(shown: object) -> str:
+    """Return the words of an error from a trait: a text, or a state with an `outcome`."""
+    words = shown.get("outcome", "") if isinstance(shown, dict) else shown
+    return words if isinstance(words, str) else ""

@@ -83,10 +83,10 @@ def main(rounds: int, chosen: list[str]) -> None:
             measured(name, rounds, lambda name=name: one_round(name)) for name in chosen or names()
         ]
     medians, maxima, changes = zip(*all_of_them, strict=True)
+    typical = statistics.median(medians)
     print(
-        f"{len(all_of_them)} faults, {rounds} times each: median of medians {statistics.median(medians):.2f} s "
-        f"({statistics.median(medians) / bare:.1f} of a bare node), longest {max(maxima):.2f} s, "
-        f"left behind {sum(changes)} times"
+        f"{len(all_of_them)} faults, {rounds} times each: median of medians {typical:.2f} s, "
+        f"{typical / bare:.1f} of a bare node; longest {max(maxima):.2f} s; left behind {sum(changes)} times"
     )
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from course_pkg.errors import NodeFailed, UnknownFault
+from course_pkg.errors import MasterUnreachable, NodeFailed, UnknownFault
 from course_pkg.faults import TOOLS, Stage, caused, named, probe
 from course_pkg.faults.catalogue import every_fault, select
 from course_pkg.graph import MasterClient, PrivateMaster
@@ -60,6 +60,13 @@ def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
     with pytest.raises(NodeFailed, match="could not be set up"):
         stage.cause()
     assert not nodes(master)
+
+
+def test_without_a_graph_there_is_no_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is said at once, before anything is started."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+    with pytest.raises(MasterUnreachable, match="No ROS master"):
+        Stage(named("stale"))
 
 
 def test_undone_twice_is_undone(master: PrivateMaster) -> None:

@@ -227,6 +227,15 @@ def test_undo_waits_for_what_is_under_way(lab: Lab) -> None:
     assert lab.paper.done[-1] == "undo stale"
 
 
+def test_a_case_is_gone_through_for_a_page_without_a_kernel(lab: Lab) -> None:
+    """The symptom and what the tools showed stay; the fault is undone; no answer is given away."""
+    lab.model.perform("stale", ["services", "ping"])
+    assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
+    assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
+    assert lab.case["phase"] == "over"
+    assert lab.case["verdict"] == {}
+
+
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
     """The error in its own words, what it means, what to do; and what was begun is undone."""
     lab.paper.fails = True

@@ -9,7 +9,9 @@ import pytest
 
 import course_pkg.panels
 from course_pkg.errors import GraphError
-from course_pkg.panels import GraphPanel, ServicePanel, TypeBrowser
+from course_pkg.faults import caused
+from course_pkg.graph import PrivateMaster
+from course_pkg.panels import GraphPanel, ServicePanel, TypeBrowser, WireView
 from course_pkg.panels.assets import module
 from course_pkg.panels.panel import Panel
 
@@ -44,6 +46,17 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known() -> None:
     panel.publish(notice="", trouble="")
     assert panel.explained == {}
     panel.close()
+
+
+def test_the_error_of_a_call_that_was_taken_down_is_explained(master: PrivateMaster) -> None:
+    """The wire view shows how a call failed, and offers what that means."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_MASTER_URI", master.uri)
+        with caused("returns_none"):
+            view = WireView("/lab/door", data=True)
+    assert "service handler returned None" in view.exchange["outcome"]
+    assert "reached its end without a return" in view.explained["cause"]
+    view.close()
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)

@@ -18,7 +18,7 @@ FROM_CALLS: tuple[Row, ...] = (
         "06",
     ),
     (
-        r"service \[.{0,300}\] unavailable|[Uu]nknown service|Service \[.{0,300}\] is not available",
+        r"service \[.{0,300}\] unavailable|(?i:unknown service)|Service \[.{0,300}\] is not available",
         "The master knows no provider of this name: it never started, has ended, or uses another name.",
         "Start the server, or look the name up with `rosservice list`. After a restart of the master, start "
         "the servers again.",

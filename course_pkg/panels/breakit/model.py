@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from typing import Any, Protocol
@@ -17,6 +17,7 @@ from course_pkg.panels.breakit.cases import Case, meant
 from course_pkg.panels.breakit.store import CaseRecord, CaseStore
 from course_pkg.panels.breakit.worker import Worker
 
+REHEARSAL = 30.0  # s for each step of one
 LOG = 8  # looks that are kept on the page, besides the symptom
 
 State = dict[str, Any]
@@ -132,6 +133,16 @@ class LabModel:
             told = _told(self._case.fault, "shown", "This is it.")
             self._state["verdict"] = {**told, "server": self._server()}
             self._tell(**self.overview())
+
+    def perform(self, name: str, tools: Iterable[str]) -> None:
+        """Go through a case on this thread, by the name of its fault: cause, look, undo; for a saved page."""
+        number = next(number for number, case in self._cases.items() if case.fault.name == name)
+        self.open(number)
+        self._worker.finish(REHEARSAL)
+        for tool in tools:
+            self.use(tool)
+            self._worker.finish(REHEARSAL)
+        self.close()
 
     def undo(self) -> None:
         """Undo the fault that is there, after what is under way."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -36,10 +37,17 @@ class BreakIt(Panel):
         listed = cases(*chosen)
         super().__init__()
         self._chosen = chosen
-        self._model = LabModel(
-            listed, store or CaseStore(), self.publish, stage=Stage, use=probe, turn=self.turn
-        )
+        kept = store or CaseStore()
+        self._model = LabModel(listed, kept, self.publish, stage=Stage, use=probe, turn=self.turn)
         self.publish(**self._model.overview())
+
+    def record(self, cases: Mapping[str, Iterable[str]]) -> None:
+        """Go through cases, with the tools to use in each, for a page with no kernel; the last one stays.
+
+        `cases` are names of faults with names of tools: {"stale": ["services", "ping"]}.
+        """
+        for name, tools in cases.items():
+            self._model.perform(name, tools)
 
     def hidden(self) -> None:
         """Undo the fault that is there."""

@@ -28,6 +28,7 @@ class WireView(Panel):
 
     front_end: ClassVar[Path] = HERE / "wire.js"
     style_sheet: ClassVar[Path] = HERE / "wire.css"
+    errors: ClassVar[tuple[str, ...]] = ("notice", "exchange")
 
     exchange = Dict(help="the steps of the call and their pieces; see model.py").tag(sync=True)
 
