@@ -73,9 +73,14 @@ def _let_pass(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, Any]]
 
 
 def _added(shown: Cell, plan: Plan) -> Cell:
-    """Return a cell that leaves no name behind; `_` is the panel that the cell above it showed."""
+    """Return a cell that leaves no name behind, for the panel that the cell above it showed.
+
+    IPython keeps that among its results. `_` is no way to it: a notebook may have a variable of that name.
+    """
     added = copy.deepcopy(shown)
     added["id"] = f"{MARK}-{shown['id']}"[:64]
     added["metadata"] = {MARK: True}
-    added["source"] = f'__import__("{__name__}", fromlist=["_"]).rehearse(_, {dict(plan)!r})'
+    added["source"] = (
+        f'__import__("{__name__}", fromlist=["_"]).rehearse([*_oh.values()][-1], {dict(plan)!r})'
+    )
     return added

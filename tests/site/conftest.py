@@ -32,6 +32,8 @@ PANELS = [
     "Timeline(recording)",
     "TopicPanel('/turtle1/pose')",
     "TypeBrowser('std_srvs/SetBool')",
+    "WireView('/getGeometry', length=1.0, width=2.0, height=3.0)",
+    "BreakIt()",
     "Plot({'delay': [(0, 1), (1, 3)]}, x='time (s)', y='delay (ms)', title='A line')",
     "Plot({'a': 1, 'b': 3}, kind='bars', title='Bars')",
     "question = predict('00.panels', 'What will it be?', ['this', 'that']); question",
