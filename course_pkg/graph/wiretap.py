@@ -70,7 +70,7 @@ def record_call(
     proxy = _Relayed(full, found, wire, headers, timeout)
     try:
         wire.response = proxy.call(request)
-    except (rospy.ServiceException, CourseError) as error:
+    except (rospy.ServiceException, rospy.exceptions.TransportException, CourseError, OSError) as error:
         wire.error = f"{type(error).__name__}: {error}"
     finally:
         proxy.end()

@@ -14,6 +14,7 @@ from course_pkg.graph import MasterClient, NodeProcess, PrivateMaster, Wiretap, 
 from course_pkg.graph.calls import BoundedProxy
 from course_pkg.graph.relay import MOST, Relay
 from course_pkg.interfaces import compile_service
+from tests.support import stopped
 
 SIDES = {"length": 1.0, "width": 2.0, "height": 3.0}
 NAME, KIND = "/getGeometry", "course_pkg/geometry"
@@ -140,6 +141,17 @@ def test_a_failed_call_is_on_record_and_a_wrong_field_is_an_error() -> None:
     assert "unavailable" in record_call("/nobody", KIND, fields=SIDES).error
     with pytest.raises(FieldError, match="hieght"):
         record_call(NAME, fields={"hieght": 1.0})
+    assert relay_threads() == []
+
+
+def test_a_frozen_server_is_on_record(server: NodeProcess) -> None:
+    """A call that ends with its deadline shows what was sent, and that nothing came."""
+    with stopped(server.pid):
+        wire = record_call(NAME, KIND, fields=SIDES, timeout=0.5)
+    assert "no answer within 0.5 s" in wire.error
+    (spoken,) = wire.conversations
+    assert b"service=/getGeometry" in spoken.said(by_client=True)
+    assert spoken.said(by_client=False) == b""
     assert relay_threads() == []
 
 

@@ -261,6 +261,7 @@ def test_failures_are_told_apart() -> None:
         titles(spoken(GREETED, WELCOME, ASKED, closed_by="server"))[-1]
         == "The server hangs up without an answer"
     )
+    assert titles(spoken(GREETED))[-1] == "The client gives up"
     assert titles(Conversation(10.0, refused="Connection refused")) == [
         "Nobody takes the connection at localhost:1"
     ]

@@ -206,11 +206,16 @@ class _Spoken:
         if not self._spoken.closed_by:
             return
         by_client = self._spoken.closed_by == "client"
-        lost = not by_client and self._unanswered()
-        title = "The server hangs up without an answer" if lost else "The connection is closed"
-        yield self._at(title, by_client or not lost, 1 << 62, says=self._farewell(lost), bad=lost)
+        lost = self._unanswered()
+        title = "The connection is closed"
+        if lost:
+            title = "The client gives up" if by_client else "The server hangs up without an answer"
+        says = self._farewell(lost)
+        yield self._at(title, by_client or not lost, 1 << 62, says=says, bad=lost)
 
     def _farewell(self, lost: bool) -> str:
+        if lost and not self._came:
+            return "Not one byte came back. Somebody took the connection, and did not speak."
         if lost:
             return "An answer was due. What the server did of its work until then, nobody can tell from here."
         if "error" in self._answered:
@@ -222,6 +227,10 @@ class _Spoken:
         return "One connection, one call. The next call begins with a look-up again."
 
     def _unanswered(self) -> bool:
+        if self._sent and not self._came:
+            return True
+        if self._asked.get("probe") == "1" or "error" in self._answered:
+            return False
         return len(list(requests(self._sent))) > len(list(replies(self._came)))
 
     def _kind(self) -> ServiceType | None:

@@ -2,27 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
-from course_pkg.examiner import Exam, HangUp, Its, Refuse, part, says
-from course_pkg.examiner.outcome import Outcome
+from course_pkg.examiner import Exam, HangUp, Refuse, part, says
+from course_pkg.examiner.checks.chapter_09.clients import GEOMETRY, Client
 from course_pkg.examiner.plain import Plain
 from course_pkg.examiner.scripted import Act, ScriptedServer
 
-GEOMETRY = "course_pkg/geometry"
-A_CLIENT = """
-def begin(kind, service):
-    global client
-    client = kind(service)
-
-
-def measured(kind, *sides):
-    answer = client.measure(*sides)
-    return getattr(answer, "volume", answer)
-"""
-MADE = "Keeper(service)"
-MEASURE = "measure(length, width, height)"
 BROKEN = {
     says("transport error"): (
         "The connection broke, and the error came out. Catch it, make a new proxy (the old one stays broken) "
@@ -46,42 +30,42 @@ BROKEN = {
     deadline=20.0,
 )
 def a_connection_that_comes_back(exam: Exam) -> None:
-    """Several calls; a refusal; a connection that breaks; a server that moves; a server that is gone."""
+    """Answer; refuse; break the connection; leave with the server; come back elsewhere."""
     name = f"/{exam.draw.word()}"
     volumes = exam.draw.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]
-    server = exam.serve(name, GEOMETRY, lambda _: acts[0] if isinstance(acts[0], Refuse) else acts.pop(0))
-    exam.prepare(A_CLIENT)
-    exam.hold("a client can be made", exam.run("begin", Its("Keeper"), name, worded=MADE).value is None)
+    server = exam.serve(name, GEOMETRY, lambda _: _next(acts))
+    client = Client(exam, "Keeper", name)
     for volume in volumes[:3]:
-        _measures(exam, "the service's answer is returned", volume)
+        _measures(exam, client, "the service's answer is returned", volume)
     _one_connection(exam, server, "the calls share one connection", 1)
     acts.insert(0, Refuse("not this box"))
-    _refused(exam, server)
+    _refused(exam, client, server)
     acts.pop(0)
-    _measures(exam, "the connection serves on after a refusal", volumes[3])
+    _measures(exam, client, "the connection serves on after a refusal", volumes[3])
     _one_connection(exam, server, "a refusal is no reason to connect anew", 1)
     acts.insert(0, HangUp())
-    _measures(exam, "a broken connection is made anew", volumes[4])
-    acts.append(HangUp())
+    _measures(exam, client, "a broken connection is made anew", volumes[4])
     server.leave()
-    _gone(exam)
+    _gone(exam, client)
     moved = exam.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
-    _measures(exam, "a server that came back is found again", volumes[5])
-    _measures(exam, "a server that came back is found again", volumes[5])
+    _measures(exam, client, "a server that came back is found again", volumes[5])
+    _measures(exam, client, "a server that came back is found again", volumes[5])
     _one_connection(exam, moved, "the new connection is kept, too", 1)
 
 
-def _measure(exam: Exam, within: float = 3.0, hints: Mapping[Any, str] = BROKEN) -> Outcome:
-    sides = exam.draw.numbers(3, 0.5, 9.0)
-    return exam.run("measured", Its("Keeper"), *sides, within=within, hints=hints, worded=MEASURE)
+def _next(acts: list[Act]) -> Act:
+    """Return what to do now: a refusal stays until it is taken away, and in the end the connection breaks."""
+    if not acts:
+        return HangUp()
+    return acts[0] if isinstance(acts[0], Refuse) else acts.pop(0)
 
 
-def _measures(exam: Exam, rule: str, volume: Plain) -> None:
+def _measures(exam: Exam, client: Client, rule: str, volume: Plain) -> None:
     exam.expect(
         rule,
         expected=volume,
-        seen=_measure(exam).value,
+        seen=client.measure(BROKEN).value,
         near=1e-6,
         hints={None: "Nothing was returned: return what the proxy returned."},
     )
@@ -105,9 +89,9 @@ def _one_connection(exam: Exam, server: ScriptedServer, rule: str, most: int) ->
     )
 
 
-def _refused(exam: Exam, server: ScriptedServer) -> None:
+def _refused(exam: Exam, client: Client, server: ScriptedServer) -> None:
     before = len(server.requests)
-    _measure(exam).raised(
+    client.measure(BROKEN).raised(
         "a refusal comes out",
         "ServiceException",
         saying="not this box",
@@ -121,8 +105,8 @@ def _refused(exam: Exam, server: ScriptedServer) -> None:
     )
 
 
-def _gone(exam: Exam) -> None:
-    outcome = _measure(exam, hints={})
+def _gone(exam: Exam, client: Client) -> None:
+    outcome = client.measure({})
     exam.hold(
         "a server that is gone is an error",
         bool(outcome.error),

@@ -4,23 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from course_pkg.examiner import Exam, Its, Refuse, part, says
-from course_pkg.examiner.outcome import Outcome
-from course_pkg.examiner.plain import Plain
+from course_pkg.examiner import Exam, Refuse, part, says
+from course_pkg.examiner.checks.chapter_09.clients import GEOMETRY, Client
 from course_pkg.examiner.scripted import Act
-
-GEOMETRY = "course_pkg/geometry"
-MADE = "Remembering(service)"
-MEASURE = "measure(length, width, height)"
-A_CLIENT = """
-def begin(kind, service):
-    global client
-    client = kind(service)
-
-
-def measured(kind, *sides):
-    return client.measure(*sides)
-"""
 
 
 @part(
@@ -37,18 +23,17 @@ def an_address_that_is_kept(exam: Exam) -> None:
     answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]
     acts = [answers[0], answers[1], Refuse("not this box")]
     server = exam.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
-    exam.prepare(A_CLIENT)
-    exam.hold("a client can be made", exam.run("begin", Its("Remembering"), name, worded=MADE).value is None)
-    _measures(exam, "area and volume are returned", numbers[0], {})
+    client = Client(exam, "Remembering", name)
+    _measures(exam, client, "area and volume are returned", numbers[0], {})
     exam.absent(name)
     lost = {
         says("unknown service|no provider|Master"): (
             "It looked up again, and the master does not know. It had the address from the call before."
         )
     }
-    _measures(exam, "a call needs no master when the address is known", numbers[1], lost)
+    _measures(exam, client, "a call needs no master when the address is known", numbers[1], lost)
     before = len(server.requests)
-    _measure(exam, {}).raised(
+    client.measure({}).raised(
         "a refusal comes out",
         "ServiceException",
         saying="not this box",
@@ -67,23 +52,17 @@ def an_address_that_is_kept(exam: Exam) -> None:
             "Nobody is at the old address any more. Catch the OSError, look up again, and ask there."
         )
     }
-    _measures(exam, "a server that moved is found again", numbers[2], moved)
+    _measures(exam, client, "a server that moved is found again", numbers[2], moved)
     exam.absent(name)
-    _measures(
-        exam, "the new address is kept, too", numbers[2], {says(""): "Keep what the second look-up said."}
-    )
+    kept = {says(""): "Keep what the second look-up said."}
+    _measures(exam, client, "the new address is kept, too", numbers[2], kept)
 
 
-def _measure(exam: Exam, hints: dict[Any, str]) -> Outcome:
-    sides = exam.draw.numbers(3, 0.5, 9.0)
-    return exam.run("measured", Its("Remembering"), *sides, within=3.0, hints=hints, worded=MEASURE)
-
-
-def _measures(exam: Exam, rule: str, numbers: list[float], hints: dict[Any, str]) -> Plain:
+def _measures(exam: Exam, client: Client, rule: str, numbers: list[float], hints: dict[Any, str]) -> None:
     exam.expect(
         rule,
         expected=numbers,
-        seen=_measure(exam, hints).value,
+        seen=client.measure(hints).value,
         near=1e-6,
         hints={
             None: "Nothing was returned: return what ask returned.",
