@@ -43,6 +43,16 @@ SLIPS = {
         f"{LIST_FILE}, line 9",
         "Move generate_messages above catkin_package",
     ),
+    "a program of no file": (
+        spoilt(C, (PACKAGE, PACKAGE + "add_executable(box src/none.cpp)\n")),
+        f"{LIST_FILE}, line 10",
+        "There is no file src/none.cpp",
+    ),
+    "linked before it is made": (
+        spoilt(C, (PACKAGE, PACKAGE + "target_link_libraries(box ros)\n")),
+        f"{LIST_FILE}, line 10",
+        "There is no program box above this line",
+    ),
     "generated twice": (
         spoilt(C, (GENERATE, GENERATE * 2)),
         f"{LIST_FILE}, line 8",

@@ -89,8 +89,13 @@ def the_spinner(exam: Exam) -> None:
         serves(exam, running, "number", name, code)
         quiet = NOT_STARTED if "Spinner" in code else "Nothing hands out what arrives: ros::spin() is gone."
         number = exam.service(name, "std_srvs/Trigger", hints=[(says("TimesUp"), quiet)], timeout=6.0)
-        alone = int(number().message)
-        exam.expect("the first caller gets number 1", expected=1, seen=alone)
+        alone = _number(number().message)
+        exam.expect(
+            "the first caller gets number 1",
+            expected=1,
+            seen=alone,
+            hints={-1: "The message is the number and nothing else, as it was: std::to_string(count())."},
+        )
         _side_by_side(exam, number, code)
 
 
@@ -109,7 +114,7 @@ def _side_by_side(exam: Exam, number: Service, code: str) -> None:
     first, took = 2, []
     for _ in range(TRIES):
         replies = number.at_once([{}] * CALLERS)
-        numbers = sorted(int(reply.response.message) for reply in replies)
+        numbers = sorted(_number(reply.response.message) for reply in replies)
         exam.expect(
             "callers at the same time get different numbers, and none is left out",
             expected=list(range(first, first + CALLERS)),
@@ -127,6 +132,11 @@ def _side_by_side(exam: Exam, number: Service, code: str) -> None:
         seen=f"the last of them after {min(took):.1f} s",
         hints=_why_slow(code),
     )
+
+
+def _number(message: str) -> int:
+    """Return the number in a response; -1 where it is none."""
+    return int(message) if message.isdecimal() else -1
 
 
 def _enough() -> float:
