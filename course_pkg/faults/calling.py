@@ -24,7 +24,6 @@ _broken = partial(
     Fault,
     group="calling",
     chapter="10",
-    look="gone",
     visitor=VISITOR,
     story="The door has opened all day. Now it is asked once more.",
 )
@@ -137,7 +136,7 @@ def _nothing(_: Stage) -> None:
 CALLING: tuple[Fault, ...] = (
     _well(
         name="no_service",
-        look="gone",
+        look="gone unavailable",
         story="The door is asked to open.",
         visitor=VISITOR.replace("/lab/door", "/lab/dor"),
         diagnosis="The client asks for a name that nobody serves: the two are spelt differently.",
@@ -147,7 +146,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _well(
         name="wait_in_vain",
-        look="gone",
+        look="gone unavailable",
         story="The door is asked to open, as soon as there is one.",
         play=_start_slowly,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=1)', "import std_srvs.srv"),
@@ -159,7 +158,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _well(
         name="wait_for_ever",
-        look="wait",
+        look="wait start",
         story="The door is asked to open, as soon as there is one.",
         play=_nothing,
         visitor=asking('rospy.wait_for_service("/lab/door")', "import std_srvs.srv"),
@@ -202,7 +201,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _well(
         name="left_out",
-        look="quiet",
+        look="quiet call",
         story="The door is asked to open, and the answer is another one than hoped for.",
         play=serving('return SetBoolResponse(True, "open" if request.data else "shut")'),
         visitor=calling("print(move_door())"),
@@ -221,6 +220,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="md5",
+        look="gone connection",
         chapter="04",
         story="The door is asked to open.",
         play=serving('return SetBoolResponse(True, "open")'),
@@ -232,6 +232,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="stale",
+        look="gone connection",
         play=kill_server,
         diagnosis="The server was killed, and the master still lists it.",
         remedy="Start the server again, or remove the dead entry with `rosnode cleanup`.",
@@ -241,6 +242,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="died",
+        look="gone connection",
         play=running("import os\n" + keeper("os._exit(1)  # the motor takes the power supply down")),
         diagnosis="The server took the request, and ended before it answered.",
         remedy="Start the server again and repeat the call, if doing it twice does no harm.",
@@ -250,7 +252,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="stopped",
-        look="wait",
+        look="wait call",
         play=_freeze,
         diagnosis="The server's process is stopped: it is there and does nothing.",
         remedy="Let the process go on: `kill -CONT`, or `fg` where Ctrl-Z was pressed.",
@@ -260,7 +262,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="hogged",
-        look="wait",
+        look="wait call",
         play=_hog,
         diagnosis="A client that connected and says nothing keeps the server from all others.",
         remedy="End that client; have the server read each header on a thread of its own.",
@@ -271,6 +273,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="persistent",
+        look="gone connection",
         chapter="09",
         story="A door is opened. Its keeper crashes and is started again, and the door is to be shut.",
         play=running(RESTARTED),
@@ -282,6 +285,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _broken(
         name="hostname",
+        look="gone connection",
         play=_misname,
         diagnosis="The server is registered under a host name that cannot be looked up here.",
         remedy="Start the server with ROS_HOSTNAME=localhost, or a name that all machines know.",
@@ -290,7 +294,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _well(
         name="shared_proxy",
-        look="quiet",
+        look="quiet call",
         chapter="10",
         story="Four threads ask the door again and again. Each should get the answer to its own question.",
         play=serving('return SetBoolResponse(True, "open" if request.data else "shut")'),

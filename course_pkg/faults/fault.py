@@ -19,8 +19,9 @@ class Fault:
     """One fault. `story` is all that a student is told; `diagnosis` and `remedy` are what they choose.
 
     `play` causes it on a stage. `visitor` is what shows it: the text of a Python program, or a command line.
-    `look` names what the symptoms of a family have in common, so that wrong diagnoses come from faults that
-    look alike; those named in `unlike` are not offered, since they would be true here, too.
+    `look` names what symptoms have in common, a word for the family and one more for those that are closest,
+    so that wrong diagnoses come from faults that look alike. Those named in `unlike` are not offered, since
+    they would be true here, too.
     """
 
     name: str

@@ -48,7 +48,7 @@ def _own_master(stage: Stage) -> None:
 MASTERS: tuple[Fault, ...] = (
     _asked(
         name="no_master",
-        look="wait",
+        look="wait start",
         play=_no_master,
         diagnosis="There is no master, and init_node() goes on looking for one.",
         remedy="Start a master, or correct ROS_MASTER_URI.",
@@ -58,7 +58,7 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _asked(
         name="no_master_call",
-        look="gone",
+        look="gone connection",
         play=_no_master,
         visitor=BARE,
         diagnosis="There is no master to ask where the service is.",
@@ -79,7 +79,7 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _asked(
         name="restarted_master",
-        look="gone",
+        look="gone unavailable",
         story="The door has opened all day. Now it is asked once more.",
         play=_restart_master,
         diagnosis="The master was restarted, and knows nothing of the server, which still runs.",
@@ -90,7 +90,7 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _asked(
         name="hung_master",
-        look="wait",
+        look="wait call",
         play=_hang_master,
         diagnosis="The master takes connections and does not answer.",
         remedy="Let the master's process go on, or end it and start everything again.",
@@ -100,8 +100,8 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _fault(
         name="port_taken",
+        look="gone connection",
         chapter="01",
-        look="gone",
         story="A master is to be started.",
         play=_own_master,
         visitor="$ roscore -p MASTER_PORT",
@@ -112,8 +112,8 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _fault(
         name="port_taken_rosmaster",
+        look="wait start",
         chapter="01",
-        look="wait",
         story="A master is started without roscore.",
         play=_own_master,
         visitor="$ rosmaster --core -p MASTER_PORT",
@@ -125,7 +125,7 @@ MASTERS: tuple[Fault, ...] = (
     ),
     _asked(
         name="malformed_uri",
-        look="wait",
+        look="wait start",
         play=_malform,
         diagnosis="ROS_MASTER_URI is not written as an address, and init_node() waits all the same.",
         remedy="Write it whole: http://localhost:11311.",

@@ -28,7 +28,7 @@ try:
     print("spinning", flush=True)
     rospy.spin()
 except KeyboardInterrupt:
-    print("interrupted", flush=True)
+    pass
 
 # the next cells of the notebook
 
@@ -180,7 +180,7 @@ NODES: tuple[Fault, ...] = (
     ),
     _asked(
         name="spun",
-        look="gone",
+        look="gone unavailable",
         story="A notebook serves the door, says its output. The door is asked to open.",
         play=_spin_and_interrupt,
         diagnosis="rospy.spin() was interrupted in the server's notebook, and its node is dead since.",
@@ -191,8 +191,8 @@ NODES: tuple[Fault, ...] = (
     ),
     _asked(
         name="same_name",
+        look="gone unavailable",
         chapter="01",
-        look="gone",
         story="The door has opened all day. Now it is asked once more.",
         play=_twin,
         diagnosis="Another node has taken the server's node name, which ended the server.",
@@ -203,7 +203,7 @@ NODES: tuple[Fault, ...] = (
     ),
     _fault(
         name="killed",
-        look="gone",
+        look="gone connection",
         story="The keeper stands in `rosnode list`. Is it well?",
         play=kill_server,
         visitor="$ rosnode ping -c 1 /lab/keeper",
@@ -215,8 +215,8 @@ NODES: tuple[Fault, ...] = (
     ),
     _fault(
         name="first_message",
+        look="quiet topic",
         chapter="02",
-        look="quiet",
         story="The bell is rung once, and the keeper should have heard it.",
         play=running(LISTENER),
         visitor=RINGS_ONCE,
@@ -227,8 +227,8 @@ NODES: tuple[Fault, ...] = (
     ),
     _fault(
         name="topic_types",
+        look="quiet topic",
         chapter="02",
-        look="quiet",
         story="The bell is rung ten times, and the keeper should have heard it.",
         play=running(LISTENER),
         visitor=RINGS_OTHERWISE,
@@ -240,8 +240,8 @@ NODES: tuple[Fault, ...] = (
     ),
     _fault(
         name="print_in_callback",
+        look="quiet topic",
         chapter="02",
-        look="quiet",
         story="The first cell of a notebook subscribes to the bell, the second one only adds two numbers.",
         play=_ring,
         visitor=NOTEBOOK,

@@ -44,7 +44,7 @@ def _output(stage: Stage) -> Seen:
     if keeper is None:
         return Seen("the server's output", "Nobody has started a server in this case.", 0.0, 0)
     state = "Its process is there." if keeper.running else "Its process has ended."
-    return Seen("the server's output", f"{keeper.output() or '(nothing printed)'}\n{state}".strip(), 0.0, 0)
+    return Seen("the server's output", f"{keeper.output().strip() or '(nothing printed)'}\n{state}", 0.0, 0)
 
 
 def _cleaned(stage: Stage) -> Seen:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 _served = partial(Fault, group="serving", chapter="05", visitor=VISITOR)
 _replied = partial(_served, look="reply", story="The door is asked to open, and an error comes back.")
-_silent = partial(_served, look="wait", story="The door is asked to open.", chapter="10", hangs=True)
+_silent = partial(_served, story="The door is asked to open.", chapter="10", hangs=True)
 
 LOCKED = """\
 import threading
@@ -25,10 +25,12 @@ moving = threading.Lock()
 
 def handle(request):
     with moving:
+        print("asking the bolt")
         bolt = rospy.ServiceProxy("/lab/bolt", Trigger)()
         return SetBoolResponse(bolt.success, bolt.message)
 
 def handle_bolt(request):
+    print("the bolt is asked")
     with moving:
         return TriggerResponse(True, "the bolt is drawn")
 
@@ -161,27 +163,29 @@ SERVING: tuple[Fault, ...] = (
     ),
     _silent(
         name="sleeps",
+        look="wait call",
         play=serving(
-            'threading.Event().wait()  # until the door reports\nreturn SetBoolResponse(True, "open")',
-            "import threading\n",
+            'print("waiting for the hinge")\nhinge.wait()\nreturn SetBoolResponse(True, "open")',
+            "import threading\n\nhinge = threading.Event()\n",
         ),
         diagnosis="The handler waits for something that does not happen.",
         remedy="Give every wait in a handler a limit, and the call a deadline.",
-        reason="The node answers `rosnode ping` and a probe of its service: both go by other threads. Only "
-        "the handler does not come back, and rospy puts no limit on a call.",
+        reason="The node answers `rosnode ping` and a probe of its service: both go by other threads. Its "
+        "output ends with what the handler waits for, and rospy puts no limit on a call.",
         unlike=("lock",),
     ),
     _silent(
         name="exits",
-        play=serving('sys.exit("there is no door")', "import sys\n"),
+        look="wait call",
+        play=serving('print("there is no door: leaving")\nsys.exit(1)', "import sys\n"),
         diagnosis="The handler calls sys.exit(), which ends its thread and sends no answer.",
         remedy="Have the handler raise ServiceException to refuse; end programs elsewhere.",
-        reason="sys.exit() raises SystemExit, which rospy neither answers nor reports. The thread is gone, "
-        "the connection stays open, the client waits.",
+        reason="sys.exit() raises SystemExit, which rospy neither answers nor reports. The output ends with "
+        "a goodbye, and the process is still there: only the thread is gone, and the client waits.",
     ),
     _served(
         name="request_for_type",
-        look="gone",
+        look="gone unavailable",
         story="The program that serves the door is started.",
         play=_requests_class,
         visitor="$ rosservice info /lab/door",
@@ -192,7 +196,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _served(
         name="declared_twice",
-        look="quiet",
+        look="quiet call",
         story="The handler was mended and its cell run again. The door still does not open.",
         play=running(TWICE),
         diagnosis="The service was declared a second time in one program, and the old handler still answers.",
@@ -202,7 +206,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _served(
         name="two_providers",
-        look="quiet",
+        look="quiet call",
         story="The keeper of the door is well, and yet the door does not open.",
         play=_two_providers,
         diagnosis="Another node serves the same name since, and gets all calls.",
@@ -212,6 +216,7 @@ SERVING: tuple[Fault, ...] = (
     ),
     _silent(
         name="lock",
+        look="wait call",
         play=running(LOCKED),
         diagnosis="The handler holds a lock while it calls a service that needs the same lock.",
         remedy="Let go of the lock before calling, or pass on what is needed without a call.",

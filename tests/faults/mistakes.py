@@ -187,7 +187,10 @@ SERVING = (
     Row(
         "Serving",
         "handler sleeps for ever, or calls sys.exit, or gets KeyboardInterrupt",
-        (Shows("sleeps", hangs=True), Shows("exits", hangs=True)),
+        (
+            Shows("sleeps", server="waiting for the hinge", hangs=True),
+            Shows("exits", server="there is no door: leaving", hangs=True),
+        ),
     ),
     Row(
         "Serving",
@@ -220,7 +223,7 @@ SERVING = (
     Row(
         "Serving",
         "a lock held across a call to a service that needs it",
-        (Shows("lock", hangs=True),),
+        (Shows("lock", server="asking the bolt\nthe bolt is asked", hangs=True),),
     ),
 )
 

@@ -43,7 +43,7 @@ def meant(diagnosis: str) -> Fault | None:
 def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
     alike = sorted(
         (other for other in everything if _could_be(fault, other)),
-        key=lambda other: _chance(fault.name, other.name),
+        key=lambda other: (other.look != fault.look, _chance(fault.name, other.name)),
     )
     offered = [fault, *alike[: OPTIONS - 1]]
     return Case(
@@ -57,7 +57,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 def _could_be(fault: Fault, other: Fault) -> bool:
     """Whether another fault has a symptom of the same kind, and a diagnosis that is wrong here."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
-    return other.look == fault.look and not same
+    return other.look.split()[0] == fault.look.split()[0] and not same
 
 
 def _mixed(salt: str, texts: Sequence[str]) -> tuple[str, ...]:
