@@ -140,7 +140,9 @@ class Exam:
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
         """Serve `name` with `work`, and with the faults that are put into its `plan`; see faults.py."""
-        return self._open.enter_context(FaultyServer(self._node, name, self.service_class(kind), work))
+        server = FaultyServer(self._node, name, self.service_class(kind), work)
+        self._open.enter_context(server)
+        return server
 
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Take `name` off the graph until the check is over; `stale` leaves an entry that leads nowhere."""
