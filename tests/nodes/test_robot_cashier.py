@@ -12,12 +12,20 @@ import rospy
 from course_pkg.srv import AwaitCustomer, LetIn, TillSet, TillTotal
 from std_srvs.srv import Trigger
 
-from course_pkg.graph import BoundedProxy, NodeProcess, look
+from course_pkg.graph import BoundedProxy, NodeProcess
+from tests.kernel import Kernel
 from tests.nodes.terminals import terminal
 from tests.support import eventually
 
 pytestmark = pytest.mark.usefixtures("master")
 
+LISTEN = """
+from course_pkg import join
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+node = join("student")
+"""
+Response = Any  # a class that catkin generates
 FOR_GOOD = 600.0  # s that a customer stays, longer than any test
 LAUNCH = ("course_pkg", "robot_cashier.launch")
 
@@ -51,7 +59,7 @@ def till() -> Iterator[NodeProcess]:
         yield process
 
 
-def let_in(*after: float, stay: float = FOR_GOOD) -> Any:
+def let_in(*after: float, stay: float = FOR_GOOD) -> Response:
     """Let customers in."""
     return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
 
@@ -144,29 +152,18 @@ def test_the_launch_file_leaves_the_till_out_where_it_is_told_to() -> None:
     assert nodes[1] == {"/counter_camera", "/robot", "/customer_detector", "/robot_cashier"}
 
 
-def test_the_whole_system_greets_once_and_mirrors_meanwhile() -> None:
+def test_the_whole_system_greets_once_and_mirrors_meanwhile(kernel: Kernel) -> None:
     """The arm is mirrored while the cashier's question stands, and a customer is greeted a single time."""
-    with NodeProcess(["roslaunch", *LAUNCH, "till:=false", "wait:=20"]) as system:
-        system.wait_for_service("/detect_customer")
-        system.wait_for_service("/let_in")
-        heard: dict[str, list[Any]] = {"/mirrored_joints": [], "/greetings": []}
-        listeners = [
-            rospy.Subscriber(topic, rospy.AnyMsg, messages.append) for topic, messages in heard.items()
-        ]
-        try:
-            eventually(lambda: len(heard["/mirrored_joints"]) > 20)
-            eventually(lambda: "/robot_cashier" in publishers("/greetings"))
-            let_in(0.0, stay=1.0)
-            eventually(lambda: bool(heard["/greetings"]))
-            eventually(lambda: answered() is False)
-            before = len(heard["/mirrored_joints"])
-            eventually(lambda: len(heard["/mirrored_joints"]) > before + 20)
-            assert len(heard["/greetings"]) == 1
-        finally:
-            for listener in listeners:
-                listener.unregister()
-
-
-def publishers(topic: str) -> tuple[str, ...]:
-    """Return who publishes a topic."""
-    return next((tuple(seen.publishers) for seen in look().topics if seen.name == topic), ())
+    kernel.run(LISTEN)
+    with NodeProcess.roslaunch(*LAUNCH, "till:=false", "wait:=20") as system:
+        for service in ("/detect_customer", "/let_in", "/robot_cashier/get_loggers"):
+            system.wait_for_service(service)
+        kernel.run("mirrored = node.subscribe('/mirrored_joints', JointState)")
+        kernel.run("greetings = node.subscribe('/greetings', String)")
+        kernel.run("mirrored.wait(20, timeout=20)")
+        eventually(lambda: answered() is False)
+        let_in(0.0, stay=1.0)
+        kernel.run("greetings.wait(1, timeout=20)")
+        eventually(lambda: answered() is False)
+        kernel.run("mirrored.wait(mirrored.count + 20, timeout=20)")
+        assert kernel.run("result = greetings.count") == 1

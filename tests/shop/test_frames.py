@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
@@ -11,10 +10,11 @@ from course_pkg.shop import frame_points, sees_customer
 from course_pkg.shop.frames import HEIGHT, WIDTH
 
 
-def frame(data: bytes, width: int = WIDTH, height: int = HEIGHT, **other: Any) -> SimpleNamespace:
-    """Return what a frame has of a sensor_msgs/Image."""
-    fields = {"encoding": "mono8", "step": width, **other}
-    return SimpleNamespace(data=data, width=width, height=height, **fields)
+def frame(
+    data: bytes, width: int = WIDTH, height: int = HEIGHT, *, step: int = 0, encoding: str = "mono8"
+) -> SimpleNamespace:
+    """Return what a frame has of a sensor_msgs/Image; without a `step`, rows are as long as their points."""
+    return SimpleNamespace(data=data, width=width, height=height, step=step or width, encoding=encoding)
 
 
 @pytest.mark.parametrize("customers", [0, 1, 2, 3, 12])

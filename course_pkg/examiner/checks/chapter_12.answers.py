@@ -1779,8 +1779,7 @@ from course_pkg.srv import AwaitCustomer
 rospy.init_node("ask_customer")
 patience = rospy.get_param("~wait", 2.0)
 try:
-    rospy.wait_for_service("/detect_customer", timeout=3)
-    rospy.sleep(5)
+    rospy.wait_for_service("/detect_customers", timeout=3)
     answer = rospy.ServiceProxy("/detect_customers", AwaitCustomer)(patience)
 except (rospy.ROSException, rospy.ServiceException) as error:
     sys.exit(str(error))
@@ -1871,10 +1870,11 @@ print("customer" if answer.found else "nobody")
   <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
 </launch>
 
-# %% 12.11 wrong: an argument that is not declared | hint: names an argument that is not declared
+# %% 12.11 wrong: neither true nor false | hint: if= takes true or false
 %%writefile my_cashier.launch
 <launch>
-  <arg name="till" default="true" />
+  <arg name="till" default="yes" />
+  <arg name="wait" default="2.0" />
   <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
   <node pkg="course_pkg" type="robot" name="robot" />
   <node pkg="course_pkg" type="customer_detector" name="customer_detector" />

@@ -1,13 +1,9 @@
 """A launch file with an argument."""
 
-import os
-import socket
-import time
-from collections.abc import Callable
-
-from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, part, says
-from course_pkg.graph import Snapshot, look
+from course_pkg.examiner.launched import becomes, telling_line
+from course_pkg.examiner.scripted import closed_port
+from course_pkg.graph import Snapshot
 
 FILE = "my_exercise3.launch"
 ALWAYS = {"/turtlesim", "/improved_pubvel_toggle"}
@@ -41,7 +37,7 @@ def two_turtles_or_one(exam: Exam) -> None:
             "roslaunch can read the file",
             listed.status == 0,
             expected="a list of nodes",
-            seen=_last_line(listed.err or listed.out),
+            seen=telling_line(listed.err or listed.out),
             hints=_UNREADABLE,
         )
         _lists(exam, set(listed.out.split()), argument, wanted)
@@ -82,19 +78,21 @@ def _lists(exam: Exam, nodes: set[str], argument: str, wanted: bool) -> None:
 
 
 def _runs(exam: Exam, folder: object) -> None:
-    uri = f"http://localhost:{_free_port()}"
+    uri = f"http://localhost:{closed_port()}"
     launch = ["env", f"ROS_MASTER_URI={uri}", "ROS_HOSTNAME=localhost", "roslaunch", FILE, "addturtle:=true"]
     with folder.start(*launch) as launched:  # type: ignore[attr-defined]
-        there = _becomes(
-            uri, lambda seen: seen.service("/change_speed") and seen.service("/MyTurtle/set_pen")
+        there = becomes(
+            uri,
+            lambda seen: seen.service("/change_speed") and seen.service("/MyTurtle/set_pen"),
+            READY,
         )
-        alike = there and _becomes(uri, _both_are_told)
+        alike = there and becomes(uri, _both_are_told, READY)
         printed = "" if alike else launched.stop().out
     exam.hold(
         "started, both turtles are there and are told where to go",
         bool(alike),
         expected="turtle1 and MyTurtle, each with a driver",
-        seen=_last_line(printed) if not there else "MyTurtle, whom nobody tells anything",
+        seen=telling_line(printed) if not there else "MyTurtle, whom nobody tells anything",
         hints={
             says("cannot locate node|Cannot locate"): "A program's name is wrong: type= is what you would "
             "give to rosrun, such as turtlesim_node.",
@@ -109,27 +107,3 @@ def _both_are_told(seen: Snapshot) -> bool:
     told = {topic.name: topic for topic in seen.topics}
     names = ("/turtle1/cmd_vel", "/MyTurtle/cmd_vel")
     return all(name in told and told[name].publishers and told[name].subscribers for name in names)
-
-
-def _becomes(uri: str, condition: Callable[[Snapshot], object]) -> bool:
-    deadline = time.monotonic() + READY
-    while time.monotonic() < deadline:
-        try:
-            if condition(look(uri)):
-                return True
-        except GraphError:
-            pass  # its master has not come up yet
-        time.sleep(0.1)
-    return False
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
-def _last_line(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
-    return (telling or lines or ["nothing"])[-1].replace(os.getcwd(), "")

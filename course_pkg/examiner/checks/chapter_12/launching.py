@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-import os
 import re
-import socket
 import time
-from collections.abc import Callable
 
-from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, part, says
 from course_pkg.examiner.folder import Folder, Running
-from course_pkg.graph import Snapshot, look
+from course_pkg.examiner.launched import becomes, telling_line
+from course_pkg.examiner.scripted import closed_port
+from course_pkg.graph import Snapshot
 
 FILE = "my_cashier.launch"
 ALWAYS = {"/counter_camera", "/robot", "/customer_detector", "/robot_cashier"}
 TILL = "/till"
 READING = 20.0  # s for roslaunch to read the file on a busy machine
-READY = 25.0  # s for the system to come up there
+READY = 20.0  # s for the system to come up there
 
 UNREADABLE = {
     says("not well-formed|mismatched|XML"): "The file is no XML: each <tag> is closed, each value in quotes.",
     says("unused args"): 'An argument is not declared: <arg name="till" … />.',
     says(
         "requires the|requires.*arg"
-    ): "Without an argument it has to start, too: give each <arg> a default.",
-    says("is not a valid|invalid boolean|not a bool"): 'if= takes true or false: if="$(arg till)".',
-    says(
-        "undefined|not exist|Unknown|substitution"
-    ): "$(arg …) names an argument that is not declared above.",
+    ): "It has to start without arguments: declare each, and give each <arg> a default.",
+    says("is not a valid|invalid boolean|not a .?bool"): 'if= takes true or false: if="$(arg till)".',
     says(""): f"Try it: roslaunch --nodes {FILE} says what is wrong.",
 }
 
@@ -67,7 +62,7 @@ def _read(exam: Exam, command: Running) -> str:
         "roslaunch can read the file",
         status == 0,
         expected="what it would start",
-        seen=_last_line(printed),
+        seen=telling_line(printed),
         hints=UNREADABLE,
     )
     return printed
@@ -127,16 +122,16 @@ def _number(text: str) -> float | None:
 
 
 def _runs(exam: Exam, folder: Folder) -> None:
-    uri = f"http://localhost:{_free_port()}"
+    uri = f"http://localhost:{closed_port()}"
     line = ["env", f"ROS_MASTER_URI={uri}", "ROS_HOSTNAME=localhost", "roslaunch", FILE]
     with folder.start(*line, worded=f"roslaunch {FILE}") as launched:
-        there = _becomes(uri, _is_complete)
+        there = becomes(uri, _is_complete, READY)
         printed = "" if there else launched.stop().out
     exam.hold(
         "started, the system has all its services and topics",
         there,
         expected="/detect_customer, /till/set, /frames, /mirrored_joints",
-        seen=_last_line(printed),
+        seen=telling_line(printed),
         hints={
             says("annot locate"): "A program's name is wrong: type= is what you would give to rosrun.",
             says(""): f"Start it yourself and read what it prints: roslaunch {FILE}",
@@ -153,27 +148,3 @@ def _is_complete(seen: Snapshot) -> bool:
     return (
         heard and "/mirrored_joints" in topics and all(map(seen.service, ("/detect_customer", "/till/set")))
     )
-
-
-def _becomes(uri: str, condition: Callable[[Snapshot], object]) -> bool:
-    deadline = time.monotonic() + READY
-    while time.monotonic() < deadline:
-        try:
-            if condition(look(uri)):
-                return True
-        except GraphError:
-            pass  # its master has not come up yet
-        time.sleep(0.1)
-    return False
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
-def _last_line(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
-    return (telling or lines or ["nothing"])[-1].replace(os.getcwd(), "")

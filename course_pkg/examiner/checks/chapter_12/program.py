@@ -16,7 +16,7 @@ from course_pkg.graph.rpc import MasterClient
 FILE = "ask_customer.py"
 AWAIT = "course_pkg/AwaitCustomer"
 LIMIT = 3.0  # s that the program waits for the detector
-AFTERWARDS = 0.6  # s after the program is on the graph, until the detector comes
+AFTERWARDS = 1.0  # s after the program is on the graph, until the detector comes
 STARTING = 15.0  # s for Python and rospy on a busy machine
 ENDING = 8.0  # s for a program that has all it needs, or whose time is over
 REFUSED = 55.0  # s of patience that are refused

@@ -167,8 +167,8 @@ def _greets(exam: Exam, detector: _Detector) -> None:
         seen=f"{len(detector.patience)} questions",
         hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
     )
-    time.sleep(max(detector.found[-1] - time.monotonic(), 0.0))
-    _until(lambda: len(exam.read("work.greeted")) >= 2, SLACK)
+    # Who has put the next question has done with the answer before it.
+    _until(lambda: len(detector.patience) >= 4, STANDS + GREETING + SLACK)
     exam.expect(
         "each customer is greeted, once, and nobody is not",
         expected=2,
