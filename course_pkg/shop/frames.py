@@ -33,7 +33,7 @@ def sees_customer(frame: Any) -> bool:  # noqa: ANN401 -- a class that genpy gen
         raise ValueError(f"{len(frame.data)} bytes, and {frame.height} rows of {frame.step} bytes each")
     rows = (frame.data[start : start + frame.width] for start in range(0, len(frame.data), frame.step))
     dark = sum(point < DARK for row in rows for point in row)
-    return SHARE * dark >= frame.width * frame.height
+    return bool(SHARE * dark >= frame.width * frame.height)
 
 
 def _row(row: int, customers: int) -> bytes:

@@ -763,7 +763,7 @@ def make_mirror(target):
 
     return mirror
 
-# %% 12.5 wrong: the publisher in the callback | hint: Make the publisher there, and not in the function
+# %% 12.5 wrong: the publisher in the callback | hint: Make the publisher there, not in the function
 def make_mirror(target):
     def mirror(stance):
         publisher = rospy.Publisher(target, JointState, queue_size=10)
