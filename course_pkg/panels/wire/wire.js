@@ -49,11 +49,12 @@ class WireView {
     const right = step.from === "client";
     const far = names[right ? step.to : step.from];
     const words = `${names[step.from]} to ${names[step.to]}: ${step.title}`;
-    const button = h("button", { type: "button", "aria-label": words, onclick: () => this.#go(number) },
-      h("span", { class: "ros-time", text: `${step.ms.toFixed(2)} ms` }), h("code", { class: "ros-end", text: names.client }),
-      h("span", { class: "ros-arrow", text: right ? "──▶" : "◀──" }), h("code", { class: "ros-end", text: far }),
-      h("span", { class: "ros-title", text: `${step.connection ? `${step.connection}: ` : ""}${step.title}` }),
+    const button = h("button", { type: "button", onclick: () => this.#go(number) },
+      h("span", { class: "ros-time", text: `${step.ms.toFixed(2)} ms` }), " ", h("code", { class: "ros-end", text: names.client }), " ",
+      h("span", { class: "ros-arrow", text: right ? "──▶" : "◀──" }), " ", h("code", { class: "ros-end", text: far }), " ",
+      h("span", { class: "ros-title", text: `${step.connection ? `${step.connection}: ` : ""}${step.title}` }), " ",
       h("span", { class: "ros-size", text: step.size ? `${step.size.toLocaleString("en")} B` : "" }));
+    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // what is written on it can be said aloud
     button.addEventListener("keydown", (event) => {
       const by = KEYS[/** @type {keyof KEYS} */ (event.key)];
       if (by === undefined) return;
@@ -99,7 +100,7 @@ class WireView {
     const leaves = step.pieces.filter((piece) => piece.role !== "group");
     /** @type {Map<number, HTMLElement[]>} */
     const cells = new Map(); // what stands for a byte, by its offset
-    const dump = h("div", { class: "ros-dump", "aria-hidden": "true" });
+    const dump = h("div", { class: "ros-dump" });
     let row = /** @type {HTMLElement | null} */ (null);
     let column = 0;
     for (const piece of leaves) {
@@ -151,7 +152,7 @@ class WireView {
     dump.addEventListener("mouseleave", () => light(kept));
     dump.addEventListener("click", (event) => rows[under(event)]?.focus());
     const head = ["Offset", "Bytes", "Name", "Type", "Value"].map((text) => h("th", { scope: "col", text }));
-    return h("div", { class: "ros-sides" }, h("div", { class: "ros-scroll" }, dump),
+    return h("div", { class: "ros-sides" }, h("div", { class: "ros-scroll", "aria-hidden": "true" }, dump),
       h("div", { class: "ros-scroll" }, h("table", { "aria-label": `The pieces of: ${step.title}. Arrow keys go from one to the next.` }, h("thead", {}, h("tr", {}, ...head)), body)));
   }
 
