@@ -45,7 +45,9 @@ export class Replay {
   /** Write the moment, where it differs. */
   show() {
     const [time, length] = [this.time, this.length].map((each) => (each / 1000).toFixed(1));
-    setAttribute(this.scrub, "max", ARROW * Math.ceil(this.length / ARROW)); // or the handle would not reach the end
+    const step = this.length < 10 * ARROW ? 1 : ARROW; // a handle stands on steps only, so a short recording has finer ones
+    setAttribute(this.scrub, "step", step);
+    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // or the handle would not reach the end
     this.scrub.value = String(this.time);
     say(this.moment, `${time} of ${length} s`);
     setAttribute(this.scrub, "aria-valuetext", `${time} of ${length} seconds`);
