@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from playwright.sync_api import Browser
 
 from course_pkg.graph.master import PrivateMaster
+from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 
 ANSWERS, NOTEBOOKS = "tests/examiner/test_answers.py", "tests/notebooks/test_validation.py"
@@ -21,6 +23,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: (files[item] != ANSWERS, files[item] != NOTEBOOKS))
     for item, file in files.items():
         item.add_marker(pytest.mark.xdist_group(item.nodeid if file == NOTEBOOKS else file))
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Start a browser, once for all tests of a worker: a second one would not start beside it."""
+    with chromium() as started:
+        yield started
 
 
 @pytest.fixture(scope="module")

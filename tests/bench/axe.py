@@ -14,7 +14,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 from course_pkg.provision import Places
-from tests.browser.conftest import FLAGS
+from tests.browser.chromium import FLAGS
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
 

@@ -103,7 +103,7 @@ def ring() -> Exception:
 @pytest.mark.parametrize(
     "thing",
     [None, "", "  \n", "all is well", 7, b"\xff\x00", KeyError("sprocket"), Unshowable(), ring(), object()],
-    ids=repr,
+    ids=lambda thing: type(thing).__name__,
 )
 def test_what_is_not_known_gets_a_friendly_sentence(thing: object) -> None:
     """Never None, never an exception, no guess; and a next step all the same."""

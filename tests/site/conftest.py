@@ -1,4 +1,4 @@
-"""Sites for the tests in this folder, built once for all tests of a worker, and a browser."""
+"""Sites for the tests in this folder, built once for all tests of a worker."""
 
 from __future__ import annotations
 
@@ -13,10 +13,7 @@ import pytest
 from course_pkg.site.build import write_site
 from course_pkg.site.settings import Settings
 from tests.authoring.books import code, text
-from tests.browser.conftest import browser
 from tests.site.shelves import runs, shelf
-
-__all__ = ["browser"]
 
 PANELS = [
     "from course_pkg import *; import time; node = join('chapter_00'); "
