@@ -70,6 +70,7 @@ class ScriptedServer:
         self._listener = socket.create_server(("127.0.0.1", 0))
         self._uri = f"rosrpc://localhost:{self._listener.getsockname()[1]}"
         self._former: Registration | None = None
+        self._connections: set[socket.socket] = set()
 
     @property
     def requests(self) -> list[dict[str, Plain]]:
@@ -93,6 +94,9 @@ class ScriptedServer:
         with suppress(OSError):
             self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
+        for connection in self._connections.copy():
+            with suppress(OSError):  # closed by itself meanwhile
+                connection.shutdown(socket.SHUT_RDWR)
         self._node.master.unregister_service(self._node.name, self._name, self._uri)
         _restore(self._node, self._name, self._former)
         self._former = None
@@ -104,7 +108,14 @@ class ScriptedServer:
                 threading.Thread(target=self._attend, args=(sock,), daemon=True).start()
 
     def _attend(self, sock: socket.socket) -> None:
-        """Serve one connection until the client or the script closes it."""
+        """Serve one connection until the client, the script or leave() closes it."""
+        self._connections.add(sock)
+        try:
+            self._serve(sock)
+        finally:
+            self._connections.discard(sock)
+
+    def _serve(self, sock: socket.socket) -> None:
         with sock, suppress(OSError, ROSHandshakeException):
             header = read_ros_handshake_header(sock, io.BytesIO(), 4096)
             if not self._greet(sock, header):

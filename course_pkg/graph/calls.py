@@ -113,8 +113,10 @@ class BoundedProxy(rospy.ServiceProxy):
             raise call.too_late("another call over this persistent proxy is still waiting for its answer")
         try:
             transport, self._kept = self._kept, None
-            if transport is None or _hung_up(transport):
-                transport = self._connected(call)
+            if transport is not None and _hung_up(transport):
+                transport.close()
+                transport = None
+            transport = transport or self._connected(call)
             call.transport = transport
             try:
                 response = self._exchanged(transport, request)

@@ -50,6 +50,16 @@ def test_a_persistent_client_stays_connected(node: Node) -> None:
         assert (len(server.requests), len(server.seen.headers)) == (3, 1)
 
 
+def test_whoever_stays_connected_is_left(node: Node) -> None:
+    """When the server leaves, a connection on which nothing is said is closed, too."""
+    with ScriptedServer(node, "/p", geometry, lambda _: {}):
+        proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
+        proxy(1, 2, 3)
+    with pytest.raises((rospy.ServiceException, rospy.exceptions.TransportException)):
+        proxy(1, 2, 3)
+    proxy.close()
+
+
 @pytest.mark.parametrize(
     ("act", "words"),
     [
