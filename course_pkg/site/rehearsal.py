@@ -2,7 +2,8 @@
 
 `rehearsals.json` says it: for a notebook's name and a cell's id either `record`, the requests that a service
 panel really makes then, and answers from ever after (`pick` says of which service, where the cell names
-none); or `watch`, for how many seconds a panel does what it otherwise does only while a page shows it.
+none), or of a fault lab the cases, and the tools to use in each; or `watch`, for how many seconds a panel
+does what it otherwise does only while a page shows it.
 `calls` are made meanwhile by the notebook's own node: a service's name, its type, the fields of the request.
 """
 

@@ -23,7 +23,7 @@ def test_a_rehearsal_is_of_a_panel(name: str) -> None:
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / f"{name}.ipynb"))}
         plans = json.loads(PLANS.read_text("utf-8"))[name]
         for cell, plan in plans.items():
-            panels = ("ServicePanel(",) if "record" in plan else ("TopicPanel(", "GraphPanel(")
+            panels = ("ServicePanel(", "BreakIt(") if "record" in plan else ("TopicPanel(", "GraphPanel(")
             shown = cells[cell].rpartition("\n")[2]
             assert shown.startswith(panels)
             assert ("pick" in plan) == (shown == "ServicePanel()")
