@@ -18,7 +18,7 @@ class Lanes:
 
     def __init__(self, jobs: Sequence[PartJob], count: int = 0) -> None:
         self._jobs = list(jobs)
-        self._count = count or 2 * (os.cpu_count() or 1) + 1
+        self._count = count or (os.cpu_count() or 1) + 1
         self._begun: dict[int, Future[PartOutcome]] = {}
         self._pool = ThreadPoolExecutor(self._count)
         self._own = threading.local()
