@@ -25,6 +25,7 @@ READY = 60_000  # ms: a browser, a server and a kernel start on a machine that m
 SETTINGS = {
     "notification": {"fetchNews": "false", "checkForUpdates": False},
     "themes": {"theme": "JupyterLab {}"},
+    "kernels-settings": {"commsOverSubshells": "disabled"},  # as in the course's own
 }
 
 

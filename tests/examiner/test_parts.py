@@ -11,6 +11,8 @@ from course_pkg.errors import UnknownCheck
 from course_pkg.examiner import checks
 from course_pkg.examiner.parts import Part, every_part, find, parts_of
 
+COMPILED = "11."  # a compiler runs before the check begins, on a machine that may be busy
+
 
 def test_an_unknown_id_gets_the_closest_ones() -> None:
     """A typing slip is answered with what was probably meant."""
@@ -31,7 +33,7 @@ def test_every_part_says_what_it_is_worth() -> None:
         assert part.points > 0
         assert part.goal.endswith(".")
         assert part.needs
-        assert 0 < part.deadline <= 60
+        assert 0 < part.deadline <= (120 if part.check.startswith(COMPILED) else 60)
 
 
 def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:

@@ -7,7 +7,7 @@ from course_pkg.graph.snapshot import ServiceSeen
 
 GEOMETRY = "course_pkg/geometry"
 NO_RETURN = "None was returned, as by a function that comes to its end without a return line."
-PATIENCE = 8.0  # s for a program to start; it takes 0.5 s, and more on a machine that is busy
+PATIENCE = 15.0  # s for a program to start; it takes 0.5 s, and more on a machine that is busy
 NOT_STARTED = {
     says("NodeFailed"): "The service that it waited for did not come. What it printed says where it serves.",
     says("UnknownExecutable"): "The program is server, in the package course_pkg.",

@@ -129,7 +129,7 @@ class SecondMaster:
     points=3,
     goal="Register a service again when the master has forgotten it, until it is told to stop.",
     needs=["Watchdog"],
-    deadline=90.0,
+    deadline=60.0,
 )
 def a_watchdog(exam: Exam) -> None:
     """Have a new master, none, and another new one; then take the name, and stop in the middle of a look."""

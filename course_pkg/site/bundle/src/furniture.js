@@ -61,6 +61,7 @@ export function scrollable() {
   const watched = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target, names.get(target))));
   for (const box of document.querySelectorAll("article pre, .wide, .ros-panel *")) {
     if (box.closest(".ros-panel") && !/auto|scroll/.test(getComputedStyle(box).overflow)) continue;
+    if (box.closest('[aria-hidden="true"]')) continue; // what it shows is said elsewhere
     if (box.matches(STOPS) || box.querySelector(STOPS)) continue; // the keyboard gets there already
     names.set(box, `${kindOf(box)} ${names.size + 1}`); // regions want names that tell them apart
     watched.observe(box);

@@ -1,7 +1,6 @@
 /* Draws every panel of the page from the state that it was saved with. There is no kernel, and the panels are told so:
    whatever they send cannot be sent. */
 
-import { letters } from "./letters.js";
 import { nameParts } from "./names.js";
 
 export async function drawPanels() {
@@ -13,9 +12,12 @@ export async function drawPanels() {
       if (!index) await painted(); // so that the first is seen before the rest is there
     }
   }
-  await letters();
   nameParts();
-  // What was drawn has moved what is below it.
+  toAnchor();
+}
+
+/** Go where the address says: what was drawn has moved what is below it. */
+export function toAnchor() {
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: "instant" });
 }
 

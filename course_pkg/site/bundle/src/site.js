@@ -1,7 +1,8 @@
 /* Begins what a page does, the panels first: they are what the reader waits for. */
 import { foldLists, followContents } from "./contents.js";
 import { copyButtons, linkHeadings, scrollable } from "./furniture.js";
-import { drawPanels } from "./host.js";
+import { drawPanels, toAnchor } from "./host.js";
+import { letters } from "./letters.js";
 import { search } from "./search.js";
 import { themeButton } from "./theme.js";
 
@@ -14,4 +15,5 @@ drawn.then(() => {
   copyButtons();
   scrollable();
   followContents();
+  letters().then(toAnchor); // both have moved what is below them
 });
