@@ -43,6 +43,13 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Do what may move the page when no press is under way: a button that moved under the pointer hears no click.
+ * @param {Element} element @param {() => void} work */
+export function afterPress(element, work) {
+  if (!element.matches(":root:active *")) return work();
+  addEventListener("mouseup", () => setTimeout(work), { once: true, capture: true }); // the click comes between
+}
+
 /** Text in which `words` between backticks are code. @param {string} text @returns {(Node | string)[]} */
 export function prose(text) {
   return text.split("`").map((part, index) => (index % 2 ? h("code", { text: part }) : part));

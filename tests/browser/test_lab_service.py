@@ -109,6 +109,15 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
     expect(answer(form, "area")).to_have_text("6.24")
 
 
+def test_a_mark_does_not_push_the_button_from_under_the_press(form: Locator) -> None:
+    """The kernel has said what is wrong before Call is pressed; the words move the page after the click."""
+    fill(form, length="1.2", width="five")
+    expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
+    form.get_by_role("button", name="Call").click(delay=100)
+    expect(form.get_by_text("Not called: one field needs a correction.")).to_be_visible()
+    expect(form.get_by_label("width")).to_be_focused()
+
+
 def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
     """While the server does not answer the kernel is free, and Escape ends the wait."""
     fill(form, length="-1", width="1", height="1")

@@ -1,5 +1,5 @@
 /* A message as a form: controls for the fields of a type, and the draft, a tree of texts, that they edit. */
-import { freshId, h, same, say, setAttribute } from "../kit.js";
+import { afterPress, freshId, h, same, say, setAttribute } from "../kit.js";
 
 /** @typedef {{name: string, type: string, kind: string, low?: any, high?: any, length?: number | null,
  *   help?: string, item?: Field, fields?: Field[], default?: any}} Field */
@@ -89,7 +89,10 @@ export class FieldsForm {
     const control = { input, note, help: hint(field), touched: false, error: "" };
     write(input, read(this.draft, path));
     input.addEventListener("input", () => this.#set(path, boolean ? (input.checked ? "true" : "false") : input.value));
-    input.addEventListener("blur", () => { control.touched = true; this.#draw(control); });
+    input.addEventListener("blur", () => afterPress(input, () => {
+      control.touched = true;
+      this.#draw(control);
+    }));
     this.controls.set(path, control);
     this.#draw(control);
     return h("div", { class: "ros-line" },
