@@ -20,6 +20,7 @@ import rospy
 from course_pkg.examiner.ledger import Hints, Ledger, hint_for
 from course_pkg.examiner.node import Node
 from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
+from course_pkg.examiner.waiting import until
 
 KEPT = 20_000  # messages: a student's loop may lack its sleep
 LOOK = 0.02  # s between looks at the master
@@ -76,9 +77,7 @@ class Hearing:
         `hints` recognise what was seen: "nobody who publishes it", or another type.
         """
         rule = f"{self._label} is published as {self.kind}"
-        deadline = time.monotonic() + within
-        while not (found := self._found()) and time.monotonic() < deadline:
-            time.sleep(LOOK)
+        found = until(self._found, within)
         if found != self.kind:
             words = found or "nobody who publishes it"
             hint = hint_for(hints, words) or self._what_to_do(found)

@@ -52,8 +52,9 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
         spoken.wait(1)
         spoken.publish(2)
         heard.wait(1)
-        result = [m.data for m in heard.messages], spoken.published, spoken.unheard, spoken.sent
-    """) == [[2], 2, 1, 1]
+        result = [m.data for m in heard.messages], spoken.published, spoken.unheard
+    """) == [[2], 2, 1]
+    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy counts what is sent already
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:

@@ -144,7 +144,8 @@ def _serves(exam: Exam, room: str, before: set[str]) -> None:
     while service is None and time.monotonic() < deadline:
         seen = exam.look()
         service = seen.service(wanted)
-        new = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
+        others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
+        new = new or others  # one that was seen may be too busy to tell its type at the last look
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         exam.fail(

@@ -9,6 +9,7 @@ from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
 from course_pkg.examiner.plain import Message
 from course_pkg.examiner.publishing import Publishing
+from course_pkg.examiner.waiting import until
 
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
@@ -134,9 +135,7 @@ class _Shop:
         self._await("count", count)
 
     def _await(self, name: str, value: int) -> None:
-        deadline = time.monotonic() + 5.0
-        while self._exam.read(f"shop.watch.{name}") != value and time.monotonic() < deadline:
-            time.sleep(0.02)
+        until(lambda: self._exam.read(f"shop.watch.{name}") == value, 5.0)
 
 
 def _nobody(exam: Exam, detect: Service) -> None:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
+from contextlib import suppress
 
 from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.folder import Folder, Running
 from course_pkg.examiner.scripted import closed_port
+from course_pkg.examiner.waiting import until
 from course_pkg.graph.rpc import MasterClient
 
 EVERY = 0.1  # s between two looks of the watchdog
 SOON = 5.0  # s for something that takes a few looks: a busy machine is no mistake
 LEFT_ALONE = 0.8  # s in which a watchdog that does wrong would have done it
 READY = 15.0  # s for a master to answer
-LOOK = 0.02  # s between looks of the check
 
 # A service of the kernel's, a client of the second master that can be held up in the middle of a look, and
 # the student's watchdog between them.
@@ -107,14 +106,7 @@ class SecondMaster:
         words = ("rosmaster", "--core", "-p", str(self.port))
         self._running = self._folder.start(*words, worded="a second master")
         client = MasterClient(self.uri, 1.0)
-        deadline = time.monotonic() + READY
-        while time.monotonic() < deadline:
-            try:
-                client.pid()
-            except GraphError:
-                time.sleep(LOOK)
-            else:
-                break
+        until(lambda: _answers(client), READY)
         return client
 
     def stop(self) -> None:
@@ -167,7 +159,7 @@ def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: Ma
     _known(exam, master, name, uri, "a master that does not know the service is told of it", NEVER)
     second.stop()
     looks = int(exam.read("checked_watch.master.looks"))
-    _soon(lambda: int(exam.read("checked_watch.master.looks")) > looks + 2)
+    until(lambda: int(exam.read("checked_watch.master.looks")) > looks + 2, SOON)
     exam.hold(
         "without a master it goes on looking",
         int(exam.read("checked_watch.master.looks")) > looks + 2,
@@ -191,7 +183,7 @@ def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: Ma
 
 
 def _known(exam: Exam, master: MasterClient, name: str, uri: str, rule: str, hint: str) -> None:
-    seen = _soon(lambda: master.lookup_service(name)) or "nobody"
+    seen = until(lambda: master.lookup_service(name), SOON) or "nobody"
     exam.hold(
         rule, seen != "nobody", expected="the service on its books", seen="nobody by this name", hints=hint
     )
@@ -208,7 +200,7 @@ def _taken(exam: Exam, master: MasterClient, name: str) -> None:
     """Give the name to another node, which serves it by right: the last one wins."""
     other = f"rosrpc://localhost:{closed_port()}"
     master.register_service("/another", name, other, f"http://localhost:{closed_port()}/")
-    fought = _soon(lambda: master.lookup_service(name) != other, LEFT_ALONE)
+    fought = until(lambda: master.lookup_service(name) != other, LEFT_ALONE)
     master.unregister_service("/another", name, other)
     exam.hold(
         "a name that another node has taken is left to it",
@@ -223,7 +215,7 @@ def _taken(exam: Exam, master: MasterClient, name: str) -> None:
 def _quiet(exam: Exam) -> None:
     before = len(exam.read("checked_watch.master.registered"))
     looks = int(exam.read("checked_watch.master.looks"))
-    _soon(lambda: int(exam.read("checked_watch.master.looks")) > looks + 3)
+    until(lambda: int(exam.read("checked_watch.master.looks")) > looks + 3, SOON)
     looked = int(exam.read("checked_watch.master.looks")) - looks
     again = len(exam.read("checked_watch.master.registered")) - before
     exam.hold(
@@ -253,9 +245,7 @@ def _stopped(exam: Exam) -> None:
     )
 
 
-def _soon(condition: Callable[[], object], within: float = SOON) -> object:
-    """Return the first true value of `condition`, or its last one after `within` s."""
-    deadline = time.monotonic() + within
-    while not (value := condition()) and time.monotonic() < deadline:
-        time.sleep(LOOK)
-    return value
+def _answers(master: MasterClient) -> bool:
+    with suppress(GraphError):
+        return bool(master.pid())
+    return False

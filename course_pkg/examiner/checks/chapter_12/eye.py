@@ -6,6 +6,7 @@ import time
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.plain import Plain
+from course_pkg.examiner.waiting import until
 
 FRAMES = "sensor_msgs/Image"
 SLOW = 0.02  # s that it takes to look at a frame of the flood
@@ -167,7 +168,7 @@ def _flooded(exam: Exam) -> None:
         flood = exam.publish(topic, FRAMES, frames, every=0.002, once=True)
         flood.listened(hints="start() makes a rospy.Subscriber for the topic, of type Image.")
         flood.finish(10.0)
-        seen = _soon(exam)
+        seen = until(lambda: _look(exam), FRESH)
     finally:
         exam.run("trial.end")
     exam.hold(
@@ -187,11 +188,3 @@ def _flooded(exam: Exam) -> None:
 
 def _frame(point: int) -> dict[str, Plain]:
     return {"width": 1, "height": 1, "step": 2, "encoding": "mono8", "data": bytes([point, 0])}
-
-
-def _soon(exam: Exam) -> Plain:
-    """Return what is known as soon as somebody is seen, and after FRESH s in any case."""
-    deadline = time.monotonic() + FRESH
-    while (seen := _look(exam)) is not True and time.monotonic() < deadline:
-        time.sleep(0.05)
-    return seen

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import time
 
 from course_pkg.examiner import Exam, part, says
 from course_pkg.examiner.folder import Folder, Running
 from course_pkg.examiner.launched import becomes, telling_line
 from course_pkg.examiner.scripted import closed_port
+from course_pkg.examiner.waiting import until
 from course_pkg.graph import Snapshot
 
 FILE = "my_cashier.launch"
@@ -54,9 +54,8 @@ def the_whole_system(exam: Exam) -> None:
 
 def _read(exam: Exam, command: Running) -> str:
     """Return what roslaunch printed about the file; that it could read it is a rule."""
-    deadline = time.monotonic() + READING
-    while (status := command.status) is None and time.monotonic() < deadline:
-        time.sleep(0.05)
+    until(lambda: command.status is not None, READING)
+    status = command.status
     printed = command.stop().out
     exam.hold(
         "roslaunch can read the file",

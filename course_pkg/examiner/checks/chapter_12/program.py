@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
 from course_pkg.examiner import Exam, part, says
 from course_pkg.examiner.folder import Folder, Running
 from course_pkg.examiner.scripted import Act, Refuse
+from course_pkg.examiner.waiting import until
 from course_pkg.graph.master import master_uri
 from course_pkg.graph.rpc import MasterClient
 
@@ -85,7 +84,7 @@ class _Run:
 
     def end(self) -> _Run:
         """Wait for its end, and then end it; its status is None where it went on."""
-        _until(self.ended, ENDING)
+        until(self.ended, ENDING)
         finished = self._running.stop()
         self.status, self.out = finished.status, finished.out
         return self
@@ -117,10 +116,8 @@ class _Runs:
 
     def await_node(self, run: _Run) -> None:
         """Wait until it is a node, and a moment more, in which it can come to its first call."""
-        _until(
-            lambda: run.ended() or any(node.name == run.node for node in self._exam.look().nodes), STARTING
-        )
-        _until(run.ended, AFTERWARDS)
+        until(lambda: run.ended() or any(node.name == run.node for node in self._exam.look().nodes), STARTING)
+        until(run.ended, AFTERWARDS)
 
 
 def _waits(exam: Exam, run: _Run) -> None:
@@ -157,6 +154,7 @@ def _asks(exam: Exam, run: _Run, detector: _Detector) -> None:
         expected="one question, and the end",
         seen=f"{len(detector.asked)} questions; {run.last}",
         hints=[
+            ((lambda _: not detector.asked and "unavailable" in run.out), LATE),
             (
                 (lambda _: not detector.asked),
                 "It never asked. Is the name /detect_customer, and was "
@@ -261,13 +259,6 @@ def _gives_up(exam: Exam, run: _Run) -> None:
             ),
         ],
     )
-
-
-def _until(condition: Callable[[], bool], seconds: float) -> bool:
-    deadline = time.monotonic() + seconds
-    while not (met := condition()) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    return met
 
 
 def _forget(parameter: str) -> None:

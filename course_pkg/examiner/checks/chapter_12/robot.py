@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.scripted import Act, Late, Refuse, ScriptedServer
+from course_pkg.examiner.waiting import until
 
 JOINTS = "sensor_msgs/JointState"
 AWAIT = "course_pkg/AwaitCustomer"
@@ -140,7 +141,7 @@ def _begun(exam: Exam, stances: str, service: str, detector: _Detector) -> Itera
 
 
 def _asks(exam: Exam, server: ScriptedServer) -> None:
-    asked = _until(lambda: bool(server.requests), 2.5)
+    asked = until(lambda: bool(server.requests), 2.5)
     exam.hold(
         "it asks whether somebody is there",
         asked,
@@ -159,7 +160,7 @@ def _asks(exam: Exam, server: ScriptedServer) -> None:
 
 def _greets(exam: Exam, detector: _Detector) -> None:
     """Wait for the second customer, and look at whom was greeted."""
-    came = _until(lambda: len(detector.found) >= 2, 3 * STANDS + 2 * GREETING + 2 * SLACK)
+    came = until(lambda: len(detector.found) >= 2, 3 * STANDS + 2 * GREETING + 2 * SLACK)
     exam.hold(
         "it asks again after each answer",
         came,
@@ -168,7 +169,7 @@ def _greets(exam: Exam, detector: _Detector) -> None:
         hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
     )
     # Who has put the next question has done with the answer before it.
-    _until(lambda: len(detector.patience) >= 4, STANDS + GREETING + SLACK)
+    until(lambda: len(detector.patience) >= 4, STANDS + GREETING + SLACK)
     exam.expect(
         "each customer is greeted, once, and nobody is not",
         expected=2,
@@ -191,7 +192,7 @@ def _greets(exam: Exam, detector: _Detector) -> None:
 def _mirrors(exam: Exam, sent: list[float]) -> None:
     """Hold that what was published until now was mirrored, and at once."""
     count = len(sent) - 1
-    _until(lambda: any(number >= count for number, _ in exam.read("work.mirrored")), SLACK)
+    until(lambda: any(number >= count for number, _ in exam.read("work.mirrored")), SLACK)
     seen = [number for number, _ in exam.read("work.mirrored") if number <= count]
     exam.hold(
         "every stance is mirrored, in order, whatever else goes on",
@@ -222,7 +223,7 @@ def _mirrors(exam: Exam, sent: list[float]) -> None:
 def _goes_on(exam: Exam, detector: _Detector) -> None:
     """Refuse for a while: it has to ask again, and not all the time."""
     detector.refusing = True
-    refused = _until(lambda: detector.refused >= 1, STANDS + GREETING + SLACK)
+    refused = until(lambda: detector.refused >= 1, STANDS + GREETING + SLACK)
     exam.hold(
         "it asks on and on",
         refused,
@@ -251,19 +252,12 @@ def _goes_on(exam: Exam, detector: _Detector) -> None:
 
 def _ends(exam: Exam, server: ScriptedServer) -> None:
     exam.run("work.end")
-    _until(lambda: False, 0.6)
+    until(lambda: False, 0.6)
     before = len(server.requests)
-    _until(lambda: len(server.requests) > before, 0.8)
+    until(lambda: len(server.requests) > before, 0.8)
     exam.expect(
         "it ends when it is told to",
         expected=0,
         seen=len(server.requests) - before,
         hints="`over` was set, and it asked on. Look at over.is_set() before each question.",
     )
-
-
-def _until(condition: Callable[[], bool], seconds: float) -> bool:
-    deadline = time.monotonic() + seconds
-    while not (met := condition()) and time.monotonic() < deadline:
-        time.sleep(0.03)
-    return met
