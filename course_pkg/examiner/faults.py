@@ -70,7 +70,6 @@ class FaultyServer(ScriptedServer):
     def leave(self) -> None:
         """Stop serving, for good."""
         with self._moving:
-            self._over.set()
             for timer in self._returns:
                 timer.cancel()
             super().leave()
@@ -117,9 +116,7 @@ class FaultyServer(ScriptedServer):
         with self._moving, suppress(GraphError):
             if self._over.is_set():
                 return
-            with suppress(OSError):
-                self._listener.shutdown(socket.SHUT_RDWR)
-            self._listener.close()
+            self._close_port()
             if crash.farewell:
                 self._node.master.unregister_service(self._node.name, self._name, self._uri)
             self._returns.append(threading.Timer(crash.back, self._return))

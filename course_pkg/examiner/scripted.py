@@ -91,15 +91,18 @@ class ScriptedServer:
     def leave(self) -> None:
         """Stop serving, as a server that is shut down does; connections are closed."""
         self._over.set()
-        with suppress(OSError):
-            self._listener.shutdown(socket.SHUT_RDWR)
-        self._listener.close()
+        self._close_port()
         for connection in self._connections.copy():
             with suppress(OSError):  # closed by itself meanwhile
                 connection.shutdown(socket.SHUT_RDWR)
         self._node.master.unregister_service(self._node.name, self._name, self._uri)
         _restore(self._node, self._name, self._former)
         self._former = None
+
+    def _close_port(self) -> None:
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
 
     def _accept(self) -> None:
         with suppress(OSError):  # the listener was closed: over

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, asking, calling, keeper, kill_server, running, serving
+from course_pkg.faults.texts import VISITOR, asking, calling, keeper, kill_server, nothing, running, serving
 from course_pkg.graph.ports import port_of
 from course_pkg.graph.rpc import MasterClient
 
@@ -129,10 +129,6 @@ def _start_slowly(stage: Stage) -> None:
     stage.await_that(lambda: master.lookup_node(f"{stage.namespace}/keeper"), program)
 
 
-def _nothing(_: Stage) -> None:
-    """Leave the graph without a server."""
-
-
 CALLING: tuple[Fault, ...] = (
     _well(
         name="no_service",
@@ -160,7 +156,7 @@ CALLING: tuple[Fault, ...] = (
         name="wait_for_ever",
         look="wait start",
         story="The door is asked to open, as soon as there is one.",
-        play=_nothing,
+        play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door")', "import std_srvs.srv"),
         diagnosis="The client waits, without a limit, for a server that was never started.",
         remedy="Start the server, and give wait_for_service() a timeout.",
@@ -170,7 +166,7 @@ CALLING: tuple[Fault, ...] = (
     ),
     _python(
         name="zero_timeout",
-        play=_nothing,
+        play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=0)', "import std_srvs.srv"),
         diagnosis="wait_for_service() is given a time of 0, which it does not take.",
         remedy="Give it some seconds, or leave the wait out and catch the exception of the call.",
@@ -203,7 +199,7 @@ CALLING: tuple[Fault, ...] = (
         name="left_out",
         look="quiet call",
         story="The door is asked to open, and the answer is another one than hoped for.",
-        play=serving('return SetBoolResponse(True, "open" if request.data else "shut")'),
+        play=running(keeper()),
         visitor=calling("print(move_door())"),
         diagnosis="The call leaves a field out, which is then False or 0 without a word.",
         remedy="Give every field a value, by name.",
@@ -297,7 +293,7 @@ CALLING: tuple[Fault, ...] = (
         look="quiet call",
         chapter="10",
         story="Four threads ask the door again and again. Each should get the answer to its own question.",
-        play=serving('return SetBoolResponse(True, "open" if request.data else "shut")'),
+        play=running(keeper()),
         visitor=SHARED,
         diagnosis="Several threads share one persistent proxy, and read each other's answers.",
         remedy="Give each thread a proxy of its own, or hold a lock around each call.",

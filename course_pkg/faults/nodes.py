@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, keeper, kill_server, running
+from course_pkg.faults.texts import VISITOR, keeper, kill_server, nothing, running
 from course_pkg.graph.rpc import MasterClient
 
 if TYPE_CHECKING:
@@ -149,17 +149,13 @@ def _twin(stage: Stage) -> None:
     stage.await_that(lambda: first.over, twin)
 
 
-def _nothing(_: Stage) -> None:
-    """Leave the graph as it is."""
-
-
 NODES: tuple[Fault, ...] = (
     _fault(
         name="init_again",
         chapter="02",
         look="python",
         story="A cell of a notebook is changed and run again.",
-        play=_nothing,
+        play=nothing,
         visitor=TWO_NAMES,
         diagnosis="One program tries to be two nodes.",
         remedy="Keep the name, or restart the kernel to take another.",
@@ -171,7 +167,7 @@ NODES: tuple[Fault, ...] = (
         chapter="02",
         look="python",
         story="A button of a notebook starts the node in the background.",
-        play=_nothing,
+        play=nothing,
         visitor=ON_A_THREAD,
         diagnosis="The node is initialized on a thread that is not the main one.",
         remedy="Restart the kernel, and call init_node() on the main thread, before any other.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course_pkg.errors import GraphError
 from course_pkg.faults.program import Seen
+from course_pkg.faults.registrations import nodes_below
 from course_pkg.faults.stage import Stage
 from course_pkg.graph.rpc import MasterClient
 from course_pkg.graph.stale import remove_stale
@@ -50,12 +51,8 @@ def _output(stage: Stage) -> Seen:
 def _cleaned(stage: Stage) -> Seen:
     """Do what `rosnode cleanup` does, for the nodes of the case alone: the others are not the lab's."""
     try:
-        nodes = frozenset(
-            node
-            for node in MasterClient(stage.uri).system_state().nodes
-            if node.startswith(f"{stage.namespace}/")
-        )
-        removed = remove_stale(stage.uri, nodes=nodes)
+        nodes = nodes_below(MasterClient(stage.uri), f"{stage.namespace}/")
+        removed = remove_stale(stage.uri, nodes=frozenset(nodes))
     except GraphError as error:
         return Seen("rosnode cleanup, for the nodes of this case", str(error), 0.0, 1)
     lines = [f"Unregistering {entry.kind} {entry.name} of {entry.node}" for entry in removed]

@@ -54,6 +54,10 @@ def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
     return running(imports + keeper(body))
 
 
+def nothing(_: Stage) -> None:
+    """Leave the graph as it is."""
+
+
 def kill_server(stage: Stage) -> None:
     """Have a server, and kill it."""
     stage.serve(keeper()).kill()

@@ -11,6 +11,7 @@ from course_pkg.authoring.shelf import Shelf, read
 from course_pkg.examiner.answers import around
 from course_pkg.examiner.parts import Part, exercise_of, parts_of
 from course_pkg.grading.rebuild import Rebuilder
+from course_pkg.provision import CATKIN_FOLDERS
 from course_pkg.provision.stamps import digest
 
 
@@ -57,7 +58,7 @@ def _planned(part: Part) -> PartPlan:
 def course_digest() -> str:
     """Return what changes with any file that a grade depends on: code, checks, types, solutions."""
     root = Path(course_pkg.__file__).parent
-    folders = [root, root.parent / "srv", root.parent / "solutions", root.parent / "launch"]
+    folders = [root, *(root.parent / name for name in ("solutions", *CATKIN_FOLDERS))]
     paths = sorted(path for folder in folders for path in folder.rglob("*") if _counts(path))
     return digest(part for path in paths for part in (str(path.relative_to(root.parent)), path.read_bytes()))
 

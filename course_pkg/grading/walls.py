@@ -16,7 +16,7 @@ from pathlib import Path
 
 from course_pkg.errors import WallsMissing
 from course_pkg.grading.ward.confinement import ROOMS, STAGE, STAGED
-from course_pkg.provision import Places, environment
+from course_pkg.provision import CATKIN_FOLDERS, Places, environment
 
 NOBODY = 65534  # uid and gid of whoever owns nothing, in place of root
 READ = (
@@ -29,7 +29,7 @@ READ = (
     "/etc/ssl/openssl.cnf",
 )
 LINKS = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
-OF_CHECKOUT = ("course_pkg", "srv", "launch", "package.xml", "CMakeLists.txt", "setup.py", "pyproject.toml")
+OF_CHECKOUT = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py", "pyproject.toml")
 MADE_UP = {
     "/etc/passwd": "root:x:0:0::/:/bin/false\nstudent:x:1000:1000::/student:/bin/bash\n",
     "/etc/group": "root:x:0:\nstudent:x:1000:\n",

@@ -47,6 +47,11 @@ class Panel(anywidget.AnyWidget):
     def _css(self) -> str:
         return sheet(HERE / "look.css", HERE / "explained.css", *self.shared_sheets, self.style_sheet)
 
+    def error_words(self) -> str:
+        """Return the words of the error that the panel shows, "" for none; the first of `errors` counts."""
+        words = (getattr(self, name, "") for name in self.errors)
+        return next((each for each in words if each and isinstance(each, str)), "")
+
     def shown(self) -> None:
         """Begin what the panel does only while a page shows it; told again for each further view."""
 
@@ -78,13 +83,9 @@ class Panel(anywidget.AnyWidget):
 
     def _explain(self, _change: object) -> None:
         """Offer an explanation of what the panel shows as an error, if there is one."""
-        words = next(filter(None, (_words(getattr(self, name, "")) for name in self.errors)), "")
+        words = self.error_words()
         meaning = explain(words) if words else None
-        self.explained = (
-            {"cause": meaning.cause, "remedy": meaning.remedy, "taught": meaning.taught}
-            if meaning and meaning.known
-            else {}
-        )
+        self.explained = meaning.as_dict() if meaning and meaning.known else {}
 
     def _handle_msg(self, msg: dict[str, Any]) -> None:
         with self.turn:
@@ -105,9 +106,3 @@ class Panel(anywidget.AnyWidget):
                 self.received(kind, content)
         except Exception as error:  # noqa: BLE001 - an error in a click must show in the panel, not in some cell
             self.complain(error)
-
-
-def _words(shown: object) -> str:
-    """Return the words of an error from a trait: a text, or a state with an `outcome`."""
-    words = shown.get("outcome", "") if isinstance(shown, dict) else shown
-    return words if isinstance(words, str) else ""

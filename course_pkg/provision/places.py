@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
+CATKIN_FOLDERS = ("srv", "msg", "action", "launch")  # beside course_pkg: what the catkin package is made of
+
 
 class Places(NamedTuple):
     """The folders of one checkout. What is made lies outside of it, where rosrun does not walk."""

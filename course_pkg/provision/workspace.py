@@ -10,10 +10,10 @@ from pathlib import Path
 
 from course_pkg.provision import environment
 from course_pkg.provision.journal import Journal
-from course_pkg.provision.places import Places
+from course_pkg.provision.places import CATKIN_FOLDERS, Places
 from course_pkg.provision.stamps import digest, replace_text
 
-BUILT_FROM = ("CMakeLists.txt", "package.xml", "setup.py", "srv/*", "msg/*", "action/*", "launch/*")
+BUILT_FROM = ("CMakeLists.txt", "package.xml", "setup.py", *(f"{folder}/*" for folder in CATKIN_FOLDERS))
 SYSTEM_PATH = "/usr/bin:/bin"
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from course_pkg.authoring.cells import Notebook, code_cells
 from course_pkg.authoring.shelf import read
-from course_pkg.provision import Places
+from course_pkg.provision import CATKIN_FOLDERS, Places
 from course_pkg.provision.stamps import digest, replace_text
 from course_pkg.site.exhibits import set_out
 from course_pkg.site.rehearsal import plans, rehearsed, without_rehearsal
@@ -86,7 +86,7 @@ class Runs:
         root = self._places.checkout
         yield sys.version
         yield from ((root / name).read_bytes() for name in RUN_BY)
-        for folder in (*sorted((root / "course_pkg").iterdir()), root / "srv", root / "launch"):
+        for folder in (*sorted((root / "course_pkg").iterdir()), *(root / name for name in CATKIN_FOLDERS)):
             if folder.is_dir() and folder.name not in IDLE:
                 yield from _contents(file for file in folder.rglob("*") if "checks" not in file.parts)
 

@@ -6,15 +6,12 @@ narrow, light and dark, with and without the search open; the suite spares itsel
 
 from __future__ import annotations
 
-import shutil
 import sys
 from itertools import product
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
-
 from course_pkg.provision import Places
-from tests.browser.chromium import FLAGS
+from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
 
@@ -22,8 +19,7 @@ def main() -> None:
     """Print each violation, and how many there are on how many pages."""
     site = Path(sys.argv[1]) if len(sys.argv) > 1 else Places.of().cache / "site" / "pages"
     count = 0
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+    with chromium() as browser:
         for width, colours in product(WIDTHS, COLOURS):
             with reader(browser, width, colours) as page:
                 for name in pages(site):
@@ -35,7 +31,6 @@ def main() -> None:
                     count += len(found)
                     for each in found:
                         print(f"{name} {width} {colours}: {each}")
-        browser.close()
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 

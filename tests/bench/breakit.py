@@ -16,9 +16,8 @@ import time
 from collections.abc import Callable
 
 from course_pkg.faults import Stage, named, names
-from course_pkg.graph import NodeProcess, PrivateMaster, look
-from course_pkg.graph.leashed import descendants
-from course_pkg.graph.ports import family, listening_ports
+from course_pkg.graph import NodeProcess, PrivateMaster
+from tests.faults.surroundings import Surroundings
 
 BOUND = 3.0  # s
 BARE = """
@@ -28,17 +27,6 @@ rospy.init_node("bare")
 rospy.Service("bare", Trigger, lambda request: (True, ""))
 rospy.spin()
 """
-
-
-def surroundings() -> tuple[object, ...]:
-    """Return all that has to be as before."""
-    me = os.getpid()
-    return (
-        look(),
-        tuple(sorted(descendants(me))),
-        listening_ports(family(me)),
-        tuple(sorted(os.environ.items())),
-    )
 
 
 def one_round(name: str) -> float:
@@ -61,10 +49,10 @@ def bare_round() -> float:
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
     """Run `turn` for some rounds, print and return the median, the longest, and how often not as before."""
-    before, times, changed = surroundings(), [], 0
+    before, times, changed = Surroundings(), [], 0
     for _ in range(rounds):
         times.append(turn())
-        changed += surroundings() != before
+        changed += bool(before.left_behind())
     median, longest = statistics.median(times), max(times)
     over = sum(each > BOUND for each in times)
     print(

@@ -18,6 +18,7 @@ class Lanes:
 
     def __init__(self, jobs: Sequence[PartJob], count: int = 0) -> None:
         self._jobs = list(jobs)
+        self._places = {job: number for number, job in enumerate(self._jobs)}
         self._count = count or (os.cpu_count() or 1) + 1
         self._begun: dict[int, Future[PartOutcome]] = {}
         self._pool = ThreadPoolExecutor(self._count)
@@ -36,7 +37,7 @@ class Lanes:
 
     def outcome(self, job: PartJob) -> PartOutcome:
         """Return how `job` ended; the next ones of the list begin meanwhile."""
-        first = self._jobs.index(job)
+        first = self._places[job]
         for number in range(first, min(first + self._count, len(self._jobs))):
             if number not in self._begun:
                 self._begun[number] = self._pool.submit(self._run, self._jobs[number])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from collections import Counter
 from pathlib import Path
@@ -10,21 +9,14 @@ from pathlib import Path
 import pytest
 
 from course_pkg.faults import caused, names
-from course_pkg.graph import MasterClient, PrivateMaster, explanations, look
-from course_pkg.graph.leashed import descendants
-from course_pkg.graph.ports import family, listening_ports
+from course_pkg.graph import MasterClient, PrivateMaster, explanations
 from tests.building.packages import GOOD, build, shell, spoilt, write
 from tests.faults.mistakes import COUNTS, ROWS, Builds, Shows
+from tests.faults.surroundings import Surroundings
 from tests.support import eventually
 
 SHOWN = [each for row in ROWS for each in row.shown if isinstance(each, Shows)]
 BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
-
-
-def surroundings() -> tuple[object, ...]:
-    """Return what has to be as before: the graph, processes, ports, environment."""
-    me = os.getpid()
-    return look(), sorted(descendants(me)), listening_ports(family(me)), dict(os.environ)
 
 
 def test_no_row_is_left_out() -> None:
@@ -47,12 +39,12 @@ def test_what_is_no_hang_says_something() -> None:
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
     """Caused for real it shows what the table says, that is explained, and afterwards all is as before."""
     assert master.uri
-    before = surroundings()
+    before = Surroundings()
     with caused(shows.fault) as stage:
         seen = stage.symptom()
         keeper = stage.keeper
         printed = eventually(lambda: keeper.output() if keeper else " ") if shows.server else ""
-    assert surroundings() == before
+    assert not before.left_behind()
     assert seen.waiting == shows.hangs, seen
     assert shows.said in seen.said
     assert shows.server in printed

@@ -36,6 +36,10 @@ class Explanation:
         """Where it is taught, in words; "" where no chapter is meant."""
         return taught(self.chapter)
 
+    def as_dict(self) -> dict[str, str]:
+        """Return what a page shows of it."""
+        return {"cause": self.cause, "remedy": self.remedy, "taught": self.taught}
+
     def __repr__(self) -> str:
         lines = [f"Cause: {self.cause}", f"What to do: {self.remedy}"]
         return "\n".join([*lines, f"Taught in: {self.taught}"] if self.taught else lines)

@@ -84,15 +84,15 @@ class TopicStation:
     def _finish(self) -> None:
         if not self._leash.wait(GRACE):
             self._leash.end(0.2)
-            self._forget()
+            for pause in LOOKS:
+                time.sleep(pause)
+                self._forget()
         self._output.close()
 
     def _forget(self) -> None:
         """Sign off in the place of a node that was killed."""
-        for pause in LOOKS:
-            time.sleep(pause)
-            with suppress(GraphError):
-                remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
+        with suppress(GraphError):
+            remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
 
     def _tail(self) -> str:
         descriptor = self._output.fileno()

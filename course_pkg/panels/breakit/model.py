@@ -193,16 +193,9 @@ class LabModel:
 
     def _failed(self, error: Exception) -> None:
         self._clear()
-        meaning = explain(error)
-        words = f"{type(error).__name__}: {error}"
+        said = {"words": f"{type(error).__name__}: {error}", **explain(error).as_dict()}
         with self._turn:
             self._state["phase"] = "over"
-            said = {
-                "words": words,
-                "cause": meaning.cause,
-                "remedy": meaning.remedy,
-                "taught": meaning.taught,
-            }
             self._tell(trouble=said)
 
     def _server(self) -> str:

@@ -8,12 +8,7 @@ from typing import Any, NamedTuple
 
 State = dict[str, Any]
 
-SCENE = (
-    "drawing",
-    "facts",
-    "spaces",
-    "trouble",
-)  # what is large and changes seldom
+SCENE = ("drawing", "facts", "spaces", "trouble")  # what is large and changes seldom
 MOMENTS = 150
 BYTES = 200_000  # of all that is kept, as JSON
 

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 from course_pkg.errors import CallCancelled, CallUnderWay, CourseError, FieldError, NothingPicked
-from course_pkg.graph.explanations import Explanation, known
+from course_pkg.graph.explanations import known
 from course_pkg.interfaces import ServiceType, service_type
 from course_pkg.panels.forms.form import State, correction
 from course_pkg.panels.forms.rows import rows, summary
@@ -258,10 +258,6 @@ class ServiceModel:
         self._caller = None
 
 
-def _meaning(explanation: Explanation) -> State:
-    return {"cause": explanation.cause, "remedy": explanation.remedy, "taught": explanation.taught}
-
-
 @dataclass
 class _Call:
     """One call, from the request as typed to what came of it."""
@@ -285,7 +281,7 @@ class _Call:
         self.error = error
         name, words = type(error).__name__, str(error)
         explanation = known(f"{name}: {words}")
-        said = {"name": name, "words": words} | (_meaning(explanation) if explanation else {})
+        said = {"name": name, "words": words} | (explanation.as_dict() if explanation else {})
         phase = "cancelled" if isinstance(error, (CallCancelled, KeyboardInterrupt)) else "failed"
         return self._outcome(phase, milliseconds) | {"error": said}
 

@@ -44,6 +44,10 @@ class WireView(Panel):
         super().__init__()
         self.publish(exchange=state(self.wire))
 
+    def error_words(self) -> str:
+        """Return how the call failed, where the panel itself has not."""
+        return super().error_words() or str(self.exchange.get("outcome", ""))
+
     def __repr__(self) -> str:
         return f"WireView({self.wire.service!r})"
 

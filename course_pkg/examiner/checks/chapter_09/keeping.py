@@ -38,12 +38,12 @@ def a_connection_that_comes_back(exam: Exam) -> None:
     client = Client(exam, "Keeper", name)
     for volume in volumes[:3]:
         _measures(exam, client, "the service's answer is returned", volume)
-    _one_connection(exam, server, "the calls share one connection", 1)
+    _one_connection(exam, server, "the calls share one connection")
     acts.insert(0, Refuse("not this box"))
     _refused(exam, client, server)
     acts.pop(0)
     _measures(exam, client, "the connection serves on after a refusal", volumes[3])
-    _one_connection(exam, server, "a refusal is no reason to connect anew", 1)
+    _one_connection(exam, server, "a refusal is no reason to connect anew")
     acts.insert(0, HangUp())
     _measures(exam, client, "a broken connection is made anew", volumes[4])
     server.leave()
@@ -51,7 +51,7 @@ def a_connection_that_comes_back(exam: Exam) -> None:
     moved = exam.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
     _measures(exam, client, "a server that came back is found again", volumes[5])
     _measures(exam, client, "a server that came back is found again", volumes[5])
-    _one_connection(exam, moved, "the new connection is kept, too", 1)
+    _one_connection(exam, moved, "the new connection is kept, too")
 
 
 def _next(acts: list[Act]) -> Act:
@@ -71,13 +71,13 @@ def _measures(exam: Exam, client: Client, rule: str, volume: Plain) -> None:
     )
 
 
-def _one_connection(exam: Exam, server: ScriptedServer, rule: str, most: int) -> None:
+def _one_connection(exam: Exam, server: ScriptedServer, rule: str) -> None:
     seen = len(server.seen.headers)
     kept = all(header.get("persistent") == "1" for header in server.seen.headers)
     exam.hold(
         rule,
-        seen == most and kept,
-        expected=f"{most} connection, opened with persistent=1",
+        seen == 1 and kept,
+        expected="1 connection, opened with persistent=1",
         seen=f"{seen}, opened {'with' if kept else 'without'} persistent=1",
         hints=[
             (

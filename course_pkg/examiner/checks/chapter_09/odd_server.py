@@ -22,7 +22,7 @@ SIDES = 12  # bytes of three float32
 
 @dataclass
 class Heard:
-    """What a client said; `slip` names the first thing that was wrong in it, `rest` the bytes there."""
+    """What a client said; `slip` names the first thing that was wrong in it."""
 
     header: dict[str, str] = field(default_factory=dict)
     sides: list[float] = field(default_factory=list)
@@ -42,7 +42,6 @@ class OddServer:
 
     def __init__(
         self,
-        service: str,
         kind: type,
         numbers: tuple[float, float],
         *,
@@ -51,7 +50,7 @@ class OddServer:
         drips: bool = False,
     ) -> None:
         self.heard: list[Heard] = []
-        self._service, self._kind, self._numbers = service, kind, numbers
+        self._kind, self._numbers = kind, numbers
         self._refuses, self._turns_away, self._drips = refuses, turns_away, drips
         self._listener = socket.create_server(("127.0.0.1", 0))
 

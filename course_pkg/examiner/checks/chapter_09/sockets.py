@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner.checks.chapter_09.clients import GEOMETRY
 from course_pkg.examiner.checks.chapter_09.odd_server import Heard, OddServer
 from course_pkg.examiner.outcome import Outcome
 
-GEOMETRY = "course_pkg/geometry"
 SLIPS = {
     "nothing": "It connected, and said nothing. The client speaks first: send the connection header.",
     "big-endian header": "The length of the header is big-endian here. Use pack_header.",
@@ -50,7 +50,7 @@ def _answered(exam: Exam, *, drips: bool) -> None:
     name, kind = f"/{exam.draw.word()}", exam.service_class(GEOMETRY)
     sides = exam.draw.numbers(3, 0.5, 9.0)
     area, volume = exam.draw.numbers(2, 10.0, 90.0)
-    with OddServer(name, kind, (area, volume), drips=drips) as server:
+    with OddServer(kind, (area, volume), drips=drips) as server:
         outcome = exam.run("ask", server.uri, name, *sides, within=4.0, hints=_errors(drips))
         heard = _conversation(exam, server, outcome)
     _greeted(exam, heard, name, kind)
@@ -127,7 +127,7 @@ def _greeted(exam: Exam, heard: Heard, name: str, kind: type) -> None:
 def _refused(exam: Exam, said: str, words: str, *, turns_away: bool) -> None:
     name, kind = f"/{exam.draw.word()}", exam.service_class(GEOMETRY)
     how = {"turns_away": said} if turns_away else {"refuses": said}
-    with OddServer(name, kind, (0.0, 0.0), **how) as server:  # type: ignore[arg-type]
+    with OddServer(kind, (0.0, 0.0), **how) as server:  # type: ignore[arg-type]
         outcome = exam.run("ask", server.uri, name, *exam.draw.numbers(3, 0.5, 9.0), within=3.0)
     hint = (
         "The server's header had a field error. Look for it before you send the request."
