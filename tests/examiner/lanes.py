@@ -19,7 +19,7 @@ class Lanes:
     def __init__(self, jobs: Sequence[PartJob], count: int = 0) -> None:
         self._jobs = list(jobs)
         self._places = {job: number for number, job in enumerate(self._jobs)}
-        self._count = count or (os.cpu_count() or 1) + 1
+        self._count = count or os.cpu_count() or 1
         self._begun: dict[int, Future[PartOutcome]] = {}
         self._pool = ThreadPoolExecutor(self._count)
         self._own = threading.local()
