@@ -79,9 +79,9 @@ class _Reader(HTMLParser):
             self._inside.pop()
 
     def handle_data(self, data: str) -> None:
-        """Note formulas: nothing here makes MathML of them."""
+        """Note formulas that Markdown has let be, as in a cell's output: only prose has them."""
         if not self._inside and (found := FORMULA.search(data)):
-            self.faults.append(f"{found[0]} looks like a formula, and pages show none")
+            self.faults.append(f"{found[0]} looks like a formula, and stands where none is set")
 
     def _link(self, address: str) -> None:
         if not address:

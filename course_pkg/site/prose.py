@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from html import escape, unescape
-from typing import Any
+from typing import Any, Literal
 
 from mistune import HTMLRenderer, create_markdown
 
-PLUGINS = ["strikethrough", "table", "task_lists", "def_list"]
+from course_pkg.errors import SiteError
+
+PLUGINS = ["strikethrough", "table", "task_lists", "def_list", "math"]
 TAG = re.compile(r"<[^>]*>")
 NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 
@@ -56,6 +58,12 @@ class _Renderer(HTMLRenderer):
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"
 
+    def inline_math(self, text: str) -> str:
+        return mathml(text, "inline")
+
+    def block_math(self, text: str) -> str:
+        return f'<div class="wide">{mathml(text, "block")}</div>\n'
+
     def link(self, text: str, url: str, title: str | None = None) -> str:
         return super().link(text, page_of(url), title)
 
@@ -64,6 +72,16 @@ def page_of(url: str) -> str:
     """Return where a link of a notebook leads on the site: a chapter is a page."""
     notebook = NOTEBOOK.fullmatch(url)
     return f"{notebook['name']}.html{notebook['anchor'] or ''}" if notebook else url
+
+
+def mathml(formula: str, display: Literal["inline", "block"]) -> str:
+    """Return a formula in LaTeX as MathML, which needs no script. Raises SiteError for what is no formula."""
+    from latex2mathml.converter import convert  # few pages have one
+
+    try:
+        return convert(formula.strip(), display=display)
+    except Exception as error:  # its errors have no class in common
+        raise SiteError(f"The formula ${formula}$ cannot be read: {type(error).__name__} {error}") from error
 
 
 def words(html: str) -> str:

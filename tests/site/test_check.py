@@ -40,7 +40,7 @@ def page(folder: Path, html: str) -> list[str]:
         ('<img src="//e.org/a.png" alt="a">', "one.html: it would load //e.org/a.png from elsewhere"),
         ("<p onclick='f()'>x</p>", "one.html: a script stands in the page itself: <p onclick>"),
         ("<script>f()</script>", "one.html: a script stands in the page itself: <script>"),
-        ("<p>so $x^2$ it is</p>", "one.html: $x^2$ looks like a formula, and pages show none"),
+        ("<p>so $x^2$ it is</p>", "one.html: $x^2$ looks like a formula, and stands where none is set"),
     ],
 )
 def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from course_pkg.errors import SiteError
 from course_pkg.site.prose import Prose, page_of
 
 
@@ -50,3 +51,25 @@ def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
     """Any other link stays what it is."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
+
+
+def test_a_formula_is_mathml() -> None:
+    """In a line or on its own it needs no script, and its marks are gone."""
+    html = prose()("so $d_n = 2^n$ it is\n\n$$\n\\sum_{n=0}^{7} 2^n\n$$")
+    assert html.count("<math ") == 2
+    assert 'display="inline"' in html
+    assert 'display="block"' in html
+    assert "<msup><mn>2</mn><mi>n</mi></msup>" in html
+    assert "$" not in html
+
+
+@pytest.mark.parametrize("text", ["It costs $5, and then $7.", "`$A` and `$B`", "```\n$x$\n```", "5 $ or 6 $"])
+def test_what_is_no_formula_stays_text(text: str) -> None:
+    """Dollars and shell variables stand in the course, too."""
+    assert "<math" not in prose()(text)
+
+
+def test_a_formula_with_a_slip_is_named() -> None:
+    """An author hears which one it is."""
+    with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
+        prose()("so $2^2^2$")
