@@ -9,7 +9,7 @@ export async function drawPanels() {
     const states = await unpacked(packed.textContent);
     for (const [index, place] of places.entries()) {
       draw(place, states[index]);
-      if (!index) await painted(); // so that the first is seen before the rest is there
+      await painted(); // each is seen as soon as it is there, and the reader can go on between two
     }
   }
   nameParts();
