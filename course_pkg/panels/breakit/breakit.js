@@ -1,6 +1,6 @@
 /* The lab: a row of cases, what is seen of the one that is open, tools, and an answer. All of it is the model's. */
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
-import { block, failure, lookTitle } from "./parts.js";
+import { block, lookTitle } from "./parts.js";
 
 const STATES = { new: "not answered", wrong: "answered wrongly so far", shown: "answer looked at", solved: "solved" };
 const SLOW = 1500; // ms after which a click that the kernel has not taken is explained
@@ -116,10 +116,8 @@ class LabView {
 
   #drawTrouble() {
     const trouble = this.model.get("trouble");
-    setAttribute(this.trouble, "hidden", !trouble.words);
-    if (same(trouble, this.drawn.trouble)) return;
-    this.drawn.trouble = trouble;
-    this.trouble.replaceChildren(...(trouble.words ? failure(trouble) : []));
+    setAttribute(this.trouble, "hidden", !trouble);
+    say(this.trouble, trouble && `The case could not be set up. ${trouble}`);
   }
 
   /** @param {any} open */

@@ -11,7 +11,6 @@ from typing import Any, Protocol
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.probes import TOOLS
 from course_pkg.faults.program import Program, Seen
-from course_pkg.graph.explanations import explain
 from course_pkg.graph.explanations.explanation import taught
 from course_pkg.panels.breakit.cases import Case, meant
 from course_pkg.panels.breakit.store import CaseRecord, CaseStore
@@ -94,7 +93,7 @@ class LabModel:
                 "remedies": list(case.remedies),
                 "verdict": {},
             }
-            self._tell(trouble={})
+            self._tell(trouble="")
         self._worker.do(partial(self._begin, case))
 
     def use(self, tool: str) -> None:
@@ -193,10 +192,9 @@ class LabModel:
 
     def _failed(self, error: Exception) -> None:
         self._clear()
-        said = {"words": f"{type(error).__name__}: {error}", **explain(error).as_dict()}
         with self._turn:
             self._state["phase"] = "over"
-            self._tell(trouble=said)
+            self._tell(trouble=f"{type(error).__name__}: {error}")
 
     def _server(self) -> str:
         """Return the text of the program that serves in this case, "" where none does."""

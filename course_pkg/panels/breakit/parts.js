@@ -1,5 +1,5 @@
 /* What is seen of a case: a program or a command, and what it printed. */
-import { h, prose } from "../kit.js";
+import { h } from "../kit.js";
 
 /** @typedef {{number: number, tool: string, shown: string, said: string, verdict: string, waiting: boolean}} Look */
 
@@ -16,12 +16,6 @@ export function block(look) {
 /** @param {Look} look @param {{name: string, label: string}[]} tools */
 export function lookTitle(look, tools) {
   return tools.find((tool) => tool.name === look.tool)?.label ?? look.tool;
-}
-
-/** What failed, in its own words, and what that means. @param {{words: string, cause: string, remedy: string}} trouble */
-export function failure(trouble) {
-  return [h("p", {}, h("b", { text: "The case could not be set up. " }), trouble.words), h("p", {}, h("b", { text: "Cause: " }), ...prose(trouble.cause)),
-    h("p", {}, h("b", { text: "What to do: " }), ...prose(trouble.remedy))];
 }
 
 /** @param {string} words */

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
-from traitlets import Dict, List
+from traitlets import Dict, List, Unicode
 
 from course_pkg.faults import Stage, probe
 from course_pkg.panels.breakit.cases import cases
@@ -31,7 +31,7 @@ class BreakIt(Panel):
     cases: List[Any] = List(help="the cases by number, and how each stands").tag(sync=True)
     score = Dict(help="how many are solved, how many at the first try, of how many").tag(sync=True)
     case = Dict(help="the case that is open, what was seen of it, and the verdict").tag(sync=True)
-    trouble = Dict(help="why a case could not be set up, and what to do about it").tag(sync=True)
+    trouble = Unicode(help="why a case could not be set up").tag(sync=True)
 
     def __init__(self, *chosen: str, store: CaseStore | None = None) -> None:
         listed = cases(*chosen)
