@@ -79,7 +79,7 @@ def mathml(formula: str, display: Literal["inline", "block"]) -> str:
     from latex2mathml.converter import convert  # few pages have one
 
     try:
-        return convert(formula.strip(), display=display)
+        return str(convert(formula.strip(), display=display))
     except Exception as error:  # its errors have no class in common
         raise SiteError(f"The formula ${formula}$ cannot be read: {type(error).__name__} {error}") from error
 
