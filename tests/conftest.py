@@ -15,14 +15,14 @@ ANSWERS, NOTEBOOKS = "tests/examiner/test_answers.py", "tests/notebooks/test_val
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests on one worker (`--dist loadgroup`), and begin with what takes longest.
+    """Keep a file's tests on one worker (`--dist loadgroup`), and begin with the two files that take longest.
 
-    The tests of a file share a master, or a browser; each notebook has its own of everything.
+    The tests of a file share a master, or a browser.
     """
     files = {item: item.path.relative_to(item.config.rootpath).as_posix() for item in items}
     items.sort(key=lambda item: (files[item] != ANSWERS, files[item] != NOTEBOOKS))
     for item, file in files.items():
-        item.add_marker(pytest.mark.xdist_group(item.nodeid if file == NOTEBOOKS else file))
+        item.add_marker(pytest.mark.xdist_group(file))
 
 
 @pytest.fixture(scope="session")

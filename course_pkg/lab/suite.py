@@ -38,7 +38,7 @@ def run_suite(arguments: Sequence[str]) -> int:
         )
     tools = {} if arguments else CHECKS
     failed = [name for name, command in tools.items() if not _passes(places, name, command)]
-    workers = os.cpu_count() or 2  # more would starve each other: what is waited for has deadlines
+    workers = (os.cpu_count() or 2) + 1  # one goes through the notebooks, which mostly wait
     spread = [] if arguments else ["-n", str(workers), "--dist", "loadgroup", "--no-loadscope-reorder"]
     status = _tests(places, *spread, *arguments)
     if status == TESTS_FAILED and not arguments:
