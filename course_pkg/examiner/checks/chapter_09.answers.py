@@ -26,6 +26,22 @@ def pack_header(fields):
 
     return sized(b"".join(sized((name + "=" + value).encode("utf-8")) for name, value in fields.items()))
 
+# %% 09.1 right: library, sorted
+import rosgraph.network
+def pack_header(fields):
+    return rosgraph.network.encode_ros_handshake_header(fields)
+
+# %% 09.1 right: sorted by name, into a buffer
+import io
+def pack_header(fields):
+    buffer = io.BytesIO()
+    for name in sorted(fields):
+        line = bytes(f"{name}={fields[name]}", "utf8")
+        buffer.write(struct.pack("<L", len(line)))
+        buffer.write(line)
+    body = buffer.getvalue()
+    return struct.pack("<I%ds" % len(body), len(body), body)
+
 # %% 09.1 wrong: big-endian | hint: Least byte first
 def pack_header(fields):
     body = b""
@@ -88,6 +104,48 @@ def pack_header(fields):
 def pack_header(fields):
     return "\n".join(f"{name}={value}" for name, value in fields.items())
 
+# %% 09.1 wrong: ascii | hint: which knows every letter
+def pack_header(fields):
+    body = b""
+    for name, value in fields.items():
+        text = f"{name}={value}".encode("ascii")
+        body += struct.pack("<I", len(text)) + text
+    return struct.pack("<I", len(body)) + body
+
+# %% 09.1 wrong: latin-1 | hint: in which ü is two bytes
+def pack_header(fields):
+    body = b""
+    for name, value in fields.items():
+        text = f"{name}={value}".encode("latin-1")
+        body += struct.pack("<I", len(text)) + text
+    return struct.pack("<I", len(body)) + body
+
+# %% 09.1 wrong: list of ints | hint: bytes(...) makes them
+def pack_header(fields):
+    body = []
+    for name, value in fields.items():
+        text = list(f"{name}={value}".encode())
+        body += list(struct.pack("<I", len(text))) + text
+    return list(struct.pack("<I", len(body))) + body
+
+# %% 09.1 wrong: two-byte lengths | hint: a number of 4 bytes
+def pack_header(fields):
+    body = b""
+    for name, value in fields.items():
+        text = f"{name}={value}".encode()
+        body += struct.pack("<H", len(text)) + text
+    return struct.pack("<H", len(body)) + body
+
+# %% 09.1 wrong: nothing for no field | hint: No field makes a header
+def pack_header(fields):
+    if not fields:
+        return b""
+    body = b""
+    for name, value in fields.items():
+        text = f"{name}={value}".encode()
+        body += struct.pack("<I", len(text)) + text
+    return struct.pack("<I", len(body)) + body
+
 # %% 09.2 right: adds up
 def receive(sock, count):
     data = b""
@@ -115,6 +173,21 @@ def receive(sock, count):
     if len(data) < count:
         raise ConnectionError("the other end has closed")
     return data
+
+# %% 09.2 right: peeks until all are there
+def receive(sock, count):
+    while count:
+        seen = sock.recv(count, socket.MSG_PEEK)
+        if len(seen) == count:
+            break
+        if not seen:
+            raise ConnectionError("closed")
+        time.sleep(0.01)
+        before = seen
+        if len(sock.recv(count, socket.MSG_PEEK | socket.MSG_DONTWAIT)) == len(before):
+            return sock.recv(len(seen)) + receive(sock, count - len(seen))
+    return sock.recv(count)
+import time
 
 # %% 09.2 wrong: once | hint: recv returned what was there
 def receive(sock, count):
@@ -171,6 +244,62 @@ def receive(sock, count):
     data = b""
     while len(data) < count:
         data += sock.recv(count - len(data))
+
+# %% 09.2 wrong: a short piece is taken for the end | hint: Go on until all have come
+def receive(sock, count):
+    data = sock.recv(count)
+    if len(data) < count:
+        raise ConnectionError("too short")
+    return data
+
+# %% 09.2 wrong: buffered file | hint: unless buffering=0
+def receive(sock, count):
+    data = sock.makefile("rb").read(count)
+    if len(data) < count:
+        raise ConnectionError("too short")
+    return data
+
+# %% 09.2 wrong: sleeps | hint: Go on until all have come
+import time
+def receive(sock, count):
+    time.sleep(0.2)
+    data = sock.recv(count)
+    if len(data) < count:
+        raise ConnectionError("too short")
+    return data
+
+# %% 09.2 wrong: none due is taken for an end | hint: None were due
+def receive(sock, count):
+    data = b""
+    while True:
+        piece = sock.recv(count - len(data))
+        if not piece:
+            raise ConnectionError("closed")
+        data += piece
+        if len(data) == count:
+            return data
+
+# %% 09.2 wrong: a list of pieces | hint: Those are the pieces
+def receive(sock, count):
+    pieces = []
+    while count > 0:
+        piece = sock.recv(count)
+        if not piece:
+            raise ConnectionError("closed")
+        pieces.append(piece)
+        count -= len(piece)
+    return pieces
+
+# %% 09.2 wrong: closes the socket | hint: The socket is closed
+def receive(sock, count):
+    with sock:
+        data = b""
+        while len(data) < count:
+            piece = sock.recv(count - len(data))
+            if not piece:
+                raise ConnectionError("closed")
+            data += piece
+        return data
 
 # %% 09.3 before
 def pack_header(fields):
@@ -247,6 +376,35 @@ def ask(uri, service, length, width, height):
         return [response.area, response.volume]
     finally:
         stream.close()
+        sock.close()
+
+# %% 09.3 right: says in a comment what it is for
+from rospy.core import parse_rosrpc_uri
+def ask(uri, service, length, width, height):
+    """Call as rospy.ServiceProxy does, with a socket alone; see also rosservice."""
+    # no node.call here
+    host, port = parse_rosrpc_uri(uri)
+    sock = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    sock.settimeout(5)
+    sock.connect((host, port))
+    try:
+        sock.sendall(pack_header(dict(callerid=rospy.get_name(), md5sum=geometry._md5sum, service=service, type="course_pkg/geometry")))
+        n, = struct.unpack("<I", receive(sock, 4))
+        answer = read_header(receive(sock, n))
+        if answer.get("error") is not None:
+            raise rospy.ServiceException(answer["error"])
+        request = struct.pack("<fff", length, width, height)
+        sock.send(struct.pack("<I", len(request)))
+        sock.send(request)
+        ok = receive(sock, 1)
+        n = struct.unpack("<I", receive(sock, 4))[0]
+        body = receive(sock, n)
+        if ok != b"\x01":
+            raise rospy.ServiceException(f"{service}: {body.decode()}")
+        area, = struct.unpack("<f", body[:4])
+        volume, = struct.unpack("<f", body[4:])
+        return area, volume
+    finally:
         sock.close()
 
 # %% 09.3 wrong: lets a proxy do it | hint: Let no proxy do it for you
@@ -398,6 +556,56 @@ def ask(uri, service, length, width, height):
         receive(sock, 5)
         return struct.unpack("<2f", receive(sock, 8))
 
+# %% 09.3 wrong: RuntimeError for no | hint: The error has to be a rospy.ServiceException
+def ask(uri, service, length, width, height):
+    host, port = uri.removeprefix("rosrpc://").split(":")
+    with socket.create_connection((host, int(port)), timeout=5) as sock:
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        theirs = read_header(receive(sock, size))
+        if "error" in theirs:
+            raise RuntimeError(theirs["error"])
+        sock.sendall(struct.pack("<I3f", 12, length, width, height))
+        worked, size = struct.unpack("<?I", receive(sock, 5))
+        answer = receive(sock, size)
+    if not worked:
+        raise RuntimeError(answer.decode())
+    return struct.unpack("<2f", answer)
+
+# %% 09.3 wrong: returns a response | hint: Return the two numbers
+from course_pkg.srv import geometryResponse
+def ask(uri, service, length, width, height):
+    host, port = uri.removeprefix("rosrpc://").split(":")
+    with socket.create_connection((host, int(port)), timeout=5) as sock:
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        theirs = read_header(receive(sock, size))
+        if "error" in theirs:
+            raise rospy.ServiceException(theirs["error"])
+        sock.sendall(struct.pack("<I3f", 12, length, width, height))
+        worked, size = struct.unpack("<?I", receive(sock, 5))
+        answer = receive(sock, size)
+    if not worked:
+        raise rospy.ServiceException(answer.decode())
+    return geometryResponse(*struct.unpack("<2f", answer))
+
+# %% 09.3 wrong: sends no request and goes | hint: The header arrived, and no request
+def ask(uri, service, length, width, height):
+    host, port = uri.removeprefix("rosrpc://").split(":")
+    with socket.create_connection((host, int(port)), timeout=5) as sock:
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        theirs = read_header(receive(sock, size))
+    return length * width, length * width * height
+
+# %% 09.3 wrong: forgets the length of the header | hint: The header has to begin with its own length
+def ask(uri, service, length, width, height):
+    host, port = uri.removeprefix("rosrpc://").split(":")
+    with socket.create_connection((host, int(port)), timeout=3) as sock:
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum})[4:])
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        receive(sock, size)
+
 # %% 09.4 right: a dict of pairs
 class Sessions:
     def __init__(self):
@@ -548,6 +756,68 @@ class Sessions:
         total, calls = self.totals.get(session, (0, 0))
         self.totals[session] = total + request.amount, calls + 1
         return AddUpResponse(*self.totals[session])
+
+# %% 09.4 wrong: another exception | hint: Another exception came out
+class Sessions:
+    def __init__(self):
+        self.sessions = {}
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            raise ValueError("the field session is missing")
+        total, calls = self.sessions.get(session, (0, 0))
+        self.sessions[session] = total + request.amount, calls + 1
+        return AddUpResponse(*self.sessions[session])
+
+# %% 09.4 wrong: None for a refusal | hint: The handler returned nothing
+class Sessions:
+    def __init__(self):
+        self.sessions = {}
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            return None
+        total, calls = self.sessions.get(session, (0, 0))
+        self.sessions[session] = total + request.amount, calls + 1
+        return AddUpResponse(*self.sessions[session])
+
+# %% 09.4 wrong: the total before this one | hint: this amount was not added
+class Sessions:
+    def __init__(self):
+        self.sessions = {}
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            raise rospy.ServiceException("no session")
+        total, calls = self.sessions.get(session, (0, 0))
+        self.sessions[session] = total + request.amount, calls + 1
+        return AddUpResponse(total, calls + 1)
+
+# %% 09.4 wrong: total and calls exchanged | hint: the total comes first
+class Sessions:
+    def __init__(self):
+        self.sessions = {}
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            raise rospy.ServiceException("no session")
+        calls, total = self.sessions.get(session, (0, 0))
+        self.sessions[session] = calls + 1, total + request.amount
+        return AddUpResponse(*self.sessions[session])
+
+# %% 09.4 wrong: refuses the second node | hint: Another node may go on
+class Sessions:
+    def __init__(self):
+        self.sessions, self.owner = {}, {}
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            raise rospy.ServiceException("no session")
+        if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
+            raise rospy.ServiceException("this session is not yours")
+        total, calls = self.sessions.get(session, (0, 0))
+        self.sessions[session] = total + request.amount, calls + 1
+        return AddUpResponse(*self.sessions[session])
 
 # %% 09.5 right: by the words of the error
 class Keeper:
@@ -705,6 +975,55 @@ class Keeper:
     def measure(self, length, width, height):
         self.proxy(length, width, height)
 
+# %% 09.5 wrong: three times | hint: It asked again and again
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.connect()
+    def connect(self):
+        self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+    def measure(self, length, width, height):
+        for attempt in range(3):
+            try:
+                return self.proxy(length, width, height)
+            except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
+                if "responded with an error" in str(error):
+                    raise
+                last = error
+                self.proxy.close()
+                self.connect()
+        raise last
+
+# %% 09.5 wrong: recursion without end | hint: It asked again and again
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.connect()
+    def connect(self):
+        self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+    def measure(self, length, width, height):
+        try:
+            return self.proxy(length, width, height)
+        except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
+            if "responded with an error" in str(error):
+                raise
+        self.connect()
+        return self.measure(length, width, height)
+
+# %% 09.5 wrong: the new proxy is not kept | hint: was not kept in self
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+    def measure(self, length, width, height):
+        try:
+            return self.proxy(length, width, height)
+        except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
+            if "responded with an error" in str(error):
+                raise
+        proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+        return proxy(length, width, height)
+
 # %% 09.6 before
 def ask(uri, service, length, width, height):
     host, port = uri.removeprefix("rosrpc://").split(":")
@@ -821,3 +1140,23 @@ class Remembering:
 
     def measure(self, length, width, height):
         ask(self.uri, self.service, length, width, height)
+
+# %% 09.6 wrong: the master first, the memory if it fails | hint: the address that it had was good
+class Remembering:
+    def __init__(self, service):
+        self.service = service
+        self.uri = None
+    def measure(self, length, width, height):
+        try:
+            self.uri = rosgraph.Master(node.name).lookupService(self.service)
+        except rosgraph.MasterError:
+            pass
+        return ask(self.uri, self.service, length, width, height)
+
+# %% 09.6 wrong: a proxy | hint: It looked up again, and the master does not know
+class Remembering:
+    def __init__(self, service):
+        self.proxy = rospy.ServiceProxy(service, geometry)
+    def measure(self, length, width, height):
+        response = self.proxy(length, width, height)
+        return response.area, response.volume

@@ -175,6 +175,42 @@ class Stock:
             self.count -= 1
             return TriggerResponse(success=True, message=str(self.count))
 
+# %% 10.1 wrong: sold out as an error | hint: Sold out is an ordinary answer
+class Stock:
+    def __init__(self, shelf):
+        self.shelf, self.lock = shelf, threading.Lock()
+    def handle_take(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                raise rospy.ServiceException("sold out")
+            self.shelf.write(count - 1)
+        return TriggerResponse(success=True, message=str(count - 1))
+
+# %% 10.1 wrong: a number for a message | hint: The message is text
+class Stock:
+    def __init__(self, shelf):
+        self.shelf, self.lock = shelf, threading.Lock()
+    def handle_take(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        return TriggerResponse(success=True, message=count - 1)
+
+# %% 10.1 wrong: reads under the lock, writes outside | hint: under one lock
+class Stock:
+    def __init__(self, shelf):
+        self.shelf, self.lock = shelf, threading.Lock()
+    def handle_take(self, request):
+        with self.lock:
+            count = self.shelf.read()
+        if count == 0:
+            return TriggerResponse(success=False, message="sold out")
+        self.shelf.write(count - 1)
+        return TriggerResponse(success=True, message=str(count - 1))
+
 # %% 10.2 right: reserve, pay, put back
 class Shop:
     def __init__(self, shelf, cents, till):
@@ -405,6 +441,119 @@ class Shop:
         receipt = node.call(self.till, Charge, cents=self.cents).receipt
         return TriggerResponse(success=True, message=str(receipt))
 
+# %% 10.2 wrong: another word for sold out | hint: the words sold out
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="nothing left")
+            self.shelf.write(count - 1)
+        try:
+            receipt = node.call(self.till, Charge, str(uuid.uuid4()), self.cents).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            with self.lock:
+                self.shelf.write(self.shelf.read() + 1)
+            return TriggerResponse(success=False, message=str(error))
+        return TriggerResponse(success=True, message=str(receipt))
+
+# %% 10.2 wrong: does not say why | hint: Say why
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        try:
+            receipt = node.call(self.till, Charge, str(uuid.uuid4()), self.cents).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            with self.lock:
+                self.shelf.write(self.shelf.read() + 1)
+            return TriggerResponse(success=False)
+        return TriggerResponse(success=True, message=str(receipt))
+
+# %% 10.2 wrong: tries the till again | hint: was asked again
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        request_id = str(uuid.uuid4())
+        for _ in range(3):
+            try:
+                receipt = node.call(self.till, Charge, request_id, self.cents).receipt
+                return TriggerResponse(success=True, message=str(receipt))
+            except (rospy.ServiceException, CallTimeout) as error:
+                why = str(error)
+        with self.lock:
+            self.shelf.write(self.shelf.read() + 1)
+        return TriggerResponse(success=False, message=why)
+
+# %% 10.2 wrong: the id is what is left | hint: Make the id in the handler
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        try:
+            receipt = node.call(self.till, Charge, f"purchase {count}", self.cents).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            with self.lock:
+                self.shelf.write(self.shelf.read() + 1)
+            return TriggerResponse(success=False, message=str(error))
+        return TriggerResponse(success=True, message=str(receipt))
+
+# %% 10.2 wrong: sold out as an error | hint: Sold out is an ordinary answer
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                raise rospy.ServiceException("sold out")
+            self.shelf.write(count - 1)
+        try:
+            receipt = node.call(self.till, Charge, str(uuid.uuid4()), self.cents).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            with self.lock:
+                self.shelf.write(self.shelf.read() + 1)
+            return TriggerResponse(success=False, message=str(error))
+        return TriggerResponse(success=True, message=str(receipt))
+
 # %% 10.3 right: a dict under a lock
 class Till:
     def __init__(self, purse):
@@ -440,6 +589,31 @@ class Till:
                 self.purse.take(request.cents)
                 known = self.done[request.request_id] = ChargeResponse(next(self.numbers))
         return known
+
+# %% 10.3 right: futures, receipts from 0
+from concurrent.futures import Future
+class Till:
+    def __init__(self, purse):
+        self.purse, self.lock = purse, threading.Lock()
+        self.under_way, self.count = {}, 0
+    def handle_charge(self, request):
+        if len(request.request_id) == 0:
+            raise rospy.ServiceException("empty id")
+        with self.lock:
+            first = request.request_id not in self.under_way
+            future = self.under_way.setdefault(request.request_id, Future())
+        if first:
+            try:
+                self.purse.take(request.cents)
+            except Exception as error:
+                with self.lock:
+                    del self.under_way[request.request_id]
+                future.set_exception(error)
+                raise rospy.ServiceException(f"the purse: {error}")
+            with self.lock:
+                number, self.count = self.count, self.count + 1
+            future.set_result(number)
+        return {"receipt": future.result()}
 
 # %% 10.3 wrong: charges whatever comes | hint: came again, and was charged again
 class Till:
@@ -596,6 +770,31 @@ class Till:
                 self.receipts[request.request_id] = len(self.receipts) + 1
             return ChargeResponse(receipt=self.receipts[request.request_id])
 
+# %% 10.3 wrong: nothing for an empty id | hint: The handler returned nothing
+class Till:
+    def __init__(self, purse):
+        self.purse, self.receipts, self.lock = purse, {}, threading.Lock()
+    def handle_charge(self, request):
+        if not request.request_id:
+            return None
+        with self.lock:
+            if request.request_id not in self.receipts:
+                self.purse.take(request.cents)
+                self.receipts[request.request_id] = len(self.receipts) + 1
+            return ChargeResponse(receipt=self.receipts[request.request_id])
+
+# %% 10.3 wrong: forgets to return | hint: Return a ChargeResponse
+class Till:
+    def __init__(self, purse):
+        self.purse, self.receipts, self.lock = purse, {}, threading.Lock()
+    def handle_charge(self, request):
+        if not request.request_id:
+            raise rospy.ServiceException("no id")
+        with self.lock:
+            if request.request_id not in self.receipts:
+                self.purse.take(request.cents)
+                self.receipts[request.request_id] = len(self.receipts) + 1
+
 # %% 10.4 right: a loop with a clock
 def pay(till, cents, deadline):
     request_id = str(uuid.uuid4())
@@ -641,6 +840,31 @@ def pay(till, cents, deadline):
             return once(ask, request, min(0.5, left))
         except Failed:
             rospy.sleep(min(0.1 * 2**number, left))
+
+# %% 10.4 right: a generator of pauses, tripled
+def pauses():
+    pause = 0.1
+    while True:
+        yield pause
+        pause *= 3
+
+def pay(till, cents, deadline):
+    request = Charge._request_class(str(uuid.uuid4()), cents)
+    over = time.time() + deadline
+    for pause in pauses():
+        left = over - time.time()
+        if left <= 0:
+            return None
+        try:
+            response = node.call(till, Charge, request, timeout=min(left, 0.5))
+        except CallTimeout:
+            pass
+        except rospy.ServiceException as error:
+            if "cannot process request" in str(error):
+                raise
+        else:
+            return response.receipt
+        time.sleep(max(0, min(pause, over - time.time())))
 
 # %% 10.4 wrong: tries once | hint: One failed try ended everything
 def pay(till, cents, deadline):
@@ -810,19 +1034,121 @@ def pay(till, cents, deadline):
         time.sleep(0.1)
     return None
 
-# %% 10.4 wrong: goes on after the deadline | hint: It went on after the deadline
+# %% 10.4 wrong: two seconds for a try | hint: had more
 def pay(till, cents, deadline):
     request_id = str(uuid.uuid4())
-    pause = 0.1
-    for _ in range(5):
+    end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(2, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    return None
+
+# %% 10.4 wrong: a tenth of a second for a try | hint: had less
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.1, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    return None
+
+# %% 10.4 wrong: half a second, whatever is left | hint: no more than what is left
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    while time.monotonic() < end:
         try:
             return node.call(till, Charge, request_id, cents, timeout=0.5).receipt
         except (rospy.ServiceException, CallTimeout) as error:
             if "cannot process request" in str(error):
                 raise
-        time.sleep(pause)
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
         pause *= 2
     return None
+
+# %% 10.4 wrong: adds to the pause | hint: Double the pause
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.5, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause += 0.1
+    return None
+
+# %% 10.4 wrong: begins with a shorter pause | hint: time.sleep(pause) after a try that failed
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.05
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.5, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    return None
+
+# %% 10.4 wrong: five times | hint: you had given up
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    for _ in range(5):
+        rest = end - time.monotonic()
+        if rest <= 0:
+            break
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.5, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    return None
+
+# %% 10.4 wrong: counts the pauses only | hint: It went on after the deadline
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    waited, pause = 0, 0.1
+    while waited < deadline:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.5, deadline)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(pause)
+        waited += pause
+        pause *= 2
+    return None
+
+# %% 10.4 wrong: raises when the deadline has passed | hint: raise nothing
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return node.call(till, Charge, request_id, cents, timeout=min(0.5, rest)).receipt
+        except (rospy.ServiceException, CallTimeout) as error:
+            if "cannot process request" in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    raise CallTimeout("nobody knows")
 
 # %% 10.5 right: a lock between look and stop
 class Watchdog:
@@ -879,6 +1205,53 @@ class Watchdog(threading.Thread):
     def stop(self):
         self.going = False
         self.join()
+
+# %% 10.5 right: by the state of the system
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.name, self.uri, self.master, self.every = name, uri, master, every
+        self.alive, self.lock = True, threading.Lock()
+        self.thread = threading.Thread(target=self.watch, daemon=True)
+        self.thread.start()
+    def watch(self):
+        while self.alive:
+            with self.lock:
+                if self.alive:
+                    try:
+                        publishers, subscribers, services = self.master.getSystemState()
+                        if self.name not in dict(services):
+                            self.master.registerService(self.name, self.uri, rospy.get_node_uri())
+                    except Exception as error:
+                        print(error)
+            time.sleep(self.every)
+    def stop(self):
+        with self.lock:
+            self.alive = False
+
+# %% 10.5 right: over the handle, is_online first, rate
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.name, self.uri, self.master = name, uri, master
+        self.rate = rospy.Rate(1 / every)
+        self.quit = threading.Event()
+        self.done = threading.Event()
+        threading.Thread(target=self.loop, daemon=True).start()
+    def loop(self):
+        try:
+            while not self.quit.is_set():
+                if self.master.is_online():
+                    try:
+                        code, _, _ = self.master.handle.lookupService(self.master.caller_id, self.name)
+                        if code != 1:
+                            self.master.registerService(self.name, self.uri, rospy.get_node_uri())
+                    except OSError:
+                        pass
+                self.rate.sleep()
+        finally:
+            self.done.set()
+    def stop(self):
+        self.quit.set()
+        self.done.wait()
 
 # %% 10.5 wrong: looks once | hint: is not told
 class Watchdog:
@@ -1036,6 +1409,83 @@ class Watchdog:
         with self.lock:
             self.over = True
 
+# %% 10.5 wrong: asks the kernel's own master | hint: The master that it was given was never asked
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.uri, self.master, self.every = name, uri, rosgraph.Master(rospy.get_name()), every
+        self.over = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+    def run(self):
+        while not self.over.wait(self.every):
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+            except OSError:
+                continue
+    def stop(self):
+        self.over.set()
+        self.thread.join()
+
+# %% 10.5 wrong: looks without a pause | hint: there is no pause
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.uri, self.master, self.every = name, uri, master, every
+        self.over = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+    def run(self):
+        while not self.over.is_set():
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+            except OSError:
+                continue
+    def stop(self):
+        self.over.set()
+        self.thread.join()
+
+# %% 10.5 wrong: no pause after a look that failed | hint: also after a look that failed
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.uri, self.master, self.every = name, uri, master, every
+        self.over = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+    def run(self):
+        while not self.over.is_set():
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+            except OSError:
+                continue
+            time.sleep(self.every)
+    def stop(self):
+        self.over.set()
+        self.thread.join()
+
+# %% 10.5 wrong: looks at a flag before it registers | hint: stop() returned in the middle of a look
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.uri, self.master, self.every = name, uri, master, every
+        self.over = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+    def run(self):
+        while not self.over.wait(self.every):
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                if not self.over.is_set():
+                    self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+            except OSError:
+                continue
+    def stop(self):
+        self.over.set()
+
 # %% 10.6 right: one after the other
 diagnosis = {
     "A": "killed",
@@ -1119,3 +1569,6 @@ diagnosis = {
     "F": "repeated",
     "G": "two providers",
 }
+
+# %% 10.6 wrong: sets | hint: Take the words of the list of causes
+diagnosis = {"A": {"killed"}, "B": {"new master"}, "C": {"frozen"}, "D": {"lock"}, "E": {"race"}, "F": {"repeated"}, "G": {"two providers"}}

@@ -46,6 +46,9 @@ def a_connection_that_comes_back(exam: Exam) -> None:
     _one_connection(exam, server, "a refusal is no reason to connect anew")
     acts.insert(0, HangUp())
     _measures(exam, client, "a broken connection is made anew", volumes[4])
+    _broken_again(exam, client, server)
+    acts.append({"volume": volumes[6]})
+    _measures(exam, client, "a broken connection is made anew", volumes[6])
     server.leave()
     _gone(exam, client)
     moved = exam.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
@@ -102,6 +105,27 @@ def _refused(exam: Exam, client: Client, server: ScriptedServer) -> None:
         expected=1,
         seen=len(server.requests) - before,
         hints="The connection was well, and the answer was no. Ask again only if the connection broke.",
+    )
+
+
+def _broken_again(exam: Exam, client: Client, server: ScriptedServer) -> None:
+    """Break the connection, and the one that is made after it, and whatever comes then."""
+    before = len(server.requests)
+    outcome = client.measure(BROKEN)
+    asked = len(server.requests) - before
+    exam.hold(
+        "a broken connection is made anew",
+        asked == 2 and bool(outcome.error) and not outcome.error.startswith("TimesUp"),
+        expected="2 requests, and an error where the second connection broke, too",
+        seen=f"{asked}, and {outcome.error or 'a value'}",
+        hints=[
+            ((lambda _: asked > 2), "It asked again and again. Ask once more, and not until it works."),
+            (
+                (lambda _: asked < 2),
+                "The proxy that was made after the last break was not kept in self, or it was not asked.",
+            ),
+            (says(""), "Nothing was measured: let the second error come out."),
+        ],
     )
 
 

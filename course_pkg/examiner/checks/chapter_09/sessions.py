@@ -9,7 +9,8 @@ from course_pkg.examiner.plain import Message, ServiceClass
 from course_pkg.graph.calls import BoundedProxy
 
 NAME, KIND = "/my_add_up", "course_pkg/AddUp"
-PATIENCE = 2.0  # s for a call
+PATIENCE = 4.0  # s for a call, on a machine that is busy
+REFUSED = "It was refused, and its header had the field session. Look in request._connection_header."
 
 
 @part(
@@ -34,7 +35,8 @@ def a_total_for_each(exam: Exam) -> None:
         answer = _asked(exam, kind, amount, {"session": session})
         _right(exam, answer, amount, totals[session], counts[session], everything)
     more = exam.draw.integer(1000, 2000)
-    answer = _asked(exam, kind, more, {"session": first, "callerid": f"/{exam.draw.word()}"})
+    header = {"session": first, "callerid": f"/{exam.draw.word()}"}
+    answer = _asked(exam, kind, more, header, "Another node may go on with a session: it goes by the name.")
     exam.expect(
         "a session goes on from another node",
         expected=totals[first] + more,
@@ -52,7 +54,9 @@ def _right(exam: Exam, answer: Message, amount: int, total: int, calls: int, eve
         hints={
             amount: "That is this amount alone: what was added up before has to be kept, in self.",
             everything: "That is everybody's amounts in one total. Keep one for each session, in a dict.",
-            0: "total is 0, as a field is that is left out.",
+            total - amount: "That is what this session had before. Add the amount to it.",
+            calls: "That is the number of calls. AddUpResponse(total, calls): the total comes first.",
+            0: "total is 0: the field is left out, or this amount was not added.",
             says(""): "Add the amount to what this session had before, and return the sum.",
         },
     )
@@ -61,7 +65,7 @@ def _right(exam: Exam, answer: Message, amount: int, total: int, calls: int, eve
         expected=calls,
         seen=answer.calls,
         hints={
-            0: "calls is 0, as a field is that is left out.",
+            0: "calls is 0, as a field is that is left out, or this call is not counted.",
             says(""): "Count for each session apart, as with the total.",
         },
     )
@@ -86,15 +90,25 @@ def _without(exam: Exam, kind: ServiceClass) -> None:
                     "Nobody knows whose total that is. Look whether the field is there and not empty; "
                     "raise rospy.ServiceException if not."
                 ),
-                says("error processing request"): (
+                says("error processing request: 'session'|NoneType"): (
                     "The handler stumbled over the missing field. Look for it with .get, and refuse."
+                ),
+                says("error processing request"): (
+                    "Another exception came out of the handler. Look for the field with .get, and refuse by "
+                    "rospy.ServiceException."
+                ),
+                says("returned None"): (
+                    "The handler returned nothing, and rospy says so in words of its own. Refuse: raise "
+                    "rospy.ServiceException with words that name the field session."
                 ),
                 says(""): "Name the field in the refusal: session. Then a programmer knows what to add.",
             },
         )
 
 
-def _asked(exam: Exam, kind: ServiceClass, amount: int, headers: dict[str, str]) -> Message:
+def _asked(
+    exam: Exam, kind: ServiceClass, amount: int, headers: dict[str, str], refused: str = REFUSED
+) -> Message:
     try:
         return _called(kind, amount, headers)
     except rospy.ServiceException as error:
@@ -102,11 +116,11 @@ def _asked(exam: Exam, kind: ServiceClass, amount: int, headers: dict[str, str])
             "a call with a session is answered",
             expected="a response",
             seen=str(error),
-            hint=_why(str(error)),
+            hint=_why(str(error), refused),
         )
 
 
-def _why(words: str) -> str:
+def _why(words: str, refused: str) -> str:
     if "returned None" in words:
         return "Return an AddUpResponse: a function without a return line gives None."
     if "_connection_header" in words or "attribute" in words:
@@ -114,7 +128,7 @@ def _why(words: str) -> str:
     if "error processing request: '" in words:
         return "A session that calls for the first time is in no dict yet: begin with 0."
     if "cannot process request" in words:
-        return "It was refused, and its header had the field session. Look in request._connection_header."
+        return refused
     return "Read the error: it comes from the handler."
 
 

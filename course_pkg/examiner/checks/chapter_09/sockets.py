@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import ast
+import textwrap
 from typing import Any
 
 from course_pkg.examiner import Exam, part, says
 from course_pkg.examiner.checks.chapter_09.clients import GEOMETRY
-from course_pkg.examiner.checks.chapter_09.odd_server import Heard, OddServer
+from course_pkg.examiner.checks.chapter_09.odd_server import PATIENCE, Heard, OddServer
 from course_pkg.examiner.outcome import Outcome
+from course_pkg.examiner.waiting import until
 
+FOREIGN = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 SLIPS = {
     "nothing": "It connected, and said nothing. The client speaks first: send the connection header.",
     "big-endian header": "The length of the header is big-endian here. Use pack_header.",
@@ -34,7 +38,7 @@ def a_call_by_socket(exam: Exam) -> None:
     """Answer at once, and then drop by drop; turn the client away; refuse."""
     exam.hold(
         "there is nothing but a socket",
-        not says(r"ServiceProxy|node\.call|BoundedProxy|rosservice").search(exam.source("ask")),
+        not FOREIGN & _names(exam.source("ask")),
         expected="a socket",
         seen="a call by ROS's own client",
         hints="Let no proxy do it for you: connect a socket to the address, and send the bytes.",
@@ -44,6 +48,17 @@ def a_call_by_socket(exam: Exam) -> None:
     words = f"no {exam.draw.word()} today"
     _refused(exam, f"request from [/you]: {words}", words, turns_away=True)
     _refused(exam, f"service cannot process request: {words}", words, turns_away=False)
+
+
+def _names(source: str) -> set[str]:
+    """Return the names that the code of a function uses; what comments and docstrings name is no use."""
+    try:
+        nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
+    except SyntaxError:  # a lambda in the middle of something
+        return set()
+    return {node.id for node in nodes if isinstance(node, ast.Name)} | {
+        node.attr for node in nodes if isinstance(node, ast.Attribute)
+    }
 
 
 def _answered(exam: Exam, *, drips: bool) -> None:
@@ -68,6 +83,7 @@ def _answered(exam: Exam, *, drips: bool) -> None:
         near=1e-6,
         hints=[
             (None, "Nothing was returned: a function without a return line gives None."),
+            ((lambda seen: isinstance(seen, dict)), "Return the two numbers, as a tuple: (area, volume)."),
             ([volume, area], "That is the volume first. The definition has the area first."),
             (
                 (lambda seen: isinstance(seen[0], int)),
@@ -87,6 +103,7 @@ def _conversation(exam: Exam, server: OddServer, outcome: Outcome) -> Heard:
         hints="Host and port stand in the address, rosrpc://HOST:PORT. Connect to these.",
     )
     heard = server.heard[0]
+    until(lambda: heard.over, PATIENCE + 1.0)
     exam.hold(
         "what is sent is TCPROS",
         heard.slip not in SLIPS,
@@ -140,7 +157,10 @@ def _refused(exam: Exam, said: str, words: str, *, turns_away: bool) -> None:
         "ServiceException",
         saying=words,
         hints={
-            says("ServiceException"): f"Put the server's own words into the error. {hint}",
+            says("^ServiceException"): f"Put the server's own words into the error. {hint}",
+            says(
+                f"^(?!TimesUp).*{words}"
+            ): "Those are its words. The error has to be a rospy.ServiceException.",
             says(""): hint,
         },
     )
@@ -153,7 +173,8 @@ def _errors(drips: bool) -> dict[Any, str]:
     return {
         says("unpack|struct.error|^TimesUp|ConnectionError|timed out|IndexError"): slowly
         if drips
-        else "The reply is an ok byte, 4 bytes of length, and then so many bytes: read them in this order.",
+        else "The reply is an ok byte, 4 bytes of length, and then so many bytes: read them in this order, "
+        "behind the whole of the server's header.",
         says("gaierror|invalid literal|Name or service"): (
             "The address is rosrpc://HOST:PORT. Take host and port out of it, the port as a number."
         ),

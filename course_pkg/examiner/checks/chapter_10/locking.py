@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
-from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TRIGGER
+from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TEXT, TRIGGER
 
 STUCK = (
     "A caller waits for ever: somebody took the lock and never gave it back. `with self.lock:` gives it back "
     "on every way out, a return and an exception too; and who holds it must not take it once more."
 )
 ERRORS = {
+    **TEXT,
     says("TimesUp"): STUCK,
+    says("cannot process request: '?b?'?sold out"): (
+        "Sold out is an ordinary answer: success=False, and no error."
+    ),
     says("release unlocked|un-acquired"): "A lock is given back that nobody holds. Let `with` do both.",
     says("has no attribute 'lock'"): "Make the lock in __init__, once, and keep it in self.",
 }
@@ -97,9 +101,9 @@ def _all(exam: Exam, take: Service, count: int) -> None:
     )
     exam.hold(
         f"{CALLERS} callers at once: no two get the same one",
-        sorted(map(int, sold)) == list(range(count)),
+        sorted(sold) == sorted(map(str, range(count))),
         expected="every number of what is left, once",
-        seen=", ".join(sorted({message for message in sold if sold.count(message) > 1}, key=int)),
+        seen=", ".join(sorted({message for message in sold if sold.count(message) > 1})),
         hints=TWICE,
     )
     exam.expect(

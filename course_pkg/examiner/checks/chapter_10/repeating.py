@@ -66,6 +66,7 @@ REFUSED = (
     "give the "
     "same answer again."
 )
+NOTHING = "Return a ChargeResponse, on every way out: a function without a return line gives None."
 STUCK = (
     "Nobody is answered any more after a purse that failed: the lock was taken and not given back. `with "
     "self.lock:` gives it back also when something is raised."
@@ -85,7 +86,7 @@ def charge_once(exam: Exam) -> None:
     exam.prepare(A_PURSE)
     opened = exam.run("checked_desk.open", Its("Till"), name, worded="Till(purse)")
     exam.hold("a Till is made from a purse", not opened.error, seen=opened.error)
-    hints = {says("TimesUp"): STUCK, says("cannot process request"): REFUSED}
+    hints = {says("TimesUp"): STUCK, says("returned None"): NOTHING, says("cannot process request"): REFUSED}
     charge = exam.service(name, CHARGE, hints=hints, timeout=ONE)
     crowd = exam.service(name, CHARGE, hints=hints, timeout=PATIENCE)
     try:
@@ -168,10 +169,14 @@ def _stuck(exam: Exam, charge: Service) -> None:
 def _unnamed(exam: Exam, charge: Service) -> None:
     charge.refused(
         "a request without an id is refused",
-        saying="cannot process request",
+        saying="cannot process request: (?!service handler returned None)",
         request_id="",
         cents=exam.draw.integer(2000, 2900),
         hints={
+            says("returned None"): (
+                "The handler returned nothing, and rospy says so in words of its own. Refuse: raise "
+                "rospy.ServiceException(...)."
+            ),
             says(
                 "error processing"
             ): "Another exception came out of the handler. Refuse by rospy.ServiceException.",

@@ -7,7 +7,7 @@ import threading
 from course_pkg.errors import GraphError
 from course_pkg.examiner import Exam, Its, Refuse, part, says
 from course_pkg.examiner.calls import Service
-from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TRIGGER
+from course_pkg.examiner.checks.chapter_10.shelf import A_SHELF, CALLERS, ONE, PATIENCE, TEXT, TRIGGER
 from course_pkg.examiner.plain import Message
 from course_pkg.examiner.scripted import Act, HangUp
 from course_pkg.graph.calls import BoundedProxy
@@ -19,7 +19,7 @@ LOCKED = (
     "call, and /left needs it. Take one from the shelf under the lock, let go of it, and only then call."
 )
 STUCK = "A caller waits for ever: a lock that is taken is given back on every way out. `with` does that."
-ERRORS = {says("TimesUp"): STUCK}
+ERRORS = {**TEXT, says("TimesUp"): STUCK}
 TORN = (
     "Two changed the shelf at the same time, and one of the changes is lost. Reading, deciding and writing "
     "belong under one lock, also where something is put back."
@@ -50,9 +50,9 @@ class Till:
             if asks:
                 self.answers.append("")
             way = self.ways.pop(0) if self.ways else None
+            self.ids.append(request.request_id)
             if way is None:
                 self.charged.append(request.cents)
-                self.ids.append(request.request_id)
             receipt = self._first + len(self.charged)
         if asks:
             self.answers[0] = self._asked_back()
@@ -150,13 +150,23 @@ def _sold(exam: Exam, buying: Service, till: Till, cents: int, count: int) -> No
 def _not_sold(exam: Exam, buying: Service, looking: Service, till: Till, count: int) -> None:
     ways: list[Act | None] = [Refuse("no money on this card"), HangUp()]
     for way in exam.draw.shuffled(ways):
-        till.ways = [way]
+        till.ways, before = [way], len(till.ids)
         response = buying()
+        asked = len(till.ids) - before
         exam.expect(
             "no sale where the till fails",
             expected=False,
             seen=response.success,
-            hints="The till did not charge, and the thing was handed out. Look how the call ended.",
+            hints="The till did not charge, and the thing was handed out. Look how the call ended."
+            if asked == 1
+            else "The till failed, and was asked again. Ask it once: the customer decides what comes next.",
+        )
+        exam.hold(
+            "no sale where the till fails",
+            bool(response.message),
+            expected="a message that says why",
+            seen="an empty one",
+            hints="Say why: the error's own words, str(error), are a good message.",
         )
         exam.expect(
             "what was not paid is on the shelf again",
@@ -175,6 +185,7 @@ def _fifty(exam: Exam, buying: Service, looking: Service, till: Till, count: int
     till.ways = [Refuse("no money on this card")] * 5
     replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
     sold = sum(reply.success for reply in replies)
+    unpaid = 5 - len(till.ways)
     exam.expect(
         f"{CALLERS} at once: who is charged gets something",
         expected=sold,
@@ -196,6 +207,14 @@ def _fifty(exam: Exam, buying: Service, looking: Service, till: Till, count: int
         expected=f"at most {count} sales",
         seen=sold,
         hints=TORN,
+    )
+    others = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]
+    exam.hold(
+        f"{CALLERS} at once: no more is sold than there is",
+        len(others) <= unpaid,
+        expected="sold out, for whoever finds the shelf empty",
+        seen=max(others, key=others.count, default=""),
+        hints="From an empty shelf the answer is success=False and the words sold out.",
     )
     exam.expect(
         f"{CALLERS} at once: nothing is sold twice, nothing is lost",

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from course_pkg.examiner import says
+
 TRIGGER = "std_srvs/Trigger"
 CALLERS = 50
 ONE = 6.0  # s for a call of its own
+TEXT = {says("field message must be"): "The message is text: str(...) makes it of a number."}
 PATIENCE = 20.0  # s for 50 calls at once, on a machine that is busy
 
 # Fifty handlers at once are fifty threads, and behind the walls of grading there is not room for as many
@@ -24,7 +27,8 @@ class SmallStacks:
 small_stacks = SmallStacks()
 """
 
-# A reader waits a moment for somebody else to read the same number. Who is kept out by a lock cannot come.
+# Whoever reads or writes waits a moment for somebody else to read the same number. Who is kept out by a lock
+# cannot come.
 A_SHELF = (
     SMALL_STACKS
     + """
@@ -42,13 +46,18 @@ class CheckedShelf:
         with self.turn:
             seen = self.count
             self.reads += 1
-            mine = self.reads
             self.turn.notify_all()
-            self.turn.wait_for(lambda: self.reads > mine, self.meeting)
+            self.meet()
         return seen
 
     def write(self, count):
-        self.count = count
+        with self.turn:
+            self.meet()
+            self.count = count
+
+    def meet(self):
+        so_far = self.reads
+        self.turn.wait_for(lambda: self.reads > so_far, self.meeting)
 
 
 class CheckedShop:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from contextlib import suppress
 
 from course_pkg.errors import GraphError
@@ -12,6 +13,7 @@ from course_pkg.examiner.waiting import until
 from course_pkg.graph.rpc import MasterClient
 
 EVERY = 0.1  # s between two looks of the watchdog
+CALLS = 4  # of the master, in one look, at most
 SOON = 5.0  # s for something that takes a few looks: a busy machine is no mistake
 LEFT_ALONE = 0.8  # s in which a watchdog that does wrong would have done it
 READY = 15.0  # s for a master to answer
@@ -27,35 +29,39 @@ import rospy
 from std_srvs.srv import Trigger
 
 
-class CheckedMaster(rosgraph.Master):
-    def __init__(self, uri):
-        super().__init__(rospy.get_name(), uri)
+class CheckedHandle:
+    '''What a rosgraph.Master asks over; held up, it knows nobody, and a registration takes its time.'''
+
+    def __init__(self, handle):
+        self.handle = handle
         self.hold, self.inside, self.go = False, threading.Event(), threading.Event()
-        self.registered, self.looks = [], 0
+        self.registered, self.addresses, self.looks = [], [], 0
 
-    def lookupService(self, name):
-        self.looks += 1
-        if not self.hold:
-            return super().lookupService(name)
-        self.inside.set()
-        self.go.wait(5)
-        raise rosgraph.MasterError("no provider")
+    def __getattr__(self, method):
+        return lambda *what: self.asked(method, what)
 
-    def registerService(self, *what):
+    def asked(self, method, what):
         self.looks += 1
-        self.registered.append(time.monotonic())
-        return super().registerService(*what)
+        if method == "registerService":
+            self.addresses.append([str(each) for each in what[2:]])
+            if self.hold:
+                self.inside.set()
+                self.go.wait(5)
+            self.registered.append(time.monotonic())
+        elif self.hold and method == "lookupService":
+            return -1, "no provider", ""
+        elif self.hold and method == "getSystemState":
+            return 1, "current system state", [[], [], []]
+        return getattr(self.handle, method)(*what)
 
 
 class CheckedWatch:
     def open(self, kind, name, uri, every):
         self.service = rospy.Service(name, Trigger, lambda request: (True, "here"))
-        self.master = CheckedMaster(uri)
-        self.watchdog = kind(self.service.resolved_name, self.service.uri, self.master, every)
-        return self.service.uri
-
-    def looks(self):
-        return self.master.looks
+        master = rosgraph.Master(rospy.get_name(), uri)
+        self.master = master.handle = CheckedHandle(master.handle)
+        self.watchdog = kind(self.service.resolved_name, self.service.uri, master, every)
+        return [self.service.uri, rospy.get_node_uri()]
 
     def stop_amid_a_look(self):
         '''Return whether it registers anything once stop() has returned, 0.5 s later.'''
@@ -129,6 +135,7 @@ def a_watchdog(exam: Exam) -> None:
     second = SecondMaster(exam)
     master = second.start()
     exam.prepare(A_WATCH)
+    begun = time.monotonic()
     opened = exam.run(
         "checked_watch.open",
         Its("Watchdog"),
@@ -147,9 +154,12 @@ def a_watchdog(exam: Exam) -> None:
             ): "Watchdog(...) does not come back: what goes on for ever belongs on a thread of its own.",
         },
     )
-    uri = str(opened.value)
+    uri, node_uri = opened.value
     try:
         _restarted(exam, name, uri, second, master)
+        _registered_with(exam, uri, node_uri)
+        _unhurried(exam, time.monotonic() - begun)
+        _stopped(exam)
     finally:
         exam.run("checked_watch.close")
         second.stop()
@@ -179,13 +189,17 @@ def _restarted(exam: Exam, name: str, uri: str, second: SecondMaster, master: Ma
         "a name that is free again is taken",
         "The other one has gone: look again and again.",
     )
-    _stopped(exam)
 
 
 def _known(exam: Exam, master: MasterClient, name: str, uri: str, rule: str, hint: str) -> None:
     seen = until(lambda: master.lookup_service(name), SOON) or "nobody"
+    asked = seen != "nobody" or int(exam.read("checked_watch.master.looks"))
     exam.hold(
-        rule, seen != "nobody", expected="the service on its books", seen="nobody by this name", hints=hint
+        rule,
+        seen != "nobody",
+        expected="the service on its books",
+        seen="nobody by this name",
+        hints=hint if asked else "The master that it was given was never asked. Ask that one: self.master.",
     )
     exam.hold(
         "it is registered at its own address",
@@ -209,6 +223,29 @@ def _taken(exam: Exam, master: MasterClient, name: str) -> None:
         seen="the student's again",
         hints="Another node serves this name now, and the watchdog took it away. With two such "
         "watchdogs they would fight for ever. Register only where the master knows nobody.",
+    )
+
+
+def _registered_with(exam: Exam, uri: str, node_uri: str) -> None:
+    given = exam.read("checked_watch.master.addresses")
+    exam.hold(
+        "it is registered at its own address",
+        given[0] == [uri, node_uri],
+        expected="the service's uri, and then rospy.get_node_uri()",
+        seen=", ".join(given[0]),
+        hints="The last of the three words is the address of the node: rospy.get_node_uri().",
+    )
+
+
+def _unhurried(exam: Exam, took: float) -> None:
+    """Hold that it waits between two looks; more than one in each pause there cannot be."""
+    looks = int(exam.read("checked_watch.master.looks"))
+    exam.hold(
+        "it looks again and again",
+        looks < CALLS * (took / EVERY + 5),
+        expected=f"a look every {EVERY:g} s",
+        seen=f"{looks / took:.0f} a second",
+        hints="Between two looks there is no pause: wait `every` s each time, also after a look that failed.",
     )
 
 
