@@ -57,7 +57,9 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
     cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
     cells.insert(0, text("## Every kind of panel"))
-    troubles = write_site(Settings(folder / "site"), shelf(folder, _00_panels=cells), runs(folder / "cache"))
+    troubles = write_site(
+        Settings(folder / "site", book=True), shelf(folder, _00_panels=cells), runs(folder / "cache")
+    )
     assert troubles == []
     return folder / "site"
 

@@ -68,6 +68,7 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
+@pytest.mark.timeout(360)  # it is nothing but computing, and the machine may be busy
 @pytest.mark.parametrize("colours", COLOURS)
 @pytest.mark.parametrize("width", WIDTHS)
 def test_axe_finds_nothing(
@@ -123,6 +124,14 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
         assert set(shown) == set(fronts()) - {"choices"}
         expect(page.locator("[data-panel] > .ros-panel")).to_have_count(len(shown))
         picture(page, "site-panels")
+
+
+def test_the_book_is_whole_before_any_frame(browser: Browser, panels: Path) -> None:
+    """Chromium prints it when its time is up, and paints no frame until then."""
+    with reader(browser) as page:
+        page.add_init_script("requestAnimationFrame = setTimeout = () => 0")
+        open_page(page, panels, "book.html")
+        assert page.locator("[data-panel] > .ros-panel").count() >= len(fronts()) - 1
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:

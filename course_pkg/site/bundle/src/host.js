@@ -4,12 +4,13 @@
 import { nameParts } from "./names.js";
 
 export async function drawPanels() {
+  const book = document.body.matches(".book"); // nobody sees it before it is printed, and no frame comes
   for (const packed of document.querySelectorAll("script.states")) {
     const places = packed.parentElement.querySelectorAll("[data-panel]");
     const states = await unpacked(packed.textContent);
     for (const [index, place] of places.entries()) {
       draw(place, states[index]);
-      await painted(); // each is seen as soon as it is there, and the reader can go on between two
+      if (!book) await painted(); // each is seen as soon as it is there, and the reader can go on between two
     }
   }
   nameParts();
