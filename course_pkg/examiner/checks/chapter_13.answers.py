@@ -119,6 +119,45 @@ def fetch(goal, server):
         server.publish_feedback(FetchFeedback(fetched=fetched + 1))
     server.set_succeeded(FetchResult(fetched=goal.things))
 
+# %% 13.1 wrong: tells first, and sleeps then | hint: Sleep for goal.seconds first
+def fetch(goal, server):
+    for fetched in range(goal.things):
+        if server.is_preempt_requested():
+            server.set_preempted(FetchResult(fetched=fetched))
+            return
+        server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+        time.sleep(goal.seconds)
+    server.set_succeeded(FetchResult(fetched=goal.things))
+
+# %% 13.1 wrong: goes on after it was called off | hint: return after it
+def fetch(goal, server):
+    for fetched in range(goal.things):
+        if server.is_preempt_requested():
+            server.set_preempted(FetchResult(fetched=fetched))
+        time.sleep(goal.seconds)
+        server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+    server.set_succeeded(FetchResult(fetched=goal.things))
+
+# %% 13.1 wrong: succeeds in the loop | hint: stands behind the loop
+def fetch(goal, server):
+    for fetched in range(goal.things):
+        if server.is_preempt_requested():
+            server.set_preempted(FetchResult(fetched=fetched))
+            return
+        time.sleep(goal.seconds)
+        server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+        server.set_succeeded(FetchResult(fetched=fetched + 1))
+
+# %% 13.1 wrong: a second for each | hint: and for nothing else
+def fetch(goal, server):
+    for fetched in range(goal.things):
+        if server.is_preempt_requested():
+            server.set_preempted(FetchResult(fetched=fetched))
+            return
+        time.sleep(1)
+        server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+    server.set_succeeded(FetchResult(fetched=goal.things))
+
 # %% 13.2 right: waits, calls off, and waits again
 def fetch_within(name, things, seconds):
     client = actionlib.SimpleActionClient(name, FetchAction)
@@ -208,6 +247,71 @@ def fetch_within(name, things, seconds):
         client.cancel_goal()
     return things
 
+# %% 13.2 wrong: does not wait for the robot | hint: The goal never arrived
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    result = client.get_result()
+    return result.fetched if result else None
+
+# %% 13.2 wrong: no seconds | hint: And how long each takes
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(2)):
+        return None
+    client.send_goal(FetchGoal(things=things))
+    if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
+# %% 13.2 wrong: five seconds in any case | hint: says how long to wait
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(2)):
+        return None
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(4.5)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
+# %% 13.2 wrong: calls it off at once | hint: says how long to wait
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(2)):
+        return None
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(0.5)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
+# %% 13.2 wrong: five seconds for a robot | hint: It waited for too long
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(5)):
+        return None
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
+# %% 13.2 wrong: hardly waits for a robot | hint: The robot came 0.4 s after the call
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(0.25)):
+        return None
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
 # %% 13.3 right: looks before it believes
 def speed_of(robot, default):
     speed = rospy.get_param(f"/{robot}/speed", default)
@@ -256,6 +360,20 @@ def speed_of(robot, default):
     speed = rospy.get_param(f"/{robot}/speed", default)
     return speed if isinstance(speed, (int, float)) else default
 
+# %% 13.3 wrong: 0 is a speed | hint: 0 is not above 0
+def speed_of(robot, default):
+    speed = rospy.get_param(f"/{robot}/speed", default)
+    return speed if isinstance(speed, (int, float)) and speed >= 0 else default
+
+# %% 13.3 wrong: only a text is no number | hint: A list, and even a dict
+def speed_of(robot, default):
+    speed = rospy.get_param(f"/{robot}/speed", default)
+    if isinstance(speed, str):
+        return default
+    if not isinstance(speed, list) and speed <= 0:
+        return default
+    return speed
+
 # %% 13.4 right: case by case
 choices = {
     "a": "topic",
@@ -285,3 +403,12 @@ choices = {"a": "topic", "b": "service", "c": "action", "d": "parameter", "e": "
 
 # %% 13.4 wrong: in other words | hint: Case b has to be one of
 choices = {"a": "topic", "b": "Services", "c": "action", "d": "parameter", "e": "topic", "f": "service", "g": "action", "h": "parameter"}
+
+# %% 13.4 wrong: an action for the till | hint: it is done at once
+choices = {"a": "topic", "b": "service", "c": "action", "d": "parameter", "e": "topic", "f": "action", "g": "action", "h": "parameter"}
+
+# %% 13.4 wrong: a topic for a minute | hint: which a topic does not say
+choices = {"a": "topic", "b": "service", "c": "topic", "d": "parameter", "e": "topic", "f": "service", "g": "action", "h": "parameter"}
+
+# %% 13.4 wrong: a parameter for the gripper | hint: It changes, so it is no setting
+choices = {"a": "topic", "b": "parameter", "c": "action", "d": "parameter", "e": "topic", "f": "service", "g": "action", "h": "parameter"}

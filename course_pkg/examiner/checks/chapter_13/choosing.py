@@ -7,17 +7,22 @@ from course_pkg.examiner import Exam, part
 FOUR = ("topic", "service", "action", "parameter")
 CASES = {
     "a": ("topic", "Fifty times a second, for whoever listens: nobody can ask so often. A topic."),
-    "b": ("service", "One asks, one answers, and at once: a service."),
+    "b": ("service", "One asks, one answers, and at once: a service. It changes, so it is no setting."),
     "c": (
         "action",
-        "It takes a minute, and may be called off: while a service is called, neither can be done.",
+        "It takes a minute, and may be called off: while a service is called, neither can be done. And "
+        "whoever sent the robot wants to hear how it ended, which a topic does not say.",
     ),
     "d": (
         "parameter",
         "It is set once, before anything starts, and does not change: nobody has to be asked.",
     ),
     "e": ("topic", "Three want to hear of it, and who sees the customer need not know who they are."),
-    "f": ("service", "Who resets the till has to know that it is done. A topic gives no answer."),
+    "f": (
+        "service",
+        "Who resets the till has to know that it is done, and it is done at once: a service. "
+        "A topic gives no answer.",
+    ),
     "g": (
         "action",
         "The caller wants to see how far it is: feedback is what an action has and a service lacks.",

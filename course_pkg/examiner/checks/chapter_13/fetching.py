@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import statistics
 import time
 
 import actionlib
@@ -30,6 +32,7 @@ def end():
 EACH = 0.1  # s that one thing takes
 PATIENCE = 8.0  # s for an ending that is due after half a second
 TRIES = 2  # for a goal of nothing: of some hundred, on a busy machine, one was never heard of again
+SLOW = 5.0  # times as long as it should: then it is no longer a busy machine
 NOTICING = 3.0  # s to end after a cancellation; one thing takes a tenth
 UNSAID = (
     "The function came to its end, and nobody had said how. It returns nothing: it tells the server, by "
@@ -67,13 +70,14 @@ def _to_the_end(exam: Exam, client: actionlib.SimpleActionClient, told: Hearing)
     client.send_goal(FetchGoal(things=things, seconds=EACH))
     _ended(exam, client, "a goal is carried out to its end", GoalStatus.SUCCEEDED)
     took = time.monotonic() - began
-    told.wait(things, within=1.0)
+    told.wait(things, within=3.0)
     exam.expect(
         "the result says how many were fetched",
         expected=things,
         seen=client.get_result().fetched,
         hints={
             0: "A field that nobody fills is 0: set_succeeded(FetchResult(fetched=…)).",
+            1: "set_succeeded ends the goal, so it stands behind the loop: once, when all is fetched.",
             things - 1: "range counts from 0: the last number is one less than how many there were.",
         },
     )
@@ -84,6 +88,7 @@ def _to_the_end(exam: Exam, client: actionlib.SimpleActionClient, told: Hearing)
         seen=f"{took:.2f} s",
         hints="Sleep for goal.seconds with each thing.",
     )
+    _in_its_time(exam, told, began)
     counts = _counts(told)
     exam.expect(
         "after each thing the feedback says how many there are by now",
@@ -103,6 +108,26 @@ def _to_the_end(exam: Exam, client: actionlib.SimpleActionClient, told: Hearing)
         seen="all at the same moment",
         hints="Whoever waits wants to know now. Send each as soon as the thing is there.",
     )
+
+
+def _in_its_time(exam: Exam, told: Hearing, began: float) -> None:
+    """Hold that each feedback comes when its thing is there: not before, and not much later."""
+    at = [arrival.at for arrival in told.arrivals]
+    if at and at[0] - began < 0.9 * EACH:
+        exam.fail(
+            "the feedback comes when the thing is there",
+            expected=f"the first after {EACH:g} s",
+            seen=f"the first after {at[0] - began:.2f} s",
+            hint="It was told of before it was fetched. Sleep for goal.seconds first, and publish then.",
+        )
+    gaps = [after - before for before, after in itertools.pairwise(at)]
+    if gaps and statistics.median(gaps) > SLOW * EACH:
+        exam.fail(
+            "each thing takes its time",
+            expected=f"{EACH:g} s for each thing, as the goal says",
+            seen=f"{statistics.median(gaps):.1f} s",
+            hint="Sleep for goal.seconds with each thing, and for nothing else.",
+        )
 
 
 def _cancelled(exam: Exam, client: actionlib.SimpleActionClient, told: Hearing) -> None:
@@ -127,6 +152,10 @@ def _cancelled(exam: Exam, client: actionlib.SimpleActionClient, told: Hearing) 
         hints=[
             (0, "A field that nobody fills is 0: set_preempted(FetchResult(fetched=…))."),
             (80, "That is what was asked for. Say how many there were."),
+            (
+                lambda seen: seen < last,
+                "It went on fetching. set_preempted ends the goal, and not your function: return after it.",
+            ),
             (says(""), "As many as the last feedback said."),
         ],
     )

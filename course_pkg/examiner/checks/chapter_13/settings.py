@@ -38,15 +38,23 @@ def the_parameter(exam: Exam) -> None:
         _set(robot, "fast")
         hint = "Anything can be set as a parameter, also a text. Look whether it is a number."
         _returns(exam, robot, default, "the default, where it is no number", default, hint)
+        _set(robot, [first, second])
+        hint = (
+            "A list, and even a dict, can be a parameter, too. Ask whether it is a number, not what it isn't."
+        )
+        _returns(exam, robot, default, "the default, where it is no number", default, hint)
         _set(robot, -first)
         hint = "A speed is above 0. What somebody else has set has to be looked at before it is used."
+        _returns(exam, robot, default, "the default, where it is not above 0", default, hint)
+        _set(robot, 0)
+        hint = "0 is not above 0: a robot with this speed would stand still, and nobody knew why."
         _returns(exam, robot, default, "the default, where it is not above 0", default, hint)
     finally:
         with suppress(KeyError):
             rospy.delete_param(f"/{robot}")
 
 
-def _set(robot: str, value: float | str) -> None:
+def _set(robot: str, value: float | str | list[float]) -> None:
     rospy.set_param(f"/{robot}/speed", value)
 
 
@@ -72,7 +80,7 @@ def _outcome(exam: Exam, robot: str, default: float) -> Outcome:
             ),
             (
                 says("^TypeError"),
-                "A text cannot be compared with a number. Look first whether it is a number.",
+                "A text cannot be compared with a number, nor can a list. Look first whether it is a number.",
             ),
             (says("^ValueError"), "A text is not always a number: float() raises a ValueError then."),
         ],
