@@ -120,6 +120,18 @@ catkin_package()
 
 include_directories(${catkin_INCLUDE_DIRS})
 
+# %% 11.1 wrong: roscpp not found | hint: roscpp is not among them
+%%writefile src/cpp_boxes/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(cpp_boxes)
+
+find_package(catkin REQUIRED COMPONENTS course_pkg)
+catkin_package()
+
+include_directories(${catkin_INCLUDE_DIRS})
+add_executable(box_server src/box_server.cpp)
+target_link_libraries(box_server ${catkin_LIBRARIES})
+
 # %% 11.2 right: repaired where it was broken
 %%writefile src/cpp_boxes/src/box_server.cpp
 #include <course_pkg/geometry.h>
@@ -332,6 +344,82 @@ int main(int argc, char** argv) {
   ros::spin();
 }
 
+# %% 11.2 wrong: looks at two sides | hint: It answered, and below 0: height
+%%writefile src/cpp_boxes/src/box_server.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+bool measure(course_pkg::geometry::Request& request, course_pkg::geometry::Response& response) {
+  if (request.length < 0 || request.width < 0) return false;
+  response.area = request.length * request.width;
+  response.volume = response.area * request.height;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "box_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("box", measure);
+  ros::spin();
+}
+
+# %% 11.2 wrong: looks at the volume | hint: Return false there, before measuring
+%%writefile src/cpp_boxes/src/box_server.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+bool measure(course_pkg::geometry::Request& request, course_pkg::geometry::Response& response) {
+  response.area = request.length * request.width;
+  response.volume = response.area * request.height;
+  return response.volume >= 0;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "box_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("box", measure);
+  ros::spin();
+}
+
+# %% 11.2 wrong: refuses 0 | hint: 0 is not below 0
+%%writefile src/cpp_boxes/src/box_server.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+bool measure(course_pkg::geometry::Request& request, course_pkg::geometry::Response& response) {
+  if (request.length <= 0 || request.width <= 0 || request.height <= 0) return false;
+  response.area = request.length * request.width;
+  response.volume = response.area * request.height;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "box_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("box", measure);
+  ros::spin();
+}
+
+# %% 11.2 wrong: a whole number for the volume | hint: The fraction is gone
+%%writefile src/cpp_boxes/src/box_server.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+bool measure(course_pkg::geometry::Request& request, course_pkg::geometry::Response& response) {
+  if (request.length < 0 || request.width < 0 || request.height < 0) return false;
+  response.area = request.length * request.width;
+  int volume = request.length * request.width * request.height;
+  response.volume = volume;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "box_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("box", measure);
+  ros::spin();
+}
+
 # %% 11.3 right: a loop that is left with the answer
 %%writefile src/cpp_boxes/src/patient_client.cpp
 #include <course_pkg/geometry.h>
@@ -372,6 +460,7 @@ int main(int argc, char** argv) {
   if (ros::service::waitForService("box", 2000)) {
     for (int left = 3; left > 0 && !answered; left--) {
       answered = ros::service::call("box", box);
+      if (!answered) ros::WallDuration(0.1).sleep();
     }
   }
   if (!answered) {
@@ -379,6 +468,38 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::cout << "volume: " << box.response.volume << std::endl;
+}
+
+# %% 11.3 right: tells of its tries
+%%writefile src/cpp_boxes/src/patient_client.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "patient_client", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");
+  course_pkg::geometry::Request request;
+  course_pkg::geometry::Response response;
+  request.length = std::stof(argv[1]);
+  request.width = std::stof(argv[2]);
+  request.height = std::stof(argv[3]);
+  if (!ros::service::waitForService("box", ros::Duration(2.0))) {
+    std::cout << "box did not come within 2 seconds" << std::endl;
+    return 1;
+  }
+  int attempt = 1;
+  do {
+    if (client.call(request, response)) {
+      std::cout << "Volume = " << response.volume << std::endl;
+      return 0;
+    }
+    ROS_INFO("attempt %d was refused", attempt);
+    ros::Duration(0.05).sleep();
+    attempt++;
+  } while (attempt <= 3);
+  std::cout << "no volume after 3 attempts" << std::endl;
+  return 1;
 }
 
 # %% 11.3 wrong: does not wait | hint: It did not wait. client.waitForExistence
@@ -588,6 +709,76 @@ int main(int argc, char** argv) {
   for (int tries = 0; tries < 3; ++tries) {
     if (client.call(box)) {
       std::cout << box.request.length * box.request.width * box.request.height << std::endl;
+      return 0;
+    }
+    ros::WallDuration(0.2).sleep();
+  }
+  return 1;
+}
+
+# %% 11.3 wrong: no pause | hint: Who was refused now is refused a millisecond later
+%%writefile src/cpp_boxes/src/patient_client.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "patient_client", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");
+  course_pkg::geometry box;
+  box.request.length = std::stof(argv[1]);
+  box.request.width = std::stof(argv[2]);
+  box.request.height = std::stof(argv[3]);
+  if (!client.waitForExistence(ros::Duration(2))) return 1;
+  for (int tries = 0; tries < 3; ++tries) {
+    if (client.call(box)) {
+      std::cout << box.response.volume << std::endl;
+      return 0;
+    }
+  }
+  return 1;
+}
+
+# %% 11.3 wrong: five seconds | hint: It waited too long
+%%writefile src/cpp_boxes/src/patient_client.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "patient_client", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");
+  course_pkg::geometry box;
+  box.request.length = std::stof(argv[1]);
+  box.request.width = std::stof(argv[2]);
+  box.request.height = std::stof(argv[3]);
+  if (!client.waitForExistence(ros::Duration(5))) return 1;
+  for (int tries = 0; tries < 3; ++tries) {
+    if (client.call(box)) {
+      std::cout << box.response.volume << std::endl;
+      return 0;
+    }
+    ros::WallDuration(0.2).sleep();
+  }
+  return 1;
+}
+
+# %% 11.3 wrong: two milliseconds | hint: in ros::service::waitForService means milliseconds
+%%writefile src/cpp_boxes/src/patient_client.cpp
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "patient_client", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  course_pkg::geometry box;
+  box.request.length = std::stof(argv[1]);
+  box.request.width = std::stof(argv[2]);
+  box.request.height = std::stof(argv[3]);
+  if (!ros::service::waitForService("box", 2)) return 1;
+  for (int tries = 0; tries < 3; ++tries) {
+    if (ros::service::call("box", box)) {
+      std::cout << box.response.volume << std::endl;
       return 0;
     }
     ros::WallDuration(0.2).sleep();
@@ -996,6 +1187,122 @@ int count() {
   int seen = served;
   ros::WallDuration(0.05).sleep();
   served = seen + 1;
+  return served;
+}
+
+bool handle(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  think();
+  response.message = std::to_string(count());
+  response.success = true;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "number_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("number", handle);
+  ros::AsyncSpinner spinner(6);
+  spinner.start();
+  ros::waitForShutdown();
+}
+
+# %% 11.4 wrong: three threads | hint: write how many
+%%writefile src/cpp_boxes/src/number_server.cpp
+#include <mutex>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int served = 0;
+std::mutex counting;
+
+// Takes its time, and touches nothing that others need.
+void think() {
+  ros::WallDuration(0.4).sleep();
+}
+
+// Reads, takes a moment, and writes.
+int count() {
+  std::lock_guard<std::mutex> lock(counting);
+  int seen = served;
+  ros::WallDuration(0.05).sleep();
+  served = seen + 1;
+  return served;
+}
+
+bool handle(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  think();
+  response.message = std::to_string(count());
+  response.success = true;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "number_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("number", handle);
+  ros::AsyncSpinner spinner(3);
+  spinner.start();
+  ros::waitForShutdown();
+}
+
+# %% 11.4 wrong: thinks for less, on one thread | hint: Leave think() and count() as slow as they are
+%%writefile src/cpp_boxes/src/number_server.cpp
+#include <mutex>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int served = 0;
+
+// Takes its time, and touches nothing that others need.
+void think() {
+  ros::WallDuration(0.04).sleep();
+}
+
+// Reads, takes a moment, and writes.
+int count() {
+  int seen = served;
+  ros::WallDuration(0.05).sleep();
+  served = seen + 1;
+  return served;
+}
+
+bool handle(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  think();
+  response.message = std::to_string(count());
+  response.success = true;
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "number_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("number", handle);
+  ros::spin();
+}
+
+# %% 11.4 wrong: lets go in between | hint: nobody holds it between the reading and the writing
+%%writefile src/cpp_boxes/src/number_server.cpp
+#include <mutex>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int served = 0;
+std::mutex counting;
+
+// Takes its time, and touches nothing that others need.
+void think() {
+  ros::WallDuration(0.4).sleep();
+}
+
+// Reads, takes a moment, and writes.
+int count() {
+  counting.lock();
+  int seen = served;
+  counting.unlock();
+  ros::WallDuration(0.05).sleep();
+  counting.lock();
+  served = seen + 1;
+  counting.unlock();
   return served;
 }
 

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {{
   node.advertiseService("box", measure);
 }}
 """
+SIDES = ("length", "width", "height")
+NOTHING = "A side was 0, and 0 is not below 0: such a box has no volume, and that is an answer."
 SAID_NO = (
     "The handler returned false, which says: I could not. Its words are lost, and the caller gets b''. "
     "Return true where the answer is good."
@@ -47,9 +49,11 @@ def the_server(exam: Exam) -> None:
     with started(exam, folder, "box", name) as running:
         serves(exam, running, "box", name, code_of(exam, FILE))
         box = exam.service(name, BOX, hints=[(says("responded with an error"), SAID_NO)], timeout=8.0)
-        for _ in range(2):
+        wrong = exam.draw.shuffled(SIDES)
+        for sides in ([wrong[0]], [wrong[1]], [wrong[2]], wrong[:2]):
             _measures(exam, box)
-            _refuses(exam, box)
+            _refuses(exam, box, sides)
+        _takes_nothing(exam, exam.service(name, BOX, hints=[(says("responded with an error"), NOTHING)]))
 
 
 def _measures(exam: Exam, box: Service) -> None:
@@ -74,16 +78,23 @@ def _measures(exam: Exam, box: Service) -> None:
         near=1e-3,
         hints=[
             (0.0, "A field that nobody fills is 0."),
+            (float(int(area * height)), "The fraction is gone: an int holds whole numbers only."),
             (int(area) * height, "The area lost its fraction on the way: an int holds whole numbers only."),
             (says(""), "Multiply the area by the height."),
         ],
     )
 
 
-def _refuses(exam: Exam, box: Service) -> None:
-    sides = dict(zip(("length", "width", "height"), exam.draw.numbers(3, 1.0, 9.0), strict=True))
-    wrong = exam.draw.choice(list(sides))
-    sides[wrong] = -sides[wrong]
+def _takes_nothing(exam: Exam, box: Service) -> None:
+    for side in SIDES:
+        response = box(**{each: 0.0 if each == side else 2.5 for each in SIDES})
+        exam.expect("volume is area times height", expected=0.0, seen=response.volume, hints=NOTHING)
+
+
+def _refuses(exam: Exam, box: Service, wrong: list[str]) -> None:
+    sides = dict(zip(SIDES, exam.draw.numbers(3, 1.0, 9.0), strict=True))
+    sides.update({side: -sides[side] for side in wrong})
+    below = " and ".join(wrong)
     box.refused(
         "a side below 0 is refused",
         saying="responded with an error",
@@ -92,7 +103,7 @@ def _refuses(exam: Exam, box: Service) -> None:
                 says("TimesUp|transport"),
                 "The program ended, or hangs: a refusal is return false, and no more.",
             ),
-            (re.compile(""), f"It answered, and {wrong} was below 0. Return false there, before measuring."),
+            (re.compile(""), f"It answered, and below 0: {below}. Return false there, before measuring."),
         ],
         **sides,
     )

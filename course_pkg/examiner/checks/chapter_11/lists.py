@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from course_pkg.building import Fault, explain
@@ -13,6 +14,10 @@ from course_pkg.examiner.outcome import Finished
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
 BUILDING = 75.0  # s for all of it; it takes 4 on a machine at rest
+NO_ROSCPP = (
+    "catkin_LIBRARIES has the libraries of those packages that find_package(catkin … COMPONENTS …) names, "
+    "and roscpp is not among them."
+)
 RULE = "catkin_make builds the package"
 
 START = f"""%%writefile {FILE}
@@ -88,11 +93,21 @@ def _built(exam: Exam, done: Finished) -> None:
     fault = explain(printed) or Fault("catkin_make failed.", f"The end of what it printed: {last}")
     if not fault.file.endswith("CMakeLists.txt"):  # the program is the check's own, and sound
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
+        if _lacks_roscpp(exam.source(f"file:{FILE}")):
+            fault = replace(fault, remedy=NO_ROSCPP)
     exam.fail(
         RULE,
         expected="a build that passes",
         seen=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
         hint=fault.remedy,
+    )
+
+
+def _lacks_roscpp(text: str) -> bool:
+    """Say whether the program is linked with what catkin found, and roscpp was not asked for."""
+    code = re.sub(r"#[^\n]*", "", text)
+    return (
+        bool(re.search(r"(?i)target_link_libraries\s*\([^)]*catkin_LIBRARIES", code)) and "roscpp" not in code
     )
 
 

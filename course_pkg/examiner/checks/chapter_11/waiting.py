@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import re
+import time
 from threading import Timer
 
 from course_pkg.examiner import Exam, Refuse, part
@@ -14,8 +16,15 @@ from course_pkg.examiner.scripted import ScriptedServer
 FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAITING = 2.0  # s that the client waits for a service
 ASKING = 3  # times
+TOO_LONG = 2.0  # s beyond that: no longer a busy machine
+PAUSE = 0.01  # s between two calls; without a pause they follow within two thousandths
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 ENDLESS = 8.0  # s after which a program that should have ended is broken off
 
+MILLISECONDS = (
+    "It did not wait, or not for long: a plain number in ros::service::waitForService means milliseconds. "
+    "ros::Duration(2) means seconds."
+)
 START = f"""%%writefile {FILE}
 #include <course_pkg/geometry.h>
 #include <ros/ros.h>
@@ -46,14 +55,15 @@ int main(int argc, char** argv) {{
 def the_client(exam: Exam) -> None:
     """Offer a server that answers, one that refuses twice, one that always does, a late one, and none."""
     folder = compiled(exam, FILE)
-    _answered_at_once(exam, folder)
-    _refused(exam, folder)
-    _refused_always(exam, folder)
+    shapes = _answered_at_once(exam, folder)
+    calls = _refused(exam, folder)
+    _pauses(exam, calls, _refused_always(exam, folder, shapes))
     _late(exam, folder)
-    _nobody(exam, folder)
+    _nobody(exam, folder, shapes)
 
 
-def _answered_at_once(exam: Exam, folder: Folder) -> None:
+def _answered_at_once(exam: Exam, folder: Folder) -> set[str]:
+    """Return how the lines look that tell the volume, with # for each number."""
     name, sides, volume = _drawn(exam)
     server = exam.serve(name, BOX, lambda _: {"volume": volume})
     done = _run(folder, name, sides)
@@ -66,11 +76,12 @@ def _answered_at_once(exam: Exam, folder: Folder) -> None:
         seen=len(server.requests),
         hints="The server answered, and was asked again: leave the loop as soon as call returns true.",
     )
+    return {NUMBER.sub("#", line) for line in _lines(done.out) if volume in _numbers(line)}
 
 
-def _refused(exam: Exam, folder: Folder) -> None:
+def _refused(exam: Exam, folder: Folder) -> list[float]:
     name, sides, volume = _drawn(exam)
-    server = _refusing(exam, name, ASKING - 1, volume)
+    server, calls = _refusing(exam, name, ASKING - 1, volume)
     done = _run(folder, name, sides)
     rule = "refused twice: the third answer counts"
     if not _numbers(done.out) or done.status != 0 or len(server.requests) != ASKING:
@@ -82,6 +93,19 @@ def _refused(exam: Exam, folder: Folder) -> None:
             hint=_why_not_third(done, count),
         )
     _prints(exam, done, volume, rule)
+    return calls
+
+
+def _pauses(exam: Exam, *runs: list[float]) -> None:
+    """Hold that no call followed at once on a refusal."""
+    shortest = min(after - before for calls in runs for before, after in itertools.pairwise(calls))
+    if shortest < PAUSE:
+        exam.fail(
+            "between two calls it pauses",
+            expected="a short pause after each refusal",
+            seen=f"the next call after {1000 * shortest:.1f} ms",
+            hint="Who was refused now is refused a millisecond later, too. ros::WallDuration(0.2).sleep().",
+        )
 
 
 def _why_not_third(done: Finished, count: int) -> str:
@@ -92,12 +116,12 @@ def _why_not_third(done: Finished, count: int) -> str:
     return "The third call was answered. Print its volume, and end with 0."
 
 
-def _refused_always(exam: Exam, folder: Folder) -> None:
+def _refused_always(exam: Exam, folder: Folder, shapes: set[str]) -> list[float]:
     name, sides, _ = _drawn(exam)
-    server = _refusing(exam, name, 1000, 0.0)
+    server, calls = _refusing(exam, name, 1000, 0.0)
     done = _run(folder, name, sides)
     rule = "always refused: after three calls it gives up, prints no volume, and ends with 1"
-    good = done.status == 1 and not _numbers(done.out) and len(server.requests) == ASKING
+    good = done.status == 1 and not _told(done.out, shapes) and len(server.requests) == ASKING
     count = len(server.requests)
     exam.hold(
         rule,
@@ -106,6 +130,7 @@ def _refused_always(exam: Exam, folder: Folder) -> None:
         seen=_seen(done, count),
         hints=_why_not_one(done, count),
     )
+    return calls
 
 
 def _why_not_one(done: Finished, count: int) -> str:
@@ -133,21 +158,27 @@ def _late(exam: Exam, folder: Folder) -> None:
         done,
         volume,
         "a server that comes after 1 s is waited for",
-        "It did not wait. client.waitForExistence(ros::Duration(2)) stands before the first call.",
+        MILLISECONDS
+        if re.search(r"waitForService\([^;]*,\s*\d{1,3}\s*\)", exam.source(f"file:{FILE}"))
+        else "It did not wait. client.waitForExistence(ros::Duration(2)) stands before the first call.",
     )
 
 
-def _nobody(exam: Exam, folder: Folder) -> None:
+def _nobody(exam: Exam, folder: Folder, shapes: set[str]) -> None:
     name, sides, _ = _drawn(exam)
     done = _run(folder, name, sides)
+    if done.status is not None and done.took > WAITING + TOO_LONG:  # perhaps the machine was busy: once more
+        done = _run(folder, name, sides)
     exam.hold(
         "a server that never comes: after 2 s it ends with 1, and prints no volume",
-        done.status == 1 and not _numbers(done.out) and done.took > 0.8 * WAITING,
+        done.status == 1 and not _told(done.out, shapes) and 0.8 * WAITING < done.took < WAITING + TOO_LONG,
         expected="exit status 1 after some 2 s",
         seen=_seen(done, 0),
         hints=(
             "It waits for ever. Give the waiting a limit: waitForExistence(ros::Duration(2))."
             if done.status is None
+            else f"It waited too long, {done.took:.1f} s in all: waitForExistence(ros::Duration(2))."
+            if done.took > WAITING + TOO_LONG
             else "waitForExistence returns false when the time is up. Return 1 then."
         ),
     )
@@ -159,14 +190,15 @@ def _drawn(exam: Exam) -> tuple[str, list[float], float]:
     return f"/{exam.draw.word()}", sides, float(exam.draw.integer(1000, 9000))
 
 
-def _refusing(exam: Exam, name: str, times: int, volume: float) -> ScriptedServer:
-    left = [times]
+def _refusing(exam: Exam, name: str, times: int, volume: float) -> tuple[ScriptedServer, list[float]]:
+    """Serve with so many refusals first; return the server, and when it was called, in s."""
+    calls: list[float] = []
 
     def act(_: object) -> Refuse | dict[str, float]:
-        left[0] -= 1
-        return Refuse("not now") if left[0] >= 0 else {"volume": volume}
+        calls.append(time.monotonic())
+        return Refuse("not now") if len(calls) <= times else {"volume": volume}
 
-    return exam.serve(name, BOX, act)
+    return exam.serve(name, BOX, act), calls
 
 
 def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
@@ -177,9 +209,21 @@ def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
 
 def _numbers(out: str) -> list[float]:
     """Return the numbers that were printed; roscpp's own lines have brackets and words."""
+    return [float(text) for line in _lines(out) for text in NUMBER.findall(line)]
+
+
+def _lines(out: str) -> list[str]:
     plain = re.sub(r"\x1b\[[\d;]*m|\[[^\]]*\]", "", out)
-    lines = [line for line in plain.splitlines() if "waitForService" not in line]
-    return [float(text) for line in lines for text in re.findall(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?", line)]
+    return [line.strip() for line in plain.splitlines() if "waitForService" not in line]
+
+
+def _told(out: str, shapes: set[str]) -> list[str]:
+    """Return the lines that tell a volume: a number alone, one behind that word, or as the answer was told.
+
+    The number of a try, or of the seconds, is none.
+    """
+    volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
+    return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]
 
 
 def _prints(exam: Exam, done: Finished, volume: float, rule: str, hint: str = "") -> None:
