@@ -52,6 +52,16 @@ name_of_node = "/SERVER_NODE"
 name_of_service = "course_pkg/geometry"
 name_of_type = "/getGeometry"
 
+# %% 00.1 wrong: a slash at the end | hint: no slash stands at the end
+name_of_node = "/SERVER_NODE"
+name_of_service = "/getGeometry/"
+name_of_type = "course_pkg/geometry"
+
+# %% 00.1 wrong: the class | hint: The type is a text
+name_of_node = "/SERVER_NODE"
+name_of_service = "/getGeometry"
+name_of_type = geometry
+
 # %% 00.2 right: node.call
 def ask_for_volume(service, length, width, height):
     return node.call(service, geometry, length, width, height).volume
@@ -94,6 +104,23 @@ def ask_for_volume(service, length, width, height):
 # %% 00.2 wrong: rounds it | hint: without its fraction
 def ask_for_volume(service, length, width, height):
     return round(node.call(service, geometry, length, width, height).volume)
+
+# %% 00.2 wrong: as text | hint: the volume as a text
+def ask_for_volume(service, length, width, height):
+    return str(node.call(service, geometry, length, width, height).volume)
+
+# %% 00.2 wrong: area times height | hint: return its volume
+def ask_for_volume(service, length, width, height):
+    return node.call(service, geometry, length, width, height).area * height
+
+# %% 00.2 wrong: leaves the height out | hint: One arrived as 0
+def ask_for_volume(service, length, width, height):
+    return node.call(service, geometry, length=length, width=width).volume
+
+# %% 00.2 wrong: a tuple | hint: Return the volume alone
+def ask_for_volume(service, length, width, height):
+    r = node.call(service, geometry, length, width, height)
+    return r.area, r.volume
 
 # %% 00.3 right: subscribe and wait
 def listen(topic):
@@ -149,3 +176,17 @@ def listen(topic):
 # %% 00.3 wrong: a generator | hint: list(...) makes one
 def listen(topic):
     return (message.data for message in node.subscribe(topic, UInt32).wait(3, timeout=10))
+
+# %% 00.3 wrong: all that came in two seconds | hint: Those are too many
+import time
+def listen(topic):
+    numbers = []
+    s = rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
+    time.sleep(2)
+    s.unregister()
+    return numbers
+
+# %% 00.3 wrong: of another type | hint: with the type UInt32
+from std_msgs.msg import String
+def listen(topic):
+    return [message.data for message in node.subscribe(topic, String).wait(3, timeout=3)]

@@ -1,10 +1,15 @@
 """The checks of chapter 00: the graph is read, a service asked, a topic heard."""
 
 from itertools import accumulate
+from math import prod
 
 from course_pkg.examiner import Exam, part, says
 
 NO_RETURN = "None was returned, as by a function that comes to its end without a return line."
+UNHEARD = {
+    says("^NothingHeard|^ROSException.*timeout|^TimesUp"): "Ten numbers a second were published meanwhile. "
+    "Subscribe to the name in `topic`, with the type UInt32."
+}
 
 
 @part(
@@ -24,6 +29,7 @@ def read_the_graph(exam: Exam) -> None:
             says("^/?server$"): "That is the program. Ask rosnode list which name it took on the graph.",
             says("^/chapter"): "That is this notebook, which asks. Who answers?",
             says("getGeometry"): "That is a service. A node is a program that serves it.",
+            says("^/server_node/?$"): "Almost: upper and lower case count, and no slash stands at the end.",
         },
     )
     exam.expect(
@@ -35,6 +41,8 @@ def read_the_graph(exam: Exam) -> None:
             says("logger"): "Every node has that one. Which one is special to /SERVER_NODE?",
             says("^/?SERVER_NODE$"): "That is the node. Ask rosservice list what can be called.",
             says("course_pkg"): "That is the type. The name is what is called.",
+            says("://"): "That is the address behind it. The name is what rosservice list shows.",
+            says("^/getgeometry/?$"): "Almost: upper and lower case count, and no slash stands at the end.",
         },
     )
     exam.expect(
@@ -44,6 +52,9 @@ def read_the_graph(exam: Exam) -> None:
         hints={
             says("^geometry$"): "Almost: a type is written with its package, package/type.",
             says(r"^course_pkg/geometry\.srv$"): "That is the file. The type has no ending.",
+            says("^/course_pkg"): "Almost: a type is no name on the graph, and begins without a slash.",
+            says(r"object|course_pkg\.srv"): "That is the class that Python has for it. The type is a text, "
+            "package/type.",
             says("float32|---"): "Those are the fields. What is the type that has them called?",
             says("getGeometry"): "That is the name of the service. Ask rosservice type what it is made of.",
             says("(?-i:course_pkg/Geometry)"): "This type is spelt with a small g.",
@@ -81,23 +92,37 @@ def ask_a_question(exam: Exam) -> None:
             expected={"length": length, "width": width, "height": height},
             seen=server.requests[0],
             near=1e-4,
-            hints="Compare the order of your arguments with the order in rossrv show course_pkg/geometry.",
+            hints={
+                (
+                    lambda seen: 0.0 in seen.values()
+                ): "One arrived as 0, as a field does that is left out. Send all three.",
+                says(""): "Compare the order of your arguments with the order in rossrv show "
+                "course_pkg/geometry.",
+            },
         )
         exam.expect(
             "the volume of the answer is returned",
             expected=volume,
             seen=returned,
             near=1e-6,
-            hints={
-                None: NO_RETURN,
-                area: "That is the area.",
-                (lambda seen: "volume" in seen): "That is the whole response. Return its volume.",
-                int(volume): "That is the volume without its fraction. Return it as it came.",
-                length
-                * width
-                * height: "You multiplied. This server measures in its own way: return what it says.",
-            },
+            hints=_no_volume(area, volume, (length, width, height)),
         )
+
+
+def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> list[tuple[object, str]]:
+    """Return what to do about something that is not the `volume` of the answer; `area` is its area."""
+    multiplied = "You multiplied. This server measures in its own way: return "
+    return [
+        (None, NO_RETURN),
+        (area, "That is the area."),
+        (area * sides[2], f"{multiplied}its volume."),
+        (prod(sides), f"{multiplied}what it says."),
+        (int(volume), "That is the volume without its fraction. Return it as it came."),
+        (lambda seen: "volume" in seen, "That is the whole response. Return its volume."),
+        (lambda seen: volume in seen, "That is more than was asked for. Return the volume alone."),
+        (lambda seen: str(volume) in seen, "That is the volume as a text. Return the number."),
+        (says(""), "Return the volume of the answer as it came."),
+    ]
 
 
 @part(
@@ -113,7 +138,7 @@ def hear_a_stream(exam: Exam) -> None:
     steps = [exam.draw.integer(2, 50) for _ in range(300)]
     published = list(accumulate(steps, initial=exam.draw.integer(1000, 9000)))
     exam.publish(topic, "std_msgs/UInt32", [{"data": number} for number in published], every=0.1)
-    heard = exam.run("listen", topic, within=12.0).value
+    heard = exam.run("listen", topic, within=12.0, hints=UNHEARD).value
     exam.hold(
         "a list is returned",
         isinstance(heard, list),
@@ -135,7 +160,16 @@ def hear_a_stream(exam: Exam) -> None:
             says("'"): "Those are texts. A message's data is a number already.",
         },
     )
-    exam.expect("three numbers are returned", expected=3, seen=len(heard), hints="Wait for three messages.")
+    exam.expect(
+        "three numbers are returned",
+        expected=3,
+        seen=len(heard),
+        hints={
+            0: "It returned before any came. Wait for three messages.",
+            (lambda count: count > 3): "Those are too many. Return the first three, and no more.",
+            says(""): "Wait for three messages.",
+        },
+    )
     exam.hold(
         "the numbers are those of the topic",
         set(heard) <= set(published),

@@ -108,6 +108,43 @@ def full_name(written, namespace, name):
 def full_name(written, namespace, name):
     print(rospy.resolve_name(written, f"{namespace}/{name}"))
 
+# %% 01.1 wrong: any slash makes it global | hint: Only a slash in front makes a name global
+def full_name(written, namespace, name):
+    room = namespace.rstrip("/")
+    if "/" in written and not written.startswith("~"):
+        return written
+    if written.startswith("~"):
+        return f"{room}/{name}/{written[1:]}"
+    return f"{room}/{written}"
+
+# %% 01.1 wrong: the last part only | hint: All of them stay
+def full_name(written, namespace, name):
+    room = namespace.rstrip("/")
+    if written.startswith("/"):
+        return written
+    last = written.lstrip("~").split("/")[-1]
+    if written.startswith("~"):
+        return f"{room}/{name}/{last}"
+    return f"{room}/{last}"
+
+# %% 01.1 wrong: the namespace goes in twice | hint: the whole namespace of the node, once
+def full_name(written, namespace, name):
+    room = namespace.rstrip("/")
+    if written.startswith("/"):
+        return written
+    if written.startswith("~"):
+        return f"{room}{room}/{name}/{written[1:]}"
+    return f"{room}{room}/{written}"
+
+# %% 01.1 wrong: name before namespace | hint: The namespace comes first
+def full_name(written, namespace, name):
+    if written.startswith("/"):
+        return written
+    room = namespace.rstrip("/")
+    if written.startswith("~"):
+        return f"/{name}{room}/{written[1:]}"
+    return f"{room}/{written}"
+
 # %% 01.2 right: a namespace and two new names
 def start_in(room):
     return node.run("course_pkg", "server", f"__ns:=/{room}", "__name:=measurer", "getGeometry:=measure")
@@ -263,6 +300,19 @@ def ask_wherever(last, length, width, height):
         if service.split("/")[-1] == last:
             return node.call(service, geometry, width, length, height).volume
 
+# %% 01.3 wrong: the area | hint: That is the area
+def ask_wherever(last, length, width, height):
+    for name in rosservice.get_service_list():
+        if name.split("/")[-1] == last:
+            return node.call(name, geometry, length, width, height).area
+
+# %% 01.3 wrong: an error for nobody | hint: that is no error here
+def ask_wherever(last, length, width, height):
+    for name in rosservice.get_service_list():
+        if name.split("/")[-1] == last:
+            return node.call(name, geometry, length, width, height).volume
+    raise rospy.ServiceException(f"nobody serves {last}")
+
 # %% 01.4 right: ping each
 def living_publishers(topic):
     publishers, subscribers, services = rosgraph.Master(node.name).getSystemState()
@@ -334,3 +384,22 @@ def living_publishers(topic):
 def living_publishers(topic):
     publishers, subscribers, services = rosgraph.Master(node.name).getSystemState()
     return (name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1))
+
+# %% 01.4 right: three pings each
+def living_publishers(topic):
+    result = []
+    for name, nodes in rosgraph.Master(node.name).getSystemState()[0]:
+        if name == topic:
+            for each in nodes:
+                if rosnode.rosnode_ping(each, max_count=3, verbose=False):
+                    result.append(each)
+    return sorted(result)
+
+# %% 01.4 wrong: stops at the first dead one | hint: Some who live are missing
+def living_publishers(topic):
+    found = []
+    for n in dict(rosgraph.Master(node.name).getSystemState()[0]).get(topic, []):
+        if not rosnode.rosnode_ping(n, max_count=1):
+            break
+        found.append(n)
+    return sorted(found)

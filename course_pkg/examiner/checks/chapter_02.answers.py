@@ -179,6 +179,15 @@ def count_aloud(topic, rate, count):
         publisher.publish(number)
         pace.sleep()
 
+# %% 02.1 wrong: waits half a second | hint: Somebody may come within 2 s
+def count_aloud(topic, rate, count):
+    publisher = rospy.Publisher(topic, UInt32, queue_size=10)
+    wait_for_listener(publisher, 0.5)
+    pace = rospy.Rate(rate)
+    for number in range(count):
+        publisher.publish(number)
+        pace.sleep()
+
 # %% 02.2 right: a callback that publishes
 def start_mirror(source, target):
     publisher = rospy.Publisher(target, JointState, queue_size=10)
@@ -462,6 +471,62 @@ def start_mirror(source, target):
     publisher = rospy.Publisher(source, JointState, queue_size=10)
     return rospy.Subscriber(target, JointState, lambda message: publisher.publish(message))
 
+# %% 02.2 right: arguments for the callback
+def show(message, publisher):
+    image = JointState()
+    image.header = message.header
+    image.name = list(message.name)
+    image.position = tuple(map(lambda each: -each, message.position))
+    image.velocity = [0.0 - each for each in message.velocity]
+    image.effort = message.effort
+    publisher.publish(image)
+
+def start_mirror(source, target):
+    publisher = rospy.Publisher(target, JointState, queue_size=None)
+    return rospy.Subscriber(source, JointState, show, callback_args=publisher)
+
+# %% 02.2 wrong: the time alone of the header | hint: it has a frame_id, too
+def start_mirror(source, target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+
+    def show(message):
+        image = JointState(name=message.name)
+        image.header.stamp = message.header.stamp
+        image.position = [-angle for angle in message.position]
+        image.velocity = [-speed for speed in message.velocity]
+        publisher.publish(image)
+
+    return rospy.Subscriber(source, JointState, show)
+
+# %% 02.2 wrong: the names in order | hint: Hand the names on as they are
+def start_mirror(source, target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+
+    def show(message):
+        image = JointState(header=message.header, name=sorted(message.name))
+        image.position = [-angle for angle in message.position]
+        image.velocity = [-speed for speed in message.velocity]
+        publisher.publish(image)
+
+    return rospy.Subscriber(source, JointState, show)
+
+# %% 02.2 wrong: changes it when it has been shown | hint: Another callback of this program got it
+def start_mirror(source, target):
+    publisher = rospy.Publisher(target, JointState, queue_size=100)
+    import queue
+    box = queue.Queue()
+
+    def work():
+        while True:
+            message = box.get()
+            time.sleep(0.01)
+            message.position = [-angle for angle in message.position]
+            message.velocity = [-angle for angle in message.velocity]
+            publisher.publish(message)
+
+    threading.Thread(target=work, daemon=True).start()
+    return rospy.Subscriber(source, JointState, box.put)
+
 # %% 02.3 right: latched
 def announce(topic, value):
     publisher = rospy.Publisher(topic, Float64, queue_size=1, latch=True)
@@ -537,6 +602,21 @@ def announce(topic, value):
     if topic not in notices:
         notices[topic] = rospy.Publisher(topic, Float64, latch=True, queue_size=10)
         notices[topic].publish(value)
+
+# %% 02.3 wrong: says all that was announced | hint: An older value was said again
+said = {}
+class All(rospy.SubscribeListener):
+    def __init__(self, topic):
+        self.values = []
+        self.publisher = rospy.Publisher(topic, Float64, subscriber_listener=self, queue_size=10)
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
+        for value in self.values:
+            peer_publish(Float64(value))
+def announce(topic, value):
+    if topic not in said:
+        said[topic] = All(topic)
+    said[topic].values.append(value)
+    said[topic].publisher.publish(value)
 
 # %% 02.4 right: a queue of one
 def follow(topic, work):
@@ -635,6 +715,20 @@ def follow(topic, work):
 
     threading.Thread(target=labour, daemon=True).start()
     return rospy.Subscriber(topic, Float64, hear)
+
+# %% 02.4 right: a timer that looks
+def follow(topic, work):
+    newest = []
+    subscriber = rospy.Subscriber(topic, Float64, lambda message: newest.append(message.data))
+
+    def look(event):
+        if newest:
+            value = newest[-1]
+            newest.clear()
+            work(value)
+
+    rospy.Timer(rospy.Duration(0.02), look)
+    return subscriber
 
 # %% 02.5 right: the time of the last
 class Watch:
@@ -870,3 +964,24 @@ class Watch:
         if self.last is None:
             return "waiting"
         return "running" if time.time() - self.last <= 1 else "ended"
+
+# %% 02.5 right: a state that a timer turns
+class Watch:
+    def __init__(self, topic):
+        self._state = "waiting"
+        self._timer = None
+        rospy.Subscriber(topic, UInt32, self._hear)
+
+    def _hear(self, message):
+        if self._timer:
+            self._timer.cancel()
+        self._state = "running"
+        self._timer = threading.Timer(1.0, self._end)
+        self._timer.daemon = True
+        self._timer.start()
+
+    def _end(self):
+        self._state = "ended"
+
+    def state(self):
+        return self._state

@@ -170,6 +170,16 @@ def poll(service, seconds, rate):
         time.sleep(0.5)
     return None
 
+# %% 03.1 wrong: an error at the end | hint: that is no error: return None
+def poll(service, seconds, rate):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        answer = node.call(service, DetectCustomer, after=0, patience=0)
+        if answer.detected:
+            return answer.number
+        time.sleep(1 / rate)
+    raise TimeoutError("nobody came")
+
 # %% 03.2 right: a set of those who were greeted
 def start_greeting(customers, greetings):
     publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
@@ -374,6 +384,35 @@ def start_greeting(customers, greetings):
 
     threading.Thread(target=work, daemon=True).start()
 
+# %% 03.2 wrong: a thread for each | hint: greets them all at once
+def start_greeting(customers, greetings):
+    publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
+    greeted = set()
+
+    def greet(number):
+        say_good_day(number)
+        publisher.publish(number)
+
+    def hear(message):
+        if message.data not in greeted:
+            greeted.add(message.data)
+            threading.Thread(target=greet, args=(message.data,)).start()
+
+    rospy.Subscriber(customers, UInt32, hear)
+
+# %% 03.2 wrong: greets whoever comes a second time, tells once | hint: Remember who has been greeted
+def start_greeting(customers, greetings):
+    publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
+    greeted = set()
+
+    def greet(message):
+        say_good_day(message.data)
+        if message.data not in greeted:
+            greeted.add(message.data)
+            publisher.publish(message.data)
+
+    node.subscribe(customers, UInt32, greet)
+
 # %% 03.3 right: wait_for, and look again
 def handle_detect(watch, request):
     with watch.changed:
@@ -554,6 +593,58 @@ def handle_detect(watch, request):
         return False, 0, rospy.Time()
     return True, customer.number, customer.arrived
 
+# %% 03.3 right: looks every few milliseconds
+def handle_detect(watch, request):
+    end = rospy.Time.now() + rospy.Duration(request.patience)
+    while not rospy.is_shutdown():
+        customer = watch.next(request.after)
+        if customer is not None:
+            return [True, customer.number, customer.arrived]
+        if rospy.Time.now() >= end:
+            break
+        rospy.sleep(0.005)
+    return [False, 0, rospy.Time()]
+
+# %% 03.3 wrong: the time of the answer | hint: when the customer was first seen
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    if customer is None:
+        return False, 0, rospy.Time()
+    return True, customer.number, rospy.Time.now()
+
+# %% 03.3 wrong: a time for nobody | hint: arrived is rospy.Time(), which is zero
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    if customer is None:
+        return False, 0, rospy.Time.now()
+    return True, customer.number, customer.arrived
+
+# %% 03.3 wrong: twice the patience | hint: It waits for longer than it was told to
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=2 * request.patience)
+    if customer is None:
+        return False, 0, rospy.Time()
+    return True, customer.number, customer.arrived
+
+# %% 03.3 wrong: a number also for nobody | hint: detected is False and number is 0
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    if customer is None:
+        return False, request.after, rospy.Time()
+    return True, customer.number, customer.arrived
+
+# %% 03.3 wrong: an error for nobody | hint: that is an answer, no error
+def handle_detect(watch, request):
+    with watch.changed:
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    if customer is None:
+        raise rospy.ServiceException("nobody came")
+    return True, customer.number, customer.arrived
+
 # %% 03.4 right: step by step
 def expect_of_polling(rate, stay):
     pause = 1 / rate
@@ -611,6 +702,22 @@ def expect_of_polling(rate, stay):
 # %% 03.4 wrong: prints | hint: without a return line
 def expect_of_polling(rate, stay):
     print(0.5 / rate, 1 / rate, max(0, 1 - stay * rate))
+
+# %% 03.4 wrong: mean and longest changed places | hint: in another order
+def expect_of_polling(rate, stay):
+    return 1 / rate, 0.5 / rate, max(0, 1 - stay * rate)
+
+# %% 03.4 wrong: rounds the share | hint: It is rounded
+def expect_of_polling(rate, stay):
+    return 0.5 / rate, 1 / rate, round(max(0, 1 - stay * rate), 2)
+
+# %% 03.4 wrong: the absolute value | hint: Less than none is missed
+def expect_of_polling(rate, stay):
+    return 0.5 / rate, 1 / rate, abs(1 - stay * rate)
+
+# %% 03.4 wrong: a percentage in words | hint: One of them is no number
+def expect_of_polling(rate, stay):
+    return 0.5 / rate, 1 / rate, f"{max(0, 1 - stay * rate):.0%}"
 
 # %% 03.5 right: six decisions
 decisions = {
@@ -730,3 +837,10 @@ decisions = {
     "tidy the room": ("action", "long"),
     "free space on disk": ("service", "seldom"),
 }
+
+# %% 03.5 wrong: a list of pairs | hint: A dict is written in braces
+decisions = [
+    ("wheel speed", "topic", "newest"),
+    ("open the gripper", "service", "answer"),
+    ("full map", "service", "long"),
+]

@@ -286,6 +286,19 @@ from pathlib import Path
 Path("src/lamp_services/srv").mkdir(parents=True)
 Path("src/lamp_services/srv/Lamp.srv").write_text("\ufeffuint8 OFF=0\nuint8 ON=1\n---\nbool success\n")
 
+# %% 04.1 wrong: tabs | hint: To ROS only blanks part words
+%%writefile src/lamp_services/srv/Lamp.srv
+uint8	OFF=0
+uint8	ON=1
+uint8	BLINK=2
+uint8	mode
+std_msgs/ColorRGBA	colour
+float32[]	seconds
+---
+bool	success
+float32[3]	rgb
+float32	total
+
 # %% 04.2 before
 from course_pkg.interfaces import compile_service
 
@@ -601,6 +614,23 @@ def will_talk(server, client):
   <depend>std_msgs</depend>
 </package>
 
+# %% 04.3 wrong: exports it | hint: Add an exec_depend
+%%writefile src/lamp_services/package.xml
+<?xml version="1.0"?>
+<package format="2">
+  <name>lamp_services</name>
+  <version>1.0.0</version>
+  <description>A lamp on a robot.</description>
+  <maintainer email="you@example.com">You</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>catkin</buildtool_depend>
+  <build_depend>message_generation</build_depend>
+  <build_depend>std_msgs</build_depend>
+  <exec_depend>message_runtime</exec_depend>
+  <exec_depend>rospy</exec_depend>
+  <build_export_depend>std_msgs</build_export_depend>
+</package>
+
 # %% 04.4 right: as in the chapter
 %%writefile src/lamp_services/CMakeLists.txt
 cmake_minimum_required(VERSION 3.10)
@@ -738,6 +768,39 @@ project(lamp_services)
 find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
 add_service_files(FILES geometry.srv)
 generate_messages(DEPENDENCIES std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
+
+# %% 04.4 right: each package by itself
+%%writefile src/lamp_services/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(lamp_services)
+find_package(catkin REQUIRED)
+find_package(message_generation REQUIRED)
+find_package(std_msgs REQUIRED)
+add_service_files(FILES Lamp.srv)
+generate_messages(DEPENDENCIES std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
+
+# %% 04.4 wrong: in a condition | hint: between if() and endif()
+%%writefile src/lamp_services/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(lamp_services)
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+add_service_files(FILES Lamp.srv)
+if(FALSE)
+  generate_messages(DEPENDENCIES std_msgs)
+endif()
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
+
+# %% 04.4 wrong: block comment | hint: #[[ and ]] is a comment
+%%writefile src/lamp_services/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(lamp_services)
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+#[[
+add_service_files(FILES Lamp.srv)
+generate_messages(DEPENDENCIES std_msgs)
+]]
 catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
 
 # %% 04.5 before
@@ -1006,6 +1069,92 @@ from lamp_services.srv import Lamp, LampResponse
 
 def handle_lamp(request):
     return LampResponse(success=request.mode in (0, 1, 2), rgb=request.colour, total=sum(request.seconds))
+
+
+rospy.init_node("lamp_server")
+rospy.Service("/lamp", Lamp, handle_lamp)
+rospy.spin()
+
+# %% 04.5 wrong: alpha too | hint: rgb takes three numbers
+%%writefile src/lamp_services/scripts/lamp_server.py
+#!/usr/bin/env python3
+import rospy
+from lamp_services.srv import Lamp, LampRequest, LampResponse
+
+
+def handle_lamp(request):
+    lit = request.mode in (LampRequest.ON, LampRequest.BLINK)
+    colour = request.colour
+    return LampResponse(
+        success=lit or request.mode == LampRequest.OFF,
+        rgb=[colour.r, colour.g, colour.b, colour.a] if lit else [0, 0, 0],
+        total=sum(request.seconds),
+    )
+
+
+rospy.init_node("lamp_server")
+rospy.Service("/lamp", Lamp, handle_lamp)
+rospy.spin()
+
+# %% 04.5 wrong: max | hint: Add up all of them
+%%writefile src/lamp_services/scripts/lamp_server.py
+#!/usr/bin/env python3
+import rospy
+from lamp_services.srv import Lamp, LampRequest, LampResponse
+
+
+def handle_lamp(request):
+    lit = request.mode in (LampRequest.ON, LampRequest.BLINK)
+    colour = request.colour
+    return LampResponse(
+        success=lit or request.mode == LampRequest.OFF,
+        rgb=[colour.r, colour.g, colour.b] if lit else [0, 0, 0],
+        total=max(request.seconds),
+    )
+
+
+rospy.init_node("lamp_server")
+rospy.Service("/lamp", Lamp, handle_lamp)
+rospy.spin()
+
+# %% 04.5 wrong: refuses | hint: It is not refused
+%%writefile src/lamp_services/scripts/lamp_server.py
+#!/usr/bin/env python3
+import rospy
+from lamp_services.srv import Lamp, LampRequest, LampResponse
+
+
+def handle_lamp(request):
+    if request.mode > 2:
+        raise rospy.ServiceException("no such mode")
+    lit = request.mode in (LampRequest.ON, LampRequest.BLINK)
+    colour = request.colour
+    return LampResponse(
+        success=lit or request.mode == LampRequest.OFF,
+        rgb=[colour.r, colour.g, colour.b] if lit else [0, 0, 0],
+        total=sum(request.seconds),
+    )
+
+
+rospy.init_node("lamp_server")
+rospy.Service("/lamp", Lamp, handle_lamp)
+rospy.spin()
+
+# %% 04.5 wrong: windows shebang | hint: names a program that is not here
+%%writefile src/lamp_services/scripts/lamp_server.py
+#!python3
+import rospy
+from lamp_services.srv import Lamp, LampRequest, LampResponse
+
+
+def handle_lamp(request):
+    lit = request.mode in (LampRequest.ON, LampRequest.BLINK)
+    colour = request.colour
+    return LampResponse(
+        success=lit or request.mode == LampRequest.OFF,
+        rgb=[colour.r, colour.g, colour.b] if lit else [0, 0, 0],
+        total=sum(request.seconds),
+    )
 
 
 rospy.init_node("lamp_server")

@@ -58,6 +58,15 @@ def handle_geometry(request):
     area = request.width * request.length
     return geometryResponse(area=area, volume=area + request.height)
 
+# %% 05.1 wrong: rounds | hint: It is rounded
+def handle_geometry(request):
+    return round(request.width * request.length), round(request.width * request.length * request.height)
+
+# %% 05.1 wrong: all six sides | hint: The floor of the box is meant
+def handle_geometry(request):
+    l, w, h = request.length, request.width, request.height
+    return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)
+
 # %% 05.2 after
 counter = Counter()
 node.serve("/count", Trigger, counter.handle_count)
@@ -197,6 +206,28 @@ class Counter:
         self.count += 1
         return TriggerResponse(success=True, message=f"{self.count} calls")
 
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+# %% 05.2 wrong: two digits | hint: No zero stands in front
+class Counter:
+    def __init__(self):
+        self.count = 0
+    def handle_count(self, request):
+        self.count += 1
+        return TriggerResponse(success=True, message=f"{self.count:02d}")
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+# %% 05.2 wrong: the number itself | hint: The message is a text
+class Counter:
+    def __init__(self):
+        self.count = 0
+    def handle_count(self, request):
+        self.count += 1
+        return TriggerResponse(success=True, message=self.count)
     def handle_reset(self, request):
         self.count = 0
         return EmptyResponse()
@@ -472,6 +503,16 @@ class Switch:
         Switch.on = request.data
         return SetBoolResponse(success=moved, message="on" if Switch.on else "off")
 
+# %% 05.4 wrong: refuses to stay | hint: that is no error
+class Switch:
+    def __init__(self):
+        self.on = False
+    def handle_switch(self, request):
+        if request.data == self.on:
+            raise rospy.ServiceException("already there")
+        self.on = request.data
+        return SetBoolResponse(success=True, message="on" if self.on else "off")
+
 # %% 05.5 right: keeps it in the dict
 def open_service(name):
     services[name] = rospy.Service(name, Trigger, lambda request: (True, "open"))
@@ -580,3 +621,9 @@ def open_service(name):
 
 def close_service(name):
     services[name].shutdown("closed")
+
+# %% 05.5 wrong: says closed | hint: and nothing else
+def open_service(name):
+    services[name] = rospy.Service(name, Trigger, lambda request: (True, ""))
+def close_service(name):
+    services.pop(name).shutdown()

@@ -59,6 +59,15 @@ def measure(service, length, width, height):
     response = rospy.ServiceProxy(service, geometry)(length, width, height)
     return round(response.area), round(response.volume)
 
+# %% 06.1 wrong: the volume alone | hint: with a comma between them
+def measure(service, length, width, height):
+    return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+
+# %% 06.1 wrong: one server | hint: The service that was named is there
+def measure(service, length, width, height):
+    r = rospy.ServiceProxy("/getGeometry", geometry)(length, width, height)
+    return r.area, r.volume
+
 # %% 06.2 right: try and except
 def is_there(service, seconds):
     try:
@@ -161,6 +170,30 @@ def is_there(service, seconds):
         time.sleep(0.1)
     return False
 
+# %% 06.2 right: any exception
+def is_there(service, seconds):
+    try:
+        rospy.wait_for_service(service, seconds)
+        return True
+    except Exception:
+        return False
+
+# %% 06.2 wrong: catches whatever comes | hint: A bare except: catches the Stop button
+def is_there(service, seconds):
+    try:
+        rospy.wait_for_service(service, seconds)
+        return True
+    except:
+        return False
+
+# %% 06.2 wrong: a text | hint: That is a text
+def is_there(service, seconds):
+    try:
+        rospy.wait_for_service(service, seconds)
+        return "True"
+    except rospy.ROSException:
+        return "False"
+
 # %% 06.3 right: ServiceException
 def volume_or_none(service, length, width, height):
     try:
@@ -251,6 +284,37 @@ def volume_or_none(service, length, width, height):
         rospy.ServiceProxy(service, geometry)(length, width, height).volume
     except rospy.ServiceException:
         return None
+
+# %% 06.3 right: checks the numbers first
+def volume_or_none(service, length, width, height):
+    for side in (length, width, height):
+        if not isinstance(side, (int, float)):
+            raise TypeError(f"{side!r} is no number")
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except rospy.ServiceException:
+        return None
+
+# %% 06.3 wrong: a TypeError, too | hint: nothing wider
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except (rospy.ServiceException, TypeError):
+        return None
+
+# %% 06.3 wrong: an AttributeError, too | hint: nothing wider
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except (rospy.ServiceException, AttributeError):
+        return None
+
+# %% 06.3 wrong: the text of the error | hint: Return None itself
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except rospy.ServiceException as error:
+        return str(error)
 
 # %% 06.4 right: continue in a loop
 def first_answer(services, length, width, height):
@@ -360,6 +424,49 @@ def first_answer(services, length, width, height):
         if volume is not None:
             return volume
 
+# %% 06.4 right: threads of its own
+import threading
+def first_answer(services, length, width, height):
+    for service in services:
+        box = []
+        def ask():
+            try:
+                box.append(rospy.ServiceProxy(service, geometry)(length, width, height).volume)
+            except rospy.ServiceException:
+                pass
+        thread = threading.Thread(target=ask, daemon=True)
+        thread.start()
+        thread.join(1.0)
+        if box:
+            return box[0]
+    return None
+
+# %% 06.4 wrong: catches whatever comes | hint: A bare except: catches the Stop button
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=1).volume
+        except:
+            pass
+    return None
+
+# %% 06.4 wrong: the response | hint: That is the whole response
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=1)
+        except (rospy.ServiceException, CallTimeout):
+            pass
+
+# %% 06.4 wrong: an error at the end | hint: return None after the loop
+def first_answer(services, length, width, height):
+    for service in services:
+        try:
+            return node.call(service, geometry, length, width, height, timeout=1).volume
+        except (rospy.ServiceException, CallTimeout) as error:
+            last = error
+    raise last
+
 # %% 06.5 right: myargv and float
 def read_sides(argv):
     try:
@@ -436,4 +543,20 @@ def read_sides(argv):
             sides.append(float(text))
         except ValueError:
             continue
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 wrong: ends the program | hint: It ends the program
+import sys
+def read_sides(argv):
+    own = rospy.myargv(argv)[1:]
+    if len(own) != 3:
+        sys.exit("usage: client length width height")
+    return [float(text) for text in own]
+
+# %% 06.5 wrong: the arguments of this program | hint: rospy.myargv(argv)
+def read_sides(argv):
+    try:
+        sides = [float(text) for text in rospy.myargv()[1:]]
+    except ValueError:
+        return None
     return sides if len(sides) == 3 else None

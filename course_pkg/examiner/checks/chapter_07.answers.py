@@ -131,6 +131,17 @@ def services_of(kind):
         names.append(name)
     return names
 
+# %% 07.1 wrong: breaks at a dead one | hint: ended the search
+def services_of(kind):
+    names = []
+    for name in sorted(rosservice.get_service_list()):
+        try:
+            if rosservice.get_service_type(name) == kind:
+                names.append(name)
+        except rosservice.ROSServiceIOException:
+            break
+    return names
+
 # %% 07.2 after
 node.serve("/my_on_off", ServiceExample, handle_on_off)
 
@@ -213,6 +224,12 @@ def handle_on_off(request):
     if request.number not in (0, 1):
         return rospy.ServiceException(f"{request.number} is neither 0 nor 1")
     return ServiceExampleResponse(state="ON" if request.number else "OFF")
+
+# %% 07.2 wrong: only too large ones | hint: Only these two are allowed
+def handle_on_off(request):
+    if request.number > 1:
+        raise rospy.ServiceException(f"{request.number} is too large")
+    return ServiceExampleResponse("ON" if request.number == 1 else "OFF")
 
 # %% 07.3 right: sets, looks, compares
 def move(switch, to_open):
@@ -404,6 +421,11 @@ def call_line(service, fields):
 # %% 07.4 wrong: one service only | hint: Put the name that is given
 def call_line(service, fields):
     return f"rosservice call /sum {shlex.quote(json.dumps(fields))}"
+# %% 07.4 wrong: calls twice | hint: more than once
+def call_line(service, fields):
+    line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
+    return line + "; " + line
+
 # %% 07.5 right: fills the request as the tool does
 def call_any(service, fields):
     cls = rosservice.get_service_class_by_name(service)
@@ -485,3 +507,11 @@ def call_any(service, fields):
     known = {name: fields[name] for name in request.__slots__ if name in fields}
     genpy.message.fill_message_args(request, [known])
     return rospy.ServiceProxy(service, cls)(request)
+
+# %% 07.5 wrong: as a dict | hint: Return the response itself
+def call_any(service, fields):
+    kind = rosservice.get_service_class_by_name(service)
+    request = kind._request_class()
+    genpy.message.fill_message_args(request, [fields])
+    response = rospy.ServiceProxy(service, kind)(request)
+    return {name: getattr(response, name) for name in response.__slots__}

@@ -89,6 +89,22 @@ def spawn_turtle(x, y, theta, name, patience):
     except (rospy.ROSException, rospy.ServiceException):
         return None
 
+# %% 08.1 wrong: two seconds always | hint: It waited longer than
+def spawn_turtle(x, y, theta, name, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=2)
+        return node.call("/spawn", Spawn, x, y, theta, name).name
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+
+# %% 08.1 wrong: a name of its own | hint: The name is another than
+def spawn_turtle(x, y, theta, name, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=patience)
+        return node.call("/spawn", Spawn, x, y, theta, "turtle2").name
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+
 # %% 08.2 after
 toggle = Toggle()
 drive(node, toggle)
@@ -111,7 +127,7 @@ class Toggle:
 class Toggle:
     def __init__(self):
         self.rate = 20
-        self.pairs = [[0, 1], [1, 0]]
+        self.pairs = [[1, 0], [0, 1]]
 
     def velocity(self):
         return self.pairs[0]
@@ -197,6 +213,17 @@ class Toggle:
         self.forward = not self.forward
         return EmptyResponse()
 
+# %% 08.2 wrong: begins with a turn | hint: A new one begins straight on
+class Toggle:
+    def __init__(self):
+        self.rate = 10.0
+        self.forward = False
+    def velocity(self):
+        return (1.0, 0.0) if self.forward else (0.0, 1.0)
+    def handle_toggle(self, request):
+        self.forward = not self.forward
+        return EmptyResponse()
+
 # %% 08.3 after
 plus = Plus()
 drive(node, plus)
@@ -278,6 +305,38 @@ class Plus(Toggling):
             raise rospy.ServiceException("no rate")
         self.rate = request.rate
         return ChangeRateResponse()
+
+# %% 08.3 wrong: whole numbers | hint: The fraction is lost
+class Plus(Toggling):
+    def handle_rate(self, request):
+        if not 0 < request.rate <= 100:
+            raise rospy.ServiceException("no rate")
+        before, self.rate = self.rate, max(1, int(request.rate))
+        return before
+
+# %% 08.3 wrong: below 100 | hint: 100 itself included
+class Plus(Toggling):
+    def handle_rate(self, request):
+        if not 0 < request.rate < 100:
+            raise rospy.ServiceException("no rate")
+        before, self.rate = self.rate, request.rate
+        return before
+
+# %% 08.3 wrong: up to 1000 | hint: 100.5 is not allowed
+class Plus(Toggling):
+    def handle_rate(self, request):
+        if not 0 < request.rate <= 1000:
+            raise rospy.ServiceException("no rate")
+        before, self.rate = self.rate, request.rate
+        return before
+
+# %% 08.3 wrong: one at least | hint: It was refused, and is allowed
+class Plus(Toggling):
+    def handle_rate(self, request):
+        if not 1 <= request.rate <= 100:
+            raise rospy.ServiceException("no rate")
+        before, self.rate = self.rate, request.rate
+        return before
 
 # %% 08.4 after
 faster = Faster(rate=20.0)
@@ -402,6 +461,62 @@ class Faster(Toggling):
         before, self.speed = self.speed, request.speed
         return before
 
+# %% 08.4 wrong: sets it, then looks | hint: The refused speed was set
+class Faster(Toggling):
+    speed = 1.0
+    def velocity(self):
+        return (self.speed if math.isfinite(self.speed) else 1.0, 0.0) if self.forward else (0.0, 1.0)
+    def handle_speed(self, request):
+        before, self.speed = self.speed, request.speed
+        if not math.isfinite(request.speed):
+            raise rospy.ServiceException("no speed")
+        return before
+
+# %% 08.4 wrong: begins at 2 | hint: A new one goes at 1.0
+class Faster(Toggling):
+    speed = 2.0
+    def velocity(self):
+        return (self.speed, 0.0) if self.forward else (0.0, 1.0)
+    def handle_speed(self, request):
+        if not math.isfinite(request.speed):
+            raise rospy.ServiceException("no speed")
+        before, self.speed = self.speed, request.speed
+        return before
+
+# %% 08.4 wrong: takes minus infinity | hint: -inf is not allowed
+class Faster(Toggling):
+    speed = 1.0
+    def velocity(self):
+        return (self.speed, 0.0) if self.forward else (0.0, 1.0)
+    def handle_speed(self, request):
+        if math.isnan(request.speed) or request.speed == math.inf:
+            raise rospy.ServiceException("no speed")
+        before, self.speed = self.speed, request.speed
+        return before
+
+# %% 08.4 wrong: a limit of its own | hint: every finite number is a speed
+class Faster(Toggling):
+    speed = 1.0
+    def velocity(self):
+        return (self.speed, 0.0) if self.forward else (0.0, 1.0)
+    def handle_speed(self, request):
+        if not math.isfinite(request.speed) or request.speed < 0:
+            raise rospy.ServiceException("no speed")
+        before, self.speed = self.speed, request.speed
+        return before
+
+# %% 08.4 wrong: adds it up | hint: nothing added to it
+class Faster(Toggling):
+    speed = 1.0
+    def velocity(self):
+        return (self.speed, 0.0) if self.forward else (0.0, 1.0)
+    def handle_speed(self, request):
+        if not math.isfinite(request.speed):
+            raise rospy.ServiceException("no speed")
+        before = self.speed
+        self.speed += request.speed
+        return before
+
 # %% 08.5 after
 stoppable = Stoppable(rate=20.0)
 drive(node, stoppable)
@@ -502,6 +617,42 @@ class Stoppable(Toggling):
         if not self.moving:
             self.forward = True
         return SetBoolResponse(True, "already" if already else "done")
+
+# %% 08.5 right: with a capital
+class Stoppable(Toggling):
+    def __init__(self, rate):
+        super().__init__(rate)
+        self.moving = True
+    def velocity(self):
+        if not self.moving:
+            return 0.0, 0.0
+        return Toggling.velocity(self)
+    def handle_start_stop(self, request):
+        if self.moving == request.data:
+            return SetBoolResponse(True, "Already " + ("moving." if self.moving else "standing."))
+        self.moving = request.data
+        return SetBoolResponse(True, "Moving." if self.moving else "Standing.")
+
+# %% 08.5 wrong: says nothing when it does something | hint: The message is empty
+class Stoppable(Toggling):
+    moving = True
+    def velocity(self):
+        return super().velocity() if self.moving else (0.0, 0.0)
+    def handle_start_stop(self, request):
+        word = "already" if request.data == self.moving else ""
+        self.moving = request.data
+        return SetBoolResponse(True, word)
+
+# %% 08.5 wrong: refuses | hint: it does not refuse
+class Stoppable(Toggling):
+    moving = True
+    def velocity(self):
+        return super().velocity() if self.moving else (0.0, 0.0)
+    def handle_start_stop(self, request):
+        if request.data == self.moving:
+            raise rospy.ServiceException("already")
+        self.moving = request.data
+        return SetBoolResponse(True, "done")
 
 # %% 08.6 right: subscribe and advertise
 def follow(leader, follower):
@@ -671,6 +822,80 @@ def bring_turtle(name, x, y, speed, patience):
         return None
     return given
 
+# %% 08.7 right: waits for all first
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        for service in ("/spawn", "/toggle_forward", "/change_speed"):
+            rospy.wait_for_service(service, timeout=patience)
+        given = rospy.ServiceProxy("/spawn", Spawn)(x, y, 0.0, name).name
+        rospy.ServiceProxy("/toggle_forward", Empty)()
+        rospy.ServiceProxy("/change_speed", ChangeSpeed)(speed)
+        return given
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+
+# %% 08.7 wrong: never waits | hint: Wait for each of the three before you ask it
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        given = node.call("/spawn", Spawn, x, y, 0, name).name
+        node.call("/toggle_forward", Empty)
+        node.call("/change_speed", ChangeSpeed, speed)
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+    return given
+
+# %% 08.7 wrong: waits for the simulator only | hint: Wait for each of the three before you ask it
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=patience)
+        given = node.call("/spawn", Spawn, x, y, 0, name).name
+        node.call("/toggle_forward", Empty)
+        node.call("/change_speed", ChangeSpeed, speed)
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+    return given
+
+# %% 08.7 wrong: four seconds each | hint: Give each wait_for_service the limit
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=4)
+        given = node.call("/spawn", Spawn, x, y, 0, name).name
+        rospy.wait_for_service("/toggle_forward", timeout=4)
+        node.call("/toggle_forward", Empty)
+        rospy.wait_for_service("/change_speed", timeout=4)
+        node.call("/change_speed", ChangeSpeed, speed)
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+    return given
+
+# %% 08.7 wrong: only the simulator may refuse | hint: Each of the three may refuse
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=patience)
+        given = node.call("/spawn", Spawn, x, y, 0, name).name
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+    for service, kind, values in (("/toggle_forward", Empty, ()), ("/change_speed", ChangeSpeed, (speed,))):
+        try:
+            rospy.wait_for_service(service, timeout=patience)
+        except rospy.ROSException:
+            return None
+        node.call(service, kind, *values)
+    return given
+
+# %% 08.7 wrong: looks elsewhere | hint: a theta of 0
+def bring_turtle(name, x, y, speed, patience):
+    try:
+        rospy.wait_for_service("/spawn", timeout=patience)
+        given = node.call("/spawn", Spawn, x, y, 1.57, name).name
+        rospy.wait_for_service("/toggle_forward", timeout=patience)
+        node.call("/toggle_forward", Empty)
+        rospy.wait_for_service("/change_speed", timeout=patience)
+        node.call("/change_speed", ChangeSpeed, speed)
+    except (rospy.ROSException, rospy.ServiceException):
+        return None
+    return given
+
 # %% 08.8 right: an argument and a condition
 %%writefile my_exercise3.launch
 <launch>
@@ -740,4 +965,33 @@ def bring_turtle(name, x, y, speed, patience):
   <arg name="addturtle" default="false" />
   <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
   <node if="$(arg addturtle)" pkg="course_pkg" type="spawn_turtle_plus" name="spawn_turtle_plus" />
+</launch>
+
+# %% 08.8 right: eval, unless and comments
+%%writefile my_exercise3.launch
+<?xml version="1.0"?>
+<launch>
+  <!-- true makes MyTurtle -->
+  <arg name="addturtle" default="False" doc="whether there are two"/>
+  <node name="turtlesim" pkg="turtlesim" type="turtlesim_node" required="true"></node>
+  <node name="improved_pubvel_toggle" pkg="course_pkg" type="improved_pubvel_toggle"></node>
+  <node name="spawn_turtle_plus" pkg="course_pkg" type="spawn_turtle_plus" unless="$(eval not addturtle)"/>
+</launch>
+
+# %% 08.8 wrong: the older driver under the new name | hint: as improved_pubvel_toggle does
+%%writefile my_exercise3.launch
+<launch>
+  <arg name="addturtle" default="false" />
+  <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
+  <node pkg="course_pkg" type="pubvel_toggle" name="improved_pubvel_toggle" />
+  <node if="$(arg addturtle)" pkg="course_pkg" type="spawn_turtle_plus" name="spawn_turtle_plus" />
+</launch>
+
+# %% 08.8 wrong: the other program under the name | hint: and nobody drives it
+%%writefile my_exercise3.launch
+<launch>
+  <arg name="addturtle" default="false" />
+  <node pkg="turtlesim" type="turtlesim_node" name="turtlesim" />
+  <node pkg="course_pkg" type="improved_pubvel_toggle" name="improved_pubvel_toggle" />
+  <node if="$(arg addturtle)" pkg="course_pkg" type="spawn_turtle" name="spawn_turtle_plus" />
 </launch>

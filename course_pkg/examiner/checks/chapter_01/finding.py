@@ -25,7 +25,8 @@ def ask_it_wherever_it_lives(exam: Exam) -> None:
         named = {f"{place}/x{last}": others[0], f"/{last}/x": others[1], f"{place}/{last}x": others[2]}
         for name, wrong in named.items():
             exam.serve(name, GEOMETRY, lambda _, v=wrong: {"volume": v})
-        server = exam.serve(f"{place}/{last}", GEOMETRY, lambda _, v=volume: {"volume": v})
+        answer = {"volume": volume, "area": volume + 1}
+        server = exam.serve(f"{place}/{last}", GEOMETRY, lambda _, a=answer: a)
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
         exam.expect(
             "the volume comes from the service that was meant",
@@ -36,6 +37,7 @@ def ask_it_wherever_it_lives(exam: Exam) -> None:
                 (None, "It is there, and None was returned. Look through all names; return what it answers."),
                 *((other, LOOKS_LIKE_IT) for other in others),
                 (length * width * height, "You multiplied. This server measures in its own way: ask it."),
+                (volume + 1, "That is the area. Return the volume."),
                 (says("volume"), "That is the whole response. Return its volume."),
                 (says(f"/{last}$"), "That is its name. Ask it, and return the volume."),
             ],
@@ -53,7 +55,7 @@ def ask_it_wherever_it_lives(exam: Exam) -> None:
     exam.expect(
         "None when nobody serves it",
         expected=None,
-        seen=exam.run("ask_wherever", exam.draw.word(), 1.0, 2.0, 3.0, hints=_LOST).value,
+        seen=exam.run("ask_wherever", exam.draw.word(), 1.0, 2.0, 3.0, hints=_LOST | _NOBODY).value,
         hints="No service is called so. Return None after the search.",
     )
 
@@ -66,6 +68,13 @@ _LOST = {
         "IndexError|StopIteration"
     ): "The search found nothing, and its first find was used. Return None then.",
     says("TypeError.*NoneType"): "The search found nothing, and None was used as a name. Return None then.",
+}
+
+
+_NOBODY = {
+    says(
+        "^(ServiceException|ROS|LookupError|ValueError|RuntimeError|Exception)"
+    ): "Nobody serves it, and that is no error here: return None."
 }
 
 
@@ -112,6 +121,10 @@ def who_really_publishes(exam: Exam) -> None:
             ),
             (lambda seen: isinstance(seen, int), "That is how many there are. Return their names."),
             (lambda seen: "object" in seen, "That is no list. sorted(...) makes one."),
+            (
+                lambda seen: set(seen) < set(living),
+                "Some who live are missing. Ping each, and go through all.",
+            ),
             (says(""), "Return the names of the nodes, as the list of publishers has them behind the topic."),
         ],
     )
@@ -130,7 +143,7 @@ def _living(exam: Exam, topic: str) -> object:
     return exam.run(
         "living_publishers",
         topic,
-        within=6.0,
+        within=10.0,  # three pings of each who is dead take 6
         hints={
             says("TimesUp"): "Without max_count=1, rosnode_ping goes on pinging for ever.",
             says("KeyError"): "No node has ever published that topic, so it is in no list. That is nobody.",

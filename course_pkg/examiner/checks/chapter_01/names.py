@@ -13,6 +13,9 @@ NOT_STARTED = {
     says("UnknownExecutable"): "The program is server, in the package course_pkg.",
 }
 MISSING = "A slash is missing between the namespace and what follows it."
+AS_WRITTEN = "It came back as it was written. Only a slash in front makes a name global, not one within it."
+ONCE = "In front of it stands the whole namespace of the node, once."
+PARTS = "A name may have several parts, such as arm/image. All of them stay."
 ROOM_KEEPER = """
 kept = []
 
@@ -66,6 +69,7 @@ def _resolves(exam: Exam, rule: str, written: str, namespace: str, name: str, fu
             (says("chapter_01"), "That is how this notebook means it. The node in question is another."),
             (says("//"), "Two slashes follow one another. The outermost namespace is / and ends in one."),
             (says("~"), "The ~ is still in it. It stands for the name of the node, and gives way to it."),
+            (written if "/" in written[1:] else "", AS_WRITTEN),
             (says("^[^/]"), "A full name starts with a slash."),
             (says("./$"), "A full name does not end in a slash."),
             ({f"{before}{bare}", f"{before}{name}/{bare}"}.__contains__, MISSING if before else ""),
@@ -84,11 +88,16 @@ def _misplaced(kind: str, node: str, alone: str, bare: str) -> list[tuple[object
                 f"{alone}/{bare}",
                 "The node stands in a namespace itself: that comes first, then the node's name.",
             ),
+            (says(f"^{alone}/.*/{bare}$"), "The namespace comes first, and then the node's name."),
+            (says(f"{alone}/{bare}$"), ONCE),
             (says(f"/{bare}$"), "A private name belongs to the node: its name comes in between."),
+            (says(""), PARTS),
         ]
     return [
         (f"{node}/{bare}", "Only a private name goes under the name of the node."),
-        (says(f"/{bare}$"), "The namespace is missing. Only a global name goes without it."),
+        (f"/{bare}", "The namespace is missing. Only a global name goes without it."),
+        (says(f"/{bare}$"), ONCE),
+        (says(""), PARTS),
     ]
 
 

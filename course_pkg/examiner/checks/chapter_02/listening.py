@@ -9,6 +9,8 @@ from typing import Any
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.hearing import Arrival
+from course_pkg.examiner.ledger import same
+from course_pkg.examiner.plain import Plain
 
 JOINTS = "sensor_msgs/JointState"
 KEEPER = """
@@ -39,7 +41,7 @@ def listen_too(topic):
 
 
 def witness(message):
-    witnessed.append([list(message.position), list(message.velocity)])
+    witnessed.append(message)
 """
 WORK = """
 import threading
@@ -63,7 +65,9 @@ class Work:
 
 work = Work(PAUSE)
 """
+FIELDS = ("name", "position", "velocity")
 PAUSE = 0.3  # s that the work takes
+HEADER = "the header stays, and with it the time of each stance"
 NO_SUBSCRIBER = "Return the rospy.Subscriber, so that whoever started it can stop it."
 NEVER_RETURNS = "It has to return at once: messages are handled by the callback, on a thread of their own."
 
@@ -89,7 +93,7 @@ def a_mirror(exam: Exam) -> None:
             }
         )
         exam.prepare(WITNESS)
-        exam.run("listen_too", source)
+        exam.run("listen_too", source, worded="start_mirror(source, target)")
         messages = _stances(exam, 40)
         speaking = exam.publish(source, JOINTS, messages, every=0.025, once=True)
         speaking.listened(hints="Make a rospy.Subscriber for the source, of type JointState, and return it.")
@@ -103,20 +107,33 @@ def a_mirror(exam: Exam) -> None:
             hints="There are more on the target than on the source. Publish once for each message.",
         )
         _promptly(exam, speaking.sent, hearing.arrivals)
+        expected, seen = _changed(messages, exam.read("witnessed"))
         exam.expect(
             "the message itself is left as it is",
-            expected=[[message["position"], message.get("velocity", [])] for message in messages],
-            seen=exam.read("witnessed"),
+            expected=expected,
+            seen=seen,
             near=1e-9,
             hints="Another callback of this program got it with its signs turned. Make a new JointState.",
         )
+
+
+def _changed(messages: Sequence[Plain], witnessed: Sequence[Plain]) -> tuple[Plain, Plain]:
+    """Return what was given and what was seen of the first message that somebody changed, else two alike."""
+    given, seen = (
+        [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
+    )
+    pairs = zip(given, seen, strict=False)
+    return next((pair for pair in pairs if not same(pair[0], pair[1], near=1e-9)), ({}, {}))
 
 
 def _stances(exam: Exam, count: int) -> list[dict[str, Any]]:
     names = [exam.draw.word() for _ in range(4)]
     return [
         {
-            "header": {"stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)}},
+            "header": {
+                "stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)},
+                "frame_id": exam.draw.word(),
+            },
             "name": names,
             "position": _of_both_signs(exam),
             "velocity": _of_both_signs(exam),
@@ -139,7 +156,7 @@ def _begun(exam: Exam, start: str, *args: object, worded: str) -> Iterator[None]
         exam.expect("the subscriber is returned", expected=True, seen=started.value, hints=NO_SUBSCRIBER)
         yield
     finally:
-        exam.run("end")
+        exam.run("end", worded=worded)
 
 
 def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arrival]) -> None:
@@ -147,7 +164,7 @@ def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arr
     stamps = [message["header"]["stamp"] for message in messages]
     seen = [arrival.fields["header"]["stamp"] for arrival in heard]
     exam.hold(
-        "the header stays, and with it the time of each stance",
+        HEADER,
         bool(heard) and seen[0] in stamps,
         expected="the stamps that were published",
         seen=seen[:3] if heard else "nothing was heard",
@@ -160,6 +177,12 @@ def _mirrors(exam: Exam, messages: Sequence[dict[str, Any]], heard: Sequence[Arr
     )
     for arrival in heard:
         message = messages[stamps.index(arrival.fields["header"]["stamp"])]
+        exam.expect(
+            HEADER,
+            expected=message["header"]["frame_id"],
+            seen=arrival.fields["header"]["frame_id"],
+            hints="A header has more than its time: it has a frame_id, too. Hand the whole header on.",
+        )
         _is_image(exam, message, arrival.fields)
     exam.expect(
         "every message is mirrored, in order",
@@ -192,6 +215,7 @@ def _is_image(exam: Exam, message: dict[str, Any], image: dict[str, Any]) -> Non
         hints={
             (): "The names are missing. Hand them on.",
             tuple(reversed(message["name"])): "The list was turned around. It is the signs that turn.",
+            says(""): "Hand the names on as they are: the positions stand in their order.",
         },
     )
     for field, other in (("position", "velocity"), ("velocity", "position")):

@@ -6,6 +6,10 @@ from course_pkg.examiner import Exam, part, says
 from course_pkg.examiner.hearing import Arrival, Hearing, rate
 
 WAITS_FOR_EVER = "Nobody has to listen. Give the wait for a listener its limit, and speak all the same."
+EARLIEST = 1.7  # s with nobody listening; the numbers themselves take 0.1
+TOO_SOON = (
+    "Somebody may come within 2 s, and would miss the 0. Look for a listener for so long, and speak then."
+)
 TOO_EARLY = (
     "The first was said before anybody was connected. Make the publisher, wait for a listener, then speak."
 )
@@ -52,10 +56,10 @@ def count_aloud(exam: Exam) -> None:
     alone.value  # noqa: B018 -- that it returns is a rule
     exam.hold(
         "with nobody listening it goes on after 2 s",
-        alone.took < 4.0,
+        EARLIEST < alone.took < 4.0,
         expected="the last number after a good 2 s",
         seen=f"the end after {alone.took:.1f} s",
-        hints=WAITS_FOR_EVER,
+        hints=WAITS_FOR_EVER if alone.took > EARLIEST else TOO_SOON,
     )
 
 
@@ -200,6 +204,10 @@ def _hears(exam: Exam, hearing: Hearing, values: list[float], rule: str) -> None
                 "It is said again and again. Say it once: with latch=True it is kept.",
             ),
             (lambda seen: len(seen) > len(values) and set(seen) == set(values), "It was said twice."),
+            (
+                lambda seen: seen[-1:] == values and len(seen) > 1,
+                "An older value was said again. Who comes later hears the last one, and no other.",
+            ),
             (
                 lambda seen: seen[-1] != values[-1],
                 "That is not the value that was announced. Publish it as it is given.",

@@ -3,7 +3,9 @@
 import time
 
 from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.outcome import Outcome
 from course_pkg.examiner.publishing import Publishing
+from course_pkg.examiner.waiting import until
 
 KEEPER = """
 watches = {}
@@ -26,6 +28,7 @@ def end():
 """
 WORDS = ("waiting", "running", "ended")
 LIMIT = 1.0  # s without a message
+AT_ONCE = 0.4  # s; a busy machine may need more once, and not each time
 
 
 @part(
@@ -46,8 +49,8 @@ def watch_a_stream(exam: Exam) -> None:
             _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
         time.sleep(1.3)
         _says(exam, topic, "before the first message it is waiting", "waiting", _BEFORE)
-        _speaks(exam, unasked)
-        time.sleep(0.3)
+        speaking = _speaks(exam, unasked)
+        until(lambda: len(speaking.sent) > 5, 5.0)  # by then the first has long come
         _says(exam, unasked, "it watches from the start, asked or not", "running", _UNASKED)
         _says(exam, topic, "one watch knows nothing of another", "waiting", _APART)
         _runs(exam, topic, "while messages come it is running")
@@ -74,14 +77,29 @@ def _runs(exam: Exam, topic: str, rule: str) -> None:
     _says(exam, topic, rule, "running", _WHILE)
     speaking.stop()
     time.sleep(0.5)
-    _says(exam, topic, "a pause of half a second is no end", "running", _PAUSE)
-    time.sleep(max(speaking.sent[-1] + LIMIT + 0.4 - time.monotonic(), 0.0))
+    end = speaking.sent[-1] + LIMIT
+    _says(exam, topic, "a pause of half a second is no end", "running", _PAUSE, before=end)
+    time.sleep(max(end + 0.4 - time.monotonic(), 0.0))
+    until(lambda: _asked(exam, topic).value != "running", 0.4)  # a busy machine hands the last one over late
     for _ in range(exam.draw.integer(1, 4)):
         _says(exam, topic, "without a message for longer than a second it has ended", "ended", _END)
 
 
-def _says(exam: Exam, topic: str, rule: str, word: str, hints: list[tuple[object, str]]) -> None:
-    asked = exam.run("state", topic, worded="Watch(topic).state()", hints=_RETURNS)
+def _asked(exam: Exam, topic: str) -> Outcome:
+    return exam.run("state", topic, worded="Watch(topic).state()", hints=_RETURNS)
+
+
+def _says(
+    exam: Exam,
+    topic: str,
+    rule: str,
+    word: str,
+    hints: list[tuple[object, str]],
+    before: float = float("inf"),
+) -> None:
+    """Hold that it says `word`, unless the answer came only at the time `before` (s, time.monotonic())."""
+    asked = _asked(exam, topic)
+    in_time = time.monotonic() < before
     exam.hold(
         "the answer is one of the three words",
         asked.value in WORDS,
@@ -93,10 +111,10 @@ def _says(exam: Exam, topic: str, rule: str, word: str, hints: list[tuple[object
             says(""): "Return one of the three words, as a text.",
         },
     )
-    exam.expect(rule, expected=word, seen=asked.value, hints=hints)
+    exam.expect(rule, expected=word if in_time else asked.value, seen=asked.value, hints=hints)
     exam.hold(
         "it answers at once",
-        asked.took < 0.4,
+        asked.took < AT_ONCE or until(lambda: _asked(exam, topic).took < AT_ONCE, 3 * AT_ONCE),
         expected="an answer without waiting",
         seen=f"an answer after {asked.took:.1f} s",
         hints="Do not wait for a message when you are asked. Note when one comes, in the callback.",

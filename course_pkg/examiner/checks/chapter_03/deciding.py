@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 from course_pkg.examiner import Exam, part, says
 
+ORDER = "The three are there, in another order: the mean first, then the longest, then the share."
+ROUNDED = 0.006  # what a share may be off that was rounded to two digits
 DESIGNS = ("topic", "service", "action")
 REASONS = ("answer", "many", "newest", "seldom", "long")
 
@@ -59,8 +61,8 @@ HOLLOW: Mapping[str, str] = {
 )
 def what_polling_costs(exam: Exam) -> None:
     """Questions that come often enough for everybody, and questions that come too seldom for some."""
-    often = [(rate, exam.draw.number(1.2, 3.0) / rate) for rate in exam.draw.numbers(3, 0.2, 40.0)]
-    seldom = [(rate, exam.draw.number(0.1, 0.8) / rate) for rate in exam.draw.numbers(3, 0.2, 40.0)]
+    often = [(rate, exam.draw.number(1.2, 3.0, digits=5) / rate) for rate in exam.draw.numbers(3, 0.2, 40.0)]
+    seldom = [(rate, exam.draw.number(0.1, 0.8, digits=5) / rate) for rate in exam.draw.numbers(3, 0.2, 40.0)]
     for rate, stay in [*often, *seldom]:
         pause, share = 1 / rate, max(0.0, 1 - rate * stay)
         found = exam.run("expect_of_polling", rate, stay).value
@@ -71,6 +73,9 @@ def what_polling_costs(exam: Exam) -> None:
             seen=found,
             hints={
                 None: "None was returned, as by a function that comes to its end without a return line.",
+                (
+                    lambda seen: len(seen) == 3
+                ): "One of them is no number. A share is a number from 0 to 1, too.",
                 says(""): "Return the three with commas between them: return mean, longest, missed.",
             },
         )
@@ -80,7 +85,9 @@ def what_polling_costs(exam: Exam) -> None:
             expected=pause,
             seen=longest,
             near=1e-6,
-            hints={
+            hints=ORDER
+            if pause in (mean, missed)
+            else {
                 rate: "That is the rate. The pause between two questions is 1 / rate.",
                 pause / 2: "That is the mean. Who comes just after a question waits for the whole pause.",
                 1000 * pause: "That is in milliseconds. Return seconds.",
@@ -114,6 +121,8 @@ def _missed(share_seen: float) -> list[tuple[object, str]]:
         (1 - share_seen, "Less than none is missed: a share below 0 has to be 0. max(0, ...) does it."),
         (min(1.0, share_seen), "That is the share of those who are found. The others are missed: 1 - it."),
         (100 * (1 - share_seen), "That is in percent. Return a share, from 0 to 1."),
+        (share_seen - 1, "Less than none is missed: a share below 0 has to be 0. max(0, ...) does it."),
+        (lambda seen: seen and abs(seen - (1 - share_seen)) < ROUNDED, "It is rounded. Return it as it is."),
         (1.0, "All of them? Who comes less than `stay` before a question is there when it is asked."),
         (0, "Some are missed: who comes just after a question, and goes before the next one."),
         (
@@ -137,7 +146,12 @@ def decide_and_defend(exam: Exam) -> None:
         isinstance(decisions, dict) and set(decisions) == set(JOBS),
         expected=f"a dict with the keys {', '.join(map(repr, JOBS))}",
         seen=", ".join(map(repr, decisions)) if isinstance(decisions, dict) else decisions,
-        hints="The keys are the jobs as the table names them. Compare letter by letter.",
+        hints={
+            (
+                lambda seen: isinstance(seen, list)
+            ): "A dict is written in braces: {job: (design, reason), ...}.",
+            says(""): "The keys are the jobs as the table names them. Compare letter by letter.",
+        },
     )
     exam.hold(
         "each decision is a design and a reason",

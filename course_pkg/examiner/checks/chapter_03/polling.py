@@ -166,6 +166,7 @@ def _polled(
     server = exam.serve(name, DETECT, script)
     hints = {
         says("^TimesUp"): f"{NO_END} And mind the pause: {NO_PAUSE}",
+        says("^(TimeoutError|ROSException)"): "Nobody came, and that is no error: return None.",
         says(
             "is not an attribute of DetectCustomerRequest"
         ): "The request has the fields after and patience.",

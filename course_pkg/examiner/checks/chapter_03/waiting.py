@@ -14,9 +14,10 @@ from course_pkg.examiner.waiting import until
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # s: a busy machine is no mistake
+LONG = 2.0  # s of patience where nobody comes: twice as long is beyond the slack
 LATER = 0.6  # s until somebody comes
 PATIENCE = 5.0  # s, where it must not run out
-LOOKS = 200  # that are more than waiting for a second takes
+LOOKS = 3000  # in about a second: a pause of a millisecond makes 1100, none at all many thousands
 
 # A shop of the check's own: the student's handler with a new Watch, on names that nobody knows.
 A_SHOP = """
@@ -53,6 +54,7 @@ class Shop:
 
 shop = Shop()
 """
+SINCE_WHEN = "the answer says since when the customer is there"
 AT_ONCE = (
     "Somebody was there before the question. Look first, and wait only if nobody is: wait_for does both."
 )
@@ -85,6 +87,7 @@ ERRORS = {
         "wait_for takes a function, to call it after each change, such as lambda: watch.next(request.after)."
     ),
     says("TimesUp"): FOREVER,
+    says("cannot process request"): "Nobody came, and that is an answer, no error: False, 0, rospy.Time().",
 }
 
 
@@ -139,15 +142,10 @@ class _Shop:
 
 
 def _nobody(exam: Exam, detect: Service) -> None:
-    for patience in (0.0, 1.2):
+    for patience in (0.0, LONG):
         looks = exam.read("shop.watch.looks")
         response = detect(after=0, patience=patience)
-        exam.expect(
-            "no customer, no detection",
-            expected=[False, 0],
-            seen=[response.detected, response.number],
-            hints="Nobody is there, so detected is False and number is 0.",
-        )
+        _no(exam, response)
         exam.hold(
             "the answer comes when the patience is over",
             patience - 0.1 <= detect.took < patience + SLACK,
@@ -159,23 +157,44 @@ def _nobody(exam: Exam, detect: Service) -> None:
             "who waits leaves the processor alone",
             exam.read("shop.watch.looks") - looks < LOOKS,
             expected="a few looks at the counter while nothing happens",
-            seen="hundreds of looks",
+            seen="thousands of looks",
             hints=BUSY,
         )
+
+
+def _no(exam: Exam, response: Message) -> None:
+    exam.expect(
+        "no customer, no detection",
+        expected=[False, 0, 0.0],
+        seen=[response.detected, response.number, response.arrived.to_sec()],
+        hints={
+            (lambda seen: seen[:2] == [False, 0]): "Nobody came: arrived is rospy.Time(), which is zero.",
+            says(""): "Nobody is there, so detected is False and number is 0.",
+        },
+    )
 
 
 def _somebody(exam: Exam, detect: Service, shop: _Shop) -> None:
     known, coming = sorted(exam.draw.integers(2, 100, 900))
     shop.there(known)
     shop.await_sight(1)
-    _found(exam, detect, detect(after=0, patience=PATIENCE), known)
+    response = detect(after=0, patience=PATIENCE)
+    _found(exam, detect, response, known)
     _at_once(exam, "one who is there already is found at once", detect.took, hint=AT_ONCE)
+    again = detect(after=0, patience=0.0)
     exam.hold(
         "one who is there is found by a look, too",
-        detect(after=0, patience=0.0).detected,
+        again.detected,
         expected="detected with patience 0",
         seen="nobody",
         hints="With no patience at all there is still time for a look.",
+    )
+    exam.expect(
+        SINCE_WHEN,
+        expected=response.arrived.to_sec(),
+        seen=again.arrived.to_sec(),
+        hints="Asked twice about the same customer, it gave two times. What counts is not the time of the "
+        "answer, but when the customer was first seen: customer.arrived.",
     )
     shop.later(LATER / 2)  # the one who is known goes: a change, and not the one that is waited for
     shop.later(LATER, coming)
@@ -213,7 +232,7 @@ def _found(exam: Exam, detect: Service, response: Message, number: int) -> None:
         },
     )
     exam.hold(
-        "the answer says since when the customer is there",
+        SINCE_WHEN,
         abs(response.arrived.to_sec() - time.time()) < 30.0,
         expected="the time at which the customer was first seen",
         seen=f"{response.arrived.to_sec():.1f} s",
@@ -227,7 +246,9 @@ def _several(exam: Exam, detect: Service, shop: _Shop) -> None:
     shop.await_sight(0)
     shop.later(LATER, coming)
     in_vain = {"after": coming, "patience": LATER + SLACK + 1.0}
-    replies = detect.at_once([in_vain, in_vain, *[{"after": coming - 1, "patience": PATIENCE}] * 3])[2:]
+    waiting = {"after": coming - 1, "patience": PATIENCE}
+    *vain, one, two, three = detect.at_once([in_vain] * 2 + [waiting] * 3)
+    replies = [one, two, three]
     exam.expect(
         "everybody who waits is answered",
         expected=[coming] * 3,
@@ -236,6 +257,8 @@ def _several(exam: Exam, detect: Service, shop: _Shop) -> None:
     )
     hint = "One caller had to wait for another one. Don't hold a lock of your own while you wait."
     _at_once(exam, "several callers wait side by side", max(reply.took for reply in replies), LATER, hint)
+    for reply in vain:
+        _no(exam, reply.response)
 
 
 def _at_once(exam: Exam, rule: str, took: float, after: float = 0.0, hint: str = "") -> None:

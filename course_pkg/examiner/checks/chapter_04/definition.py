@@ -54,6 +54,8 @@ def _read(exam: Exam, text: str) -> ServiceType:
         seen = f"line {error.line}: {error.text.strip()}" if error.text.strip() else f"line {error.line}"
         hint = f"{_sentence(error.problem)} {_sentence(error.remedy)}"
         hint = "Take the line with the three dots out." if error.text.strip() == "..." else hint
+        if "\t" in error.text.split("#")[0].strip():
+            hint = "Between type and name stands a tab there. To ROS only blanks part words."
         exam.fail(rule, expected="a definition", seen=seen, hint=hint)
     exam.hold(rule, True)
     return given

@@ -64,7 +64,10 @@ def _why_no_type(text: str) -> str:
             return _about(text, name, "The build passes without it, and makes nothing.")
     if not any(each.name == "project" for each in commands(text)):
         return "Write project(lamp_services) near the top."
-    return "Name the file by add_service_files(FILES Lamp.srv), above generate_messages."
+    return (
+        "add_service_files and generate_messages are there, and made nothing. Do they run? What stands "
+        "between #[[ and ]] is a comment, and what stands between if() and endif() may be left out."
+    )
 
 
 def _about(text: str, name: str, reason: str) -> str:

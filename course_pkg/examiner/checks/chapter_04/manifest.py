@@ -54,9 +54,13 @@ def the_manifest(exam: Exam) -> None:
 def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in tags(text) if each.text == package]
     if elsewhere:
-        return f"Line {elsewhere[0].line} names it by {elsewhere[0].name}. Add a {tag} for it."
+        return f"Line {elsewhere[0].line} names it by {elsewhere[0].name}. Add {_an(tag)} for it."
     if package == "std_msgs":
-        return f"Lamp.srv uses std_msgs/ColorRGBA, so std_msgs has to be there: add a {tag} for it."
+        return f"Lamp.srv uses std_msgs/ColorRGBA, so std_msgs has to be there: add {_an(tag)} for it."
     near = [each for each in tags(text) if each.text.startswith(package.partition("_")[0])]
     where = f"Line {near[0].line} names {near[0].text}. " if near else ""
     return f"{where}A .srv file becomes classes by message_generation, and those need message_runtime."
+
+
+def _an(tag: str) -> str:
+    return f"an {tag}" if tag[0] in "aeiou" else f"a {tag}"

@@ -22,9 +22,17 @@ ENDINGS = (  # the words that it printed when it ended, and what to do
     (r"rospy\.init_node\(\) first", "A service belongs to a node: call rospy.init_node first."),
     (r"no attribute '_request_class'", "That is one half of the type. rospy.Service takes the whole: Lamp."),
     (r"(?s)(\w+)\.srv import.*No module named '\1'", "The type is here: import from lamp_services.srv."),
+    (r"required file not found|bad interpreter", "Its first line names a program that is not here."),
     (r"No module named '(?!lamp_services)(\w+)'", "Python has no module {0} here."),
     (r"cannot import name '\w+' from 'lamp_services' ", "The types are in lamp_services.srv."),
 )
+
+FAULTS = {
+    says("error processing writing|exactly 3|rgb must be"): "rgb takes three numbers in a list: r, g and b.",
+    says(
+        "process request: (?!service handler)"
+    ): "It is not refused: the answer to a mode that there is not has success=False.",
+}
 
 START = f"""%%writefile {FILE}
 ..."""
@@ -47,7 +55,7 @@ def the_program(exam: Exam) -> None:
     line = f"rosrun lamp_services {NAME} /lamp:={name} __name:={node}"
     with folder.start("bash", "-c", f". devel/setup.bash && exec {line}", worded=line) as running:
         _serves(exam, running, name, f"/{node}")
-        lamp = exam.service(name, lamp_class(), timeout=5.0)
+        lamp = exam.service(name, lamp_class(), hints=FAULTS, timeout=5.0)
         for mode in (1, 2, 0, exam.draw.integer(3, 255), 1):
             _answers(exam, lamp, mode)
 
@@ -111,6 +119,10 @@ def _seen(status: int | None, printed: str) -> str:
 
 def _why_not(status: int | None, printed: str, others: list[str]) -> str:
     mine = [other for other in others if not other.endswith(("/get_loggers", "/set_logger_level"))]
+    if "/lamp" in mine:
+        return (
+            "It takes its name before rospy.init_node, and so no other can be given to it. Call that first."
+        )
     if mine:
         return f"It serves {', '.join(mine)}. The name that is asked for is /lamp."
     if status is None and others:
@@ -170,5 +182,6 @@ def _answers(exam: Exam, lamp: Service, mode: int) -> None:
         hints={
             0.0: "A field that nobody fills is 0. Add up request.seconds.",
             float(len(seconds)): "That is how many there are. Add them up.",
+            says(""): "Add up all of them: sum(request.seconds).",
         },
     )

@@ -35,6 +35,10 @@ def area_and_volume(exam: Exam) -> None:
                 width * height: "That is the front of the box, width times height, and not its floor.",
                 length * height: "That is a side of the box, length times height, and not its floor.",
                 width * length * height: "That is the volume. The response has area first, then volume.",
+                (
+                    lambda seen, area=width * length: abs(seen - area) <= 1
+                ): "It is rounded. Return it as it is.",
+                says(""): "The floor of the box is meant: width times length.",
             },
         )
         exam.expect(
@@ -47,6 +51,7 @@ def area_and_volume(exam: Exam) -> None:
                 width + length + height: "That is the sum of the sides. A volume is their product.",
                 width * length + height: "That is area + height. A volume is a product.",
                 width * length: "That is the area once more: multiply it by the height.",
+                says(""): "Multiply all three sides: width, length and height.",
             },
         )
 

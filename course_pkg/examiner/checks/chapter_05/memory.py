@@ -18,6 +18,7 @@ MESSAGE = {
     says("True|False"): "The message is the word on or the word off.",
     says("on|off"): "The message is on or off, in small letters, and nothing else.",
 }
+NO_REFUSAL = "It is there already, and that is no error: answer, with success=False and where it stands."
 STARTS_ON = "A new switch was told to go off, where it should have been already: start with False."
 SHARES = (
     "The switch at /switch was on, and so was a new one, before anybody touched it: they share one value. "
@@ -37,7 +38,9 @@ ELSEWHERE = {
 )
 def a_counter_that_resets(exam: Exam) -> None:
     """Count once to know where earlier calls have left it; then a short round and one beyond 9."""
-    count = exam.service("/count", "std_srvs/Trigger")
+    count = exam.service(
+        "/count", "std_srvs/Trigger", hints={says("field message"): "The message is a text: str(self.count)."}
+    )
     reset = exam.service(
         "/reset_count",
         "std_srvs/Empty",
@@ -60,6 +63,7 @@ def a_counter_that_resets(exam: Exam) -> None:
                 seen=response.message,
                 hints={
                     "": "The message is empty: a field that is left out is an empty text.",
+                    says(r"^0\d"): "No zero stands in front: str(self.count).",
                     says(r"\D"): "The message is the number as text, and nothing else.",
                     _lost_a_digit(number): "After 9 comes 10, with both of its digits.",
                     _follows(before): "It went on from the old count: set self.count to zero in the reset.",
@@ -86,7 +90,9 @@ def _follows(before: str) -> Callable[[str], bool]:
 )
 def a_switch_that_tells(exam: Exam) -> None:
     """Put it in a known place, then ten turns; the one at /switch may be on, so ask a new one, too."""
-    turn = exam.service("/switch", "std_srvs/SetBool")
+    turn = exam.service(
+        "/switch", "std_srvs/SetBool", hints={says("process request: (?!service handler)"): NO_REFUSAL}
+    )
     turn(data=False)
     exam.expect(
         "data=False means off",

@@ -62,6 +62,7 @@ def _opened(exam: Exam, name: str, hint: str) -> ServiceSeen:
         "an open service answers True and open",
         expected=[True, "open"],
         seen=[response.success, response.message],
+        hints='The answer is success=True and message="open", and nothing else.',
     )
     return service
 

@@ -25,7 +25,7 @@ def read_the_arguments(exam: Exam) -> None:
         ).value,
         near=1e-9,
         hints={
-            None: f"{name_first} And a number may have a point.",
+            None: f"{name_first} And a number may have a point. They stand in `argv`: rospy.myargv(argv).",
             (
                 lambda seen: all(isinstance(item, str) for item in seen)
             ): "Those are texts. Make a float of each.",
@@ -66,13 +66,13 @@ def read_the_arguments(exam: Exam) -> None:
     exam.expect(
         "None when there are too few",
         expected=None,
-        seen=exam.run("read_sides", [program, *texts[:2]]).value,
+        seen=exam.run("read_sides", [program, *texts[:2]], hints=_ENDS).value,
         hints="Two numbers are no box. Return None.",
     )
     exam.expect(
         "None when there are too many",
         expected=None,
-        seen=exam.run("read_sides", [program, *texts, "1.0"]).value,
+        seen=exam.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).value,
         hints="Four numbers are one too many. Return None, instead of leaving one out without a word.",
     )
     for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
@@ -88,3 +88,9 @@ def read_the_arguments(exam: Exam) -> None:
             ).value,
             hints="A word is no number, and nothing to leave out. Return None.",
         )
+
+
+_ENDS = {
+    says("^SystemExit"): "It ends the program. What to do then is for the caller to say: return None.",
+    says("."): "Other than three is no error here: return None.",
+}

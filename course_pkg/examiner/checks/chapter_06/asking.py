@@ -17,7 +17,7 @@ def the_geometry_client(exam: Exam) -> None:
         length, width, height = exam.draw.numbers(3, 0.5, 9.0)
         area, volume = volumes(exam, 2)
         server = exam.serve(name, GEOMETRY, lambda _, a=area, v=volume: {"area": a, "volume": v})
-        returned = exam.run("measure", name, length, width, height).value
+        returned = exam.run("measure", name, length, width, height, hints=_UNAVAILABLE).value
         exam.hold(
             "the service that was named is called",
             bool(server.requests),
@@ -55,7 +55,14 @@ def the_geometry_client(exam: Exam) -> None:
                     "That is the whole response. Return its area and its volume.",
                 ),
                 ([volume, area], "That is the volume first."),
+                (lambda seen: not isinstance(seen, list), "Return the two with a comma between them."),
+                (lambda seen: any(isinstance(each, str) for each in seen), "Return numbers, and no texts."),
                 ([length, width], "Those are fields of the request. Read them from the response."),
                 (says(""), "This server measures in its own way: return what it says, unchanged."),
             ],
         )
+
+
+_UNAVAILABLE = {
+    says("unavailable"): "The service that was named is there. Make the proxy with the name in `service`."
+}

@@ -1,8 +1,24 @@
 """The client that lives through a failure."""
 
-from course_pkg.examiner import Exam, HangUp, Refuse, part, says
+from course_pkg.examiner import Exam, HangUp, Its, Refuse, part, says
 from course_pkg.examiner.checks.chapter_06.boxes import GEOMETRY, volumes
+from course_pkg.examiner.outcome import Outcome
 from course_pkg.examiner.scripted import ScriptedServer
+
+NO_NAMES = """
+class Slip:
+    def __init__(self, error):
+        self.error = error
+
+    def _raise(self, *_):
+        raise self.error(f"a service has a name, and this is {type(self).__name__}")
+
+    __bool__ = __str__ = __repr__ = __len__ = __getitem__ = __hash__ = __eq__ = _raise
+
+
+class no_name:
+    TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
+"""  # whatever is done with one of these raises what a slip with a name of another kind does
 
 
 @part(
@@ -27,6 +43,7 @@ def catch_what_can_happen(exam: Exam) -> None:
             near=1e-6,
             hints={
                 None: "The server answered, and None was returned. An answer of 0.0 is a volume, too.",
+                (lambda seen: isinstance(seen, str)): "That is a text. Return the number as it came.",
                 says(""): "Return the volume that the server answered with.",
             },
         )
@@ -40,14 +57,21 @@ def catch_what_can_happen(exam: Exam) -> None:
                 hints="A call that failed may have done its work. Give up after one; others may try again.",
             )
     for slip in (f"{exam.draw.word()} metres", exam.draw.number(2.0, 9.0) * 1e200):
-        wrong = exam.run("volume_or_none", good, slip, *sides[1:])
-        exam.hold(
-            "an error of your own comes out",
-            bool(wrong.error),
-            expected=f"an error about {slip!r}",
-            seen=wrong.error or "no error",
-            hints="Nobody hears of a wrong argument then. Catch rospy.ServiceException, and nothing wider.",
-        )
+        _comes_out(exam, exam.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
+    exam.prepare(NO_NAMES)
+    for kind in ("TypeError", "AttributeError", "ValueError"):
+        slipped = exam.run("volume_or_none", Its(f"no_name.{kind}"), *sides)
+        _comes_out(exam, slipped, f"a name that is no text: {kind}")
+
+
+def _comes_out(exam: Exam, wrong: Outcome, slip: str) -> None:
+    exam.hold(
+        "an error of your own comes out",
+        bool(wrong.error),
+        expected=f"an error about {slip}",
+        seen=wrong.error or "no error",
+        hints="Nobody hears of a wrong argument then. Catch rospy.ServiceException, and nothing wider.",
+    )
 
 
 def _fails(exam: Exam, failure: str, name: str, sides: list[float]) -> None:
@@ -70,7 +94,7 @@ def _fails(exam: Exam, failure: str, name: str, sides: list[float]) -> None:
         f"None from a server that {failure}",
         expected=None,
         seen=outcome.value,
-        hints="Return None when the call failed, so that the caller can tell it from a volume.",
+        hints="Return None itself when the call failed, so that the caller can tell it from a volume.",
     )
 
 

@@ -1,7 +1,8 @@
 """The client that goes on to the next server."""
 
 from course_pkg.examiner import Exam, Late, Refuse, Silence, part, says
-from course_pkg.examiner.checks.chapter_06.boxes import GEOMETRY, NO_RETURN, volumes
+from course_pkg.examiner.checks.chapter_06.boxes import GEOMETRY, NO_RETURN, stops, volumes
+from course_pkg.examiner.ledger import Hints
 from course_pkg.examiner.outcome import Outcome
 
 
@@ -30,6 +31,7 @@ def ask_the_next_one(exam: Exam) -> None:
         hints={
             None: NO_RETURN,
             second: "That is the answer of the second one. Stop at the first that answers.",
+            (lambda seen: "volume" in seen): "That is the whole response. Return its volume.",
             says(""): "Return the volume that the server answered with.",
         },
     )
@@ -78,18 +80,25 @@ def ask_the_next_one(exam: Exam) -> None:
     exam.expect(
         "None when nobody answers",
         expected=None,
-        seen=_first_of(exam, word, "nowhere", "refuses").value,
+        seen=_first_of(exam, word, "nowhere", "refuses", hints=_NOBODY).value,
         hints="Return None after the loop.",
     )
+    sides = exam.draw.numbers(3, 0.5, 9.0)
+    names = [f"/{word}_frozen", f"/{word}_second"]
+    stops(exam, "first_answer", names, *sides, catch="(rospy.ServiceException, CallTimeout)")
 
 
-def _first_of(exam: Exam, word: str, *kinds: str) -> Outcome:
+_NOBODY = {says("."): "Nobody answers, and that is no error: return None after the loop."}
+
+
+def _first_of(exam: Exam, word: str, *kinds: str, hints: Hints = ()) -> Outcome:
     """Run the student's function on the services of these kinds, in this order."""
     return exam.run(
         "first_answer",
         [f"/{word}_{kind}" for kind in kinds],
         *exam.draw.numbers(3, 0.5, 9.0),
-        hints={
+        hints=hints
+        or {
             says(
                 "^ServiceException"
             ): "A failed call must not end the search. Catch rospy.ServiceException inside the loop.",

@@ -3,7 +3,7 @@
 from threading import Timer
 
 from course_pkg.examiner import Exam, part, says
-from course_pkg.examiner.checks.chapter_06.boxes import GEOMETRY, NO_RETURN
+from course_pkg.examiner.checks.chapter_06.boxes import GEOMETRY, NO_RETURN, stops
 
 
 @part(
@@ -26,6 +26,7 @@ def is_anybody_there(exam: Exam) -> None:
         hints={
             None: NO_RETURN,
             False: "The service was there. wait_for_service returns nothing when it succeeds.",
+            (lambda seen: isinstance(seen, str)): "That is a text. True and False stand without quotes.",
         },
     )
     exam.hold(
@@ -54,6 +55,7 @@ def is_anybody_there(exam: Exam) -> None:
         seen=exam.run("is_there", later, 4.0, within=8.0).value,
         hints={False: "It came after 1.3 s, and there were 4. Wait for as long as `seconds` says."},
     )
+    stops(exam, "is_there", nowhere, 3.0, catch="rospy.ROSException")
 
 
 def _never_there(exam: Exam, name: str, hint: str) -> None:

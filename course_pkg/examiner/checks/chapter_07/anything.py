@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.checks.chapter_07.questions import Question, questions
 from course_pkg.examiner.checks.chapter_07.words import NO_RETURN
 
+IS_MESSAGE = """
+def is_message(function, *args):
+    return hasattr(function(*args), "_slot_types")
+"""  # to a check, a message and a dict of its values look alike
 SLIPS = {
     says("already been called"): (
         "rosservice.call_service makes a node of its own, and this kernel is one already. Take the class "
@@ -48,6 +52,14 @@ def call_what_is_there(exam: Exam) -> None:
         expected="an error about dat",
         seen=wrong.error or "no error, and a call without it",
         hints="The service was called with False in its place. Let the error about the name come out.",
+    )
+    exam.prepare(IS_MESSAGE)
+    whole = exam.run("is_message", Its("call_any"), name, {"data": True}, worded="call_any()", hints=SLIPS)
+    exam.expect(
+        "the response is returned",
+        expected="a response",
+        seen="a response" if whole.value else "something else with its values in it",
+        hints="Return the response itself, as the proxy returns it.",
     )
 
 

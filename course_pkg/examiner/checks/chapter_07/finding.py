@@ -82,7 +82,7 @@ def _found(exam: Exam, kind: str, incomplete: str, mine: set[str]) -> None:
         not missing,
         expected=f"a list with {', '.join(missing)} in it",
         seen=names,
-        hints=NONE if right.isdisjoint(names) else incomplete,
+        hints=NONE if incomplete == SOME and right.isdisjoint(names) else incomplete,
     )
     exam.expect(
         "each is found once", expected=len(right), seen=len(names), hints="A name stands there twice."

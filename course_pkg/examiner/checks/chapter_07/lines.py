@@ -16,6 +16,7 @@ TYPES = (
     "YAML reads each value in its own way: off is False, 12 a number. json.dumps writes a dict so that YAML "
     "reads it back as it was."
 )
+TWICE = "It makes the call more than once."
 COMPLAINTS = {
     says(
         r"call \S+ \w+:="
@@ -72,7 +73,7 @@ def _typed(exam: Exam, question: Question, server: ScriptedServer, line: str) ->
         done.status == 0 and len(server.requests) == 1,
         expected="one call, and no complaint",
         seen=_gist(said),
-        hints=hint_for(COMPLAINTS, f"{line}\n{said}"),
+        hints=TWICE if len(server.requests) > 1 else hint_for(COMPLAINTS, f"{line}\n{said}"),
     )
     exam.expect(
         f"{question.what}: the fields arrive as they were given",

@@ -49,7 +49,8 @@ def _refused(exam: Exam, on_off: Service, number: int) -> None:
         saying="responded with an error",
         hints={
             (lambda seen: seen["state"] in ("ON", "OFF")): (
-                "It was answered like 0 or 1. In Python every number but 0 counts as true: compare by ==."
+                "It was answered like 0 or 1. Only these two are allowed: compare with each by ==. (In "
+                "Python every number but 0 counts as true.)"
             ),
             (lambda seen: isinstance(seen, dict)): (
                 "It was answered, and a client takes any answer for an answer. Raise an exception instead."

@@ -8,6 +8,11 @@ from course_pkg.graph import Snapshot
 FILE = "my_exercise3.launch"
 ALWAYS = {"/turtlesim", "/improved_pubvel_toggle"}
 SECOND = "/spawn_turtle_plus"
+SIGNS = {  # of the programs, by what nobody else serves
+    "/spawn": "Nobody serves /spawn, as the simulator does. Compare pkg and type of that node.",
+    "/change_speed": "Nobody serves /change_speed, as improved_pubvel_toggle does. Compare pkg and type.",
+    "/MyTurtle/set_pen": "There is no MyTurtle, which spawn_turtle_plus makes. Compare pkg and type.",
+}
 READY = 25.0  # s for a launch file on a busy machine
 
 START = f"""\
@@ -87,20 +92,33 @@ def _runs(exam: Exam, folder: object) -> None:
             READY,
         )
         alike = there and becomes(uri, _both_are_told, READY)
+        served = [] if alike else [name for name in SIGNS if _serves(uri, name)]
         printed = "" if alike else launched.stop().out
     exam.hold(
         "started, both turtles are there and are told where to go",
         bool(alike),
         expected="turtle1 and MyTurtle, each with a driver",
         seen=telling_line(printed) if not there else "MyTurtle, whom nobody tells anything",
-        hints={
-            says("cannot locate node|Cannot locate"): "A program's name is wrong: type= is what you would "
-            "give to rosrun, such as turtlesim_node.",
-            says(
-                ""
-            ): "Start it yourself and read what it prints: roslaunch my_exercise3.launch addturtle:=true",
-        },
+        hints=[
+            (
+                says("cannot locate node|Cannot locate"),
+                "A program's name is wrong: type= is what you would give to rosrun, such as turtlesim_node.",
+            ),
+            *((says(""), hint) for name, hint in SIGNS.items() if name not in served),
+            (
+                lambda _: there,
+                "MyTurtle is there, and nobody drives it: spawn_turtle_plus does. Compare its type.",
+            ),
+            (
+                says(""),
+                "Start it yourself and read what it prints: roslaunch my_exercise3.launch addturtle:=true",
+            ),
+        ],
     )
+
+
+def _serves(uri: str, name: str) -> bool:
+    return becomes(uri, lambda seen: seen.service(name), 0.5)
 
 
 def _both_are_told(seen: Snapshot) -> bool:

@@ -1,11 +1,26 @@
 """A driver that is steered by services: how often it speaks, how fast it goes, whether it moves."""
 
-from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
 from course_pkg.examiner.checks.chapter_08.streams import STANDING, STRAIGHT, TURNING, Stream, kind
 from course_pkg.examiner.hearing import rate
 
 NEAR = 0.25  # of a rate that counts as kept: the machine may be busy
+OWN_WORDS = says("cannot process request: (?!(service )?handler returned)")
+ALLOWED = "It was refused, and is allowed: above 0 and at most 100, fractions and 100 itself included."
+ANY_SPEED = "It was refused, and is allowed: every finite number is a speed, and a negative one is backwards."
+SO_FAR = "the response tells the speed so far"
+A_NEW_ONE = """
+from course_pkg.srv import ChangeSpeedRequest, ChangeSpeedResponse
+from rospy.impl.tcpros_service import convert_return_to_response
+
+begins = []
+
+
+def a_new_one(kind):
+    response = kind(rate=20.0).handle_speed(ChangeSpeedRequest(speed=2.0))
+    begins[:] = [convert_return_to_response(response, ChangeSpeedResponse).before]
+"""  # the one that drives may have been told another speed before
 OWN_WORD = (
     "The client was told of a fault in the server (error processing request). Refuse on purpose: raise "
     "rospy.ServiceException."
@@ -21,35 +36,38 @@ OWN_WORD = (
 )
 def change_the_rate(exam: Exam) -> None:
     """Ask for two rates and listen; then for what is no rate."""
-    change = exam.service("/change_rate", "course_pkg/ChangeRate")
+    change = exam.service("/change_rate", "course_pkg/ChangeRate", hints={OWN_WORDS: ALLOWED})
     stream = Stream(exam)
-    fast, slow = exam.draw.integer(20, 40), exam.draw.integer(4, 8)
+    fast, slow = exam.draw.number(20.0, 40.0), exam.draw.number(4.0, 8.0)
     change(rate=fast)
     for wanted, before in ((slow, fast), (fast, slow)):
         response = change(rate=wanted)
         exam.expect(
             "the response tells the rate so far",
-            expected=float(before),
+            expected=before,
             seen=response.before,
             hints={
+                float(int(before)): "The fraction is lost. A rate may be 2.5 as well.",
                 0.0: "It is 0. Keep the old rate in a variable before you set the new one, and return it.",
-                float(wanted): "That is the new rate. Keep the old one before you set it.",
+                wanted: "That is the new rate. Keep the old one before you set it.",
                 1.0 / before: "That is a period, in seconds. The rate is how often in a second.",
             },
         )
-        heard = rate(stream.next(wanted + 2)[1:])
+        heard = rate(stream.next(int(wanted) + 2)[1:])
         exam.hold(
             "it speaks as often as it was told",
             abs(heard - wanted) < NEAR * wanted,
-            expected=f"{wanted} messages a second",
+            expected=f"{wanted:g} messages a second",
             seen=f"{heard:.1f} a second",
             hints="The drive reads `rate` of the driver: self.rate, in messages a second.",
         )
-    for nonsense in (0.0, -float(slow), 1e6, float("nan")):
+    for allowed in (100.0, 0.5, fast):
+        change(rate=allowed)
+    for nonsense in (0.0, -slow, 100.5, 1e6, float("nan")):
         _refuses(change, "what is no rate is refused", rate=nonsense)
     exam.expect(
         "after a refusal all is as before",
-        expected=float(fast),
+        expected=fast,
         seen=change(rate=fast).before,
         hints="The refused rate was set all the same. Look at it first, then set it.",
     )
@@ -64,7 +82,7 @@ def change_the_rate(exam: Exam) -> None:
 )
 def change_the_speed(exam: Exam) -> None:
     """Ask for speeds, look at what is published going and turning, and ask for what is no speed."""
-    change = exam.service("/change_speed", "course_pkg/ChangeSpeed")
+    change = exam.service("/change_speed", "course_pkg/ChangeSpeed", hints={OWN_WORDS: ANY_SPEED})
     toggle = exam.service("/toggle_forward", "std_srvs/Empty")
     stream = Stream(exam)
     if kind(stream.now()) == TURNING:
@@ -74,7 +92,7 @@ def change_the_speed(exam: Exam) -> None:
     for wanted, before in ((second, first), (first, second)):
         response = change(speed=wanted)
         exam.expect(
-            "the response tells the speed so far",
+            SO_FAR,
             expected=before,
             seen=response.before,
             near=1e-6,
@@ -82,6 +100,7 @@ def change_the_speed(exam: Exam) -> None:
                 0.0: "It is 0. Keep the old speed in a variable before you set the new one, and return it.",
                 wanted: "That is the new speed. Keep the old one before you set it.",
                 abs(before): "It was negative: backwards. Keep it as it came.",
+                says(""): "It is the speed that was sent last: not more, and nothing added to it.",
             },
         )
         exam.expect(
@@ -107,8 +126,25 @@ def change_the_speed(exam: Exam) -> None:
             says(""): "Turning, it stands on the spot: (0.0, 1.0).",
         },
     )
-    for nonsense in (float("nan"), float("inf")):
+    for nonsense in (float("nan"), float("inf"), -float("inf")):
         _refuses(change, "what is no speed is refused", speed=nonsense)
+    exam.expect(
+        SO_FAR,
+        expected=first,
+        seen=change(speed=second).before,
+        near=1e-6,
+        hints="The refused speed was set all the same. Look at it first, then set it.",
+    )
+    exam.prepare(A_NEW_ONE)
+    exam.run("a_new_one", Its("Faster"), worded="handle_speed() of a new Faster(rate=20.0)")
+    begins = exam.read("begins")
+    exam.hold(
+        SO_FAR,
+        begins in ([], [1.0]),  # none where it takes other arguments to make one
+        expected="1.0 from a new one",
+        seen=begins,
+        hints="A new one goes at 1.0.",
+    )
 
 
 @part(
@@ -120,7 +156,13 @@ def change_the_speed(exam: Exam) -> None:
 )
 def start_and_stop(exam: Exam) -> None:
     """Stop, stop again, start, start again; then see that it goes on as it went before."""
-    switch = exam.service("/start_stop", "std_srvs/SetBool")
+    switch = exam.service(
+        "/start_stop",
+        "std_srvs/SetBool",
+        hints={
+            OWN_WORDS: "Asked for what is so already, it does not refuse: success=True, and says already."
+        },
+    )
     toggle = exam.service("/toggle_forward", "std_srvs/Empty")
     stream = Stream(exam)
     switch(data=True)
@@ -151,7 +193,7 @@ def _switches(exam: Exam, switch: Service, moving: bool) -> None:
         )
         exam.hold(
             "the message says already where it was so already, and only there",
-            ("already" in response.message) == again,
+            ("already" in response.message.lower()) == again and response.message.strip() != "",
             expected="a message with the word already" if again else "a message without it",
             seen=response.message,
             hints={
@@ -171,12 +213,14 @@ def _what_went_wrong(moving: bool, seen: str, wanted: str) -> str:
 
 
 def _refuses(service: Service, rule: str, **fields: float) -> None:
+    (number,) = fields.values()
+    why = "nan is neither above nor below anything" if number != number else f"{number:g} is not allowed"
     service.refused(
         rule,
         saying="cannot process request",
         hints={
             says("^ServiceException.*error processing"): OWN_WORD,
-            says(""): "It was accepted. Look at the number first: nan is neither above nor below anything.",
+            says(""): f"It was accepted. Look at the number first: {why}.",
         },
         **fields,
     )

@@ -1,7 +1,16 @@
 """A driver that changes over when it is asked to."""
 
-from course_pkg.examiner import Exam, part, says
+from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.checks.chapter_08.streams import STANDING, STRAIGHT, TURNING, Stream, kind, velocity
+
+KINDS = "it goes straight on at 1 m/s, or turns at 1 rad/s"
+A_NEW_ONE = """
+begins = []
+
+
+def a_new_one(kind):
+    begins[:] = map(float, kind().velocity())
+"""  # the one that drives may have been asked to change over before
 
 
 @part(
@@ -46,12 +55,22 @@ def change_over(exam: Exam) -> None:
         seen=kind(stream.now()),
         hints="It changes over once and never back: self.forward = not self.forward.",
     )
+    exam.prepare(A_NEW_ONE)
+    exam.run("a_new_one", Its("Toggle"), worded="velocity() of a new Toggle()")
+    begins = exam.read("begins")
+    exam.hold(
+        KINDS,
+        begins != [0.0, 1.0],
+        expected="(1.0, 0.0) from a new one",
+        seen=begins,
+        hints="A new one begins straight on: (1.0, 0.0).",
+    )
 
 
 def _is_a_kind(exam: Exam, pair: tuple[float, float]) -> None:
     wanted = {STRAIGHT: (1.0, 0.0), TURNING: (0.0, 1.0)}
     exam.hold(
-        "it goes straight on at 1 m/s, or turns at 1 rad/s",
+        KINDS,
         pair in wanted.values(),
         expected="(1.0, 0.0) or (0.0, 1.0)",
         seen=pair,
