@@ -181,7 +181,6 @@ def _not_sold(exam: Exam, buying: Service, looking: Service, till: Till, count: 
 
 def _fifty(exam: Exam, buying: Service, looking: Service, till: Till, count: int) -> None:
     till.charged.clear()
-    till.ids.clear()
     till.ways = [Refuse("no money on this card")] * 5
     replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
     sold = sum(reply.success for reply in replies)
