@@ -13,12 +13,12 @@ export function framed(render) {
   };
 }
 
-/** Below the banner, where there is one. @param {Element} panel @param {import("./kit.js").Model} model */
+/** Below the place for errors, or the banner, where there is one. @param {Element} panel @param {import("./kit.js").Model} model */
 function placeMeaning(panel, model) {
   const body = h("div", { class: "ros-meaning" });
   const el = h("details", { class: "ros-explained", hidden: true }, h("summary", { text: "What this error means" }), body);
-  const banner = panel.querySelector(":scope > .ros-banner");
-  if (banner) banner.after(el);
+  const place = panel.querySelector(":scope > .ros-trouble") ?? panel.querySelector(":scope > .ros-banner");
+  if (place) place.after(el);
   else panel.append(el);
   const draw = () => {
     const { cause, remedy, taught } = model.get("explained") ?? {};

@@ -141,6 +141,7 @@ class LabView {
     const words = { causing: "Breaking something, and looking at what one sees of it…", looking: "Looking…", ready: "The fault is there. Look closer, and answer.",
       over: "The fault is undone. Press the case again to have it back." };
     if (!this.live) return "This is how the case stood.";
+    if (this.model.get("trouble")) return "Nothing is broken yet. Press the case again when that is mended.";
     if (open.phase === "ready" && settled(open)) return "The fault is still there: look closer with what you know now, or undo it.";
     return words[/** @type {keyof typeof words} */ (open.phase)] ?? "";
   }
