@@ -129,6 +129,39 @@ def sees_customer(frame):
         raise ValueError("the data do not fit")
     return sum(point < 96 for point in frame.data)
 
+# %% 12.1 wrong: refuses filling | hint: A row has `step` bytes and only `width` points
+def sees_customer(frame):
+    if frame.encoding != "mono8" or not frame.data or frame.step != frame.width or len(frame.data) != frame.height * frame.step:
+        raise ValueError("malformed")
+    return 10 * sum(point < 96 for point in frame.data) >= len(frame.data)
+
+# %% 12.1 wrong: asserts | hint: That is an error of another type
+def sees_customer(frame):
+    assert frame.encoding == "mono8", "not mono8"
+    assert frame.data and frame.width and frame.step >= frame.width and len(frame.data) == frame.height * frame.step, "bytes"
+    dark = 0
+    for row in range(frame.height):
+        dark += sum(point < 96 for point in frame.data[row * frame.step : row * frame.step + frame.width])
+    return 10 * dark >= frame.width * frame.height
+
+# %% 12.1 wrong: says nothing | hint: Nobody learns what is wrong with the frame
+def sees_customer(frame):
+    if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width or len(frame.data) != frame.height * frame.step:
+        raise ValueError
+    dark = 0
+    for row in range(frame.height):
+        dark += sum(point < 96 for point in frame.data[row * frame.step : row * frame.step + frame.width])
+    return 10 * dark >= frame.width * frame.height
+
+# %% 12.1 wrong: bytes without points | hint: The frame has bytes, and all of them are filling
+def sees_customer(frame):
+    if frame.encoding != "mono8" or not frame.data or frame.step < frame.width or len(frame.data) != frame.height * frame.step:
+        raise ValueError("malformed")
+    dark = 0
+    for row in range(frame.height):
+        dark += sum(point < 96 for point in frame.data[row * frame.step : row * frame.step + frame.width])
+    return 10 * dark >= frame.width * frame.height
+
 # %% 12.2 right: with the time of the last good frame
 class Eye:
     def __init__(self, sees):
@@ -175,6 +208,73 @@ class Eye:
         if rospy.get_time() > until:
             return None
         return seen
+
+# %% 12.2 right: the stamp of the frame
+class Eye:
+    def __init__(self, sees):
+        self.changed = threading.Condition()
+        self.sees = sees
+        self.last = None
+
+    def start(self, topic):
+        return rospy.Subscriber(topic, Image, self.hear, queue_size=1, buff_size=1 << 22)
+
+    def hear(self, frame):
+        try:
+            found = self.sees(frame)
+        except ValueError as problem:
+            rospy.logwarn_throttle(10, str(problem))
+        else:
+            with self.changed:
+                self.last = (found, frame.header.stamp)
+                self.changed.notify_all()
+
+    def look(self):
+        with self.changed:
+            if self.last is None:
+                return None
+            found, stamp = self.last
+            if rospy.Time.now() - stamp > rospy.Duration(1):
+                return None
+            return found
+
+# %% 12.2 right: a worker looks at the newest
+class Eye:
+    def __init__(self, sees):
+        self.sees = sees
+        self.changed = threading.Condition()
+        self.waiting = threading.Condition()
+        self.frame = None
+        self.known = None
+        threading.Thread(target=self._work, daemon=True).start()
+
+    def start(self, topic):
+        return rospy.Subscriber(topic, Image, self.hear)
+
+    def hear(self, frame):
+        with self.waiting:
+            self.frame = frame
+            self.waiting.notify()
+
+    def _work(self):
+        while True:
+            with self.waiting:
+                while self.frame is None:
+                    self.waiting.wait()
+                frame, self.frame = self.frame, None
+            try:
+                seen = self.sees(frame)
+            except ValueError:
+                continue
+            with self.changed:
+                self.known = (time.time(), seen)
+                self.changed.notify_all()
+
+    def look(self):
+        known = self.known
+        if known and time.time() - known[0] < 1:
+            return known[1]
+        return None
 
 # %% 12.2 wrong: once seen, always there | hint: Somebody was there, and has gone
 class Eye:
@@ -375,6 +475,70 @@ class Eye:
     def look(self):
         return self.seen if time.monotonic() - self.told <= 1.0 else None
 
+# %% 12.2 wrong: wakes one | hint: notify() wakes one of those who wait
+class Eye:
+    def __init__(self, sees):
+        self.changed = threading.Condition()
+        self.sees, self.seen, self.told = sees, None, 0.0
+
+    def start(self, topic):
+        return rospy.Subscriber(topic, Image, self.hear, queue_size=1)
+
+    def hear(self, frame):
+        try:
+            seen = self.sees(frame)
+        except ValueError:
+            return
+        with self.changed:
+            self.seen, self.told = seen, time.monotonic()
+            self.changed.notify()
+
+    def look(self):
+        return self.seen if time.monotonic() - self.told <= 1.0 else None
+
+# %% 12.2 wrong: wakes when it is another | hint: also one that shows the same
+class Eye:
+    def __init__(self, sees):
+        self.changed = threading.Condition()
+        self.sees, self.seen, self.told = sees, None, 0.0
+
+    def start(self, topic):
+        return rospy.Subscriber(topic, Image, self.hear, queue_size=1)
+
+    def hear(self, frame):
+        try:
+            seen = self.sees(frame)
+        except ValueError:
+            return
+        with self.changed:
+            before, self.seen, self.told = self.seen, seen, time.monotonic()
+            if seen != before:
+                self.changed.notify_all()
+
+    def look(self):
+        return self.seen if time.monotonic() - self.told <= 1.0 else None
+
+# %% 12.2 wrong: forgets too soon | hint: It counts for a whole second
+class Eye:
+    def __init__(self, sees):
+        self.changed = threading.Condition()
+        self.sees, self.seen, self.told = sees, None, 0.0
+
+    def start(self, topic):
+        return rospy.Subscriber(topic, Image, self.hear, queue_size=1)
+
+    def hear(self, frame):
+        try:
+            seen = self.sees(frame)
+        except ValueError:
+            return
+        with self.changed:
+            self.seen, self.told = seen, time.monotonic()
+            self.changed.notify_all()
+
+    def look(self):
+        return self.seen if time.monotonic() - self.told <= 0.1 else None
+
 # %% 12.3 right: wait_for
 def await_customer(eye, patience):
     with eye.changed:
@@ -406,6 +570,18 @@ def await_customer(eye, patience):
     if seen is None:
         raise CameraSilent("nobody can tell")
     return False
+
+# %% 12.3 right: a thousand looks a second
+def await_customer(eye, patience):
+    begin = rospy.get_time()
+    while rospy.get_time() - begin < patience:
+        if eye.look():
+            return True
+        rospy.sleep(0.001)
+    last = eye.look()
+    if last is None:
+        raise CameraSilent("no frame")
+    return last
 
 # %% 12.3 wrong: waits for ever | hint: It waits, and never gives up
 def await_customer(eye, patience):
@@ -520,6 +696,45 @@ def turn_given_back():
     stack = contextlib.ExitStack()
     stack.callback(turn.release)
     return stack
+
+# %% 12.3 wrong: once silent, always silent | hint: The camera was silent for a while
+def await_customer(eye, patience):
+    end = time.monotonic() + patience
+    silent = False
+    with eye.changed:
+        while True:
+            seen = eye.look()
+            if seen:
+                return True
+            silent = silent or seen is None
+            if time.monotonic() >= end:
+                break
+            eye.changed.wait(max(0.0, end - time.monotonic()))
+    if silent:
+        raise CameraSilent("it was silent")
+    return False
+
+# %% 12.3 wrong: waits without holding | hint: A condition is held while one waits at it
+def await_customer(eye, patience):
+    found = eye.changed.wait_for(eye.look, timeout=patience)
+    if found is None:
+        raise CameraSilent("nobody can tell")
+    return found
+
+# %% 12.3 wrong: nobody is a silent camera | hint: the camera saw that nobody is there
+def await_customer(eye, patience):
+    with eye.changed:
+        if not eye.changed.wait_for(eye.look, timeout=patience):
+            raise CameraSilent("nobody can tell")
+    return True
+
+# %% 12.3 wrong: another error | hint: Whoever asks catches CameraSilent
+def await_customer(eye, patience):
+    with eye.changed:
+        found = eye.changed.wait_for(eye.look, timeout=patience)
+    if found is None:
+        raise RuntimeError("nobody can tell")
+    return found
 
 # %% 12.4 right: looks first
 def handle_detect(wait, request):
@@ -639,6 +854,24 @@ def handle_detect(wait, request):
     if not 0 <= request.patience <= 60:
         raise rospy.ServiceException("patience has to be from 0 to 60 s")
     return found
+
+# %% 12.4 wrong: refuses 0 | hint: both 0 and 60 are among them
+def handle_detect(wait, request):
+    if not 0 < request.patience <= 60:
+        raise rospy.ServiceException("patience has to be from 0 to 60 s")
+    try:
+        return wait(request.patience)
+    except CameraSilent as error:
+        raise rospy.ServiceException(str(error))
+
+# %% 12.4 wrong: returns the words | hint: What is returned is an answer
+def handle_detect(wait, request):
+    if not 0 <= request.patience <= 60:
+        return "patience has to be from 0 to 60 s"
+    try:
+        return wait(request.patience)
+    except CameraSilent as error:
+        raise rospy.ServiceException(str(error))
 
 # %% 12.5 right: a callback
 def make_mirror(target):
@@ -825,6 +1058,52 @@ def make_mirror(target):
 
     return mirror
 
+# %% 12.5 wrong: more positions than names | hint: There are not as many positions as names
+def make_mirror(target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+
+    def mirror(stance):
+        if len(stance.position) < len(stance.name) or len(stance.velocity) not in (0, len(stance.position)):
+            return
+        if not all(map(math.isfinite, [*stance.position, *stance.velocity])):
+            return
+        image = JointState(header=stance.header, name=stance.name)
+        image.position = [-value for value in stance.position]
+        image.velocity = [-value for value in stance.velocity]
+        publisher.publish(image)
+
+    return mirror
+
+# %% 12.5 wrong: any number of velocities | hint: There are velocities, and not as many as positions
+def make_mirror(target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+
+    def mirror(stance):
+        if len(stance.position) != len(stance.name) or not all(map(math.isfinite, [*stance.position, *stance.velocity])):
+            return
+        image = JointState(header=stance.header, name=stance.name)
+        image.position = [-value for value in stance.position]
+        image.velocity = [-value for value in stance.velocity]
+        publisher.publish(image)
+
+    return mirror
+
+# %% 12.5 wrong: only the stamp | hint: Hand all of it on: header=stance.header
+def make_mirror(target):
+    publisher = rospy.Publisher(target, JointState, queue_size=10)
+
+    def mirror(stance):
+        counts = {len(stance.position), len(stance.velocity) or len(stance.position)}
+        if counts != {len(stance.name)} or not all(map(math.isfinite, [*stance.position, *stance.velocity])):
+            return
+        image = JointState(name=stance.name)
+        image.header.stamp = stance.header.stamp
+        image.position = [-value for value in stance.position]
+        image.velocity = [-value for value in stance.velocity]
+        publisher.publish(image)
+
+    return mirror
+
 # %% 12.6 right: a thread that asks
 def start_robot(stances, mirror, service, greet, over):
     def work():
@@ -1005,6 +1284,45 @@ def start_robot(stances, mirror, service, greet, over):
 
     threading.Thread(target=work, daemon=True).start()
     rospy.Subscriber(stances, JointState, mirror)
+
+# %% 12.6 wrong: greets on another thread, and asks on | hint: call it on the thread that asks
+def start_robot(stances, mirror, service, greet, over):
+    def work():
+        while not over.is_set():
+            try:
+                if node.call(service, AwaitCustomer, patience=2, timeout=4).found:
+                    threading.Thread(target=greet, daemon=True).start()
+            except (rospy.ServiceException, CallTimeout):
+                over.wait(0.5)
+
+    threading.Thread(target=work, daemon=True).start()
+    return rospy.Subscriber(stances, JointState, mirror)
+
+# %% 12.6 wrong: no CallTimeout | hint: node.call raises a CallTimeout then
+def start_robot(stances, mirror, service, greet, over):
+    def work():
+        while not over.is_set():
+            try:
+                if node.call(service, AwaitCustomer, patience=2, timeout=4).found:
+                    greet()
+            except rospy.ServiceException:
+                over.wait(0.5)
+
+    threading.Thread(target=work, daemon=True).start()
+    return rospy.Subscriber(stances, JointState, mirror)
+
+# %% 12.6 wrong: pauses for five seconds | hint: half a second, and no longer
+def start_robot(stances, mirror, service, greet, over):
+    def work():
+        while not over.is_set():
+            try:
+                if node.call(service, AwaitCustomer, patience=2, timeout=4).found:
+                    greet()
+            except (rospy.ServiceException, CallTimeout):
+                over.wait(5)
+
+    threading.Thread(target=work, daemon=True).start()
+    return rospy.Subscriber(stances, JointState, mirror)
 
 # %% 12.7 right: a dict
 class Till:
@@ -1210,6 +1528,33 @@ class Till:
     def handle_total(self, request):
         return sum(self.amounts.values()), len(self.amounts)
 
+# %% 12.7 wrong: a dict in the class | hint: what stands in the class is shared by all of them
+class Till:
+    amounts = {}
+
+    def handle_set(self, request):
+        if not request.item or request.cents < 0:
+            raise rospy.ServiceException(f"{request.item}: {request.cents} cents cannot be")
+        self.amounts[request.item] = request.cents
+        return sum(self.amounts.values())
+
+    def handle_total(self, request):
+        return sum(self.amounts.values()), len(self.amounts)
+
+# %% 12.7 wrong: refuses what is free | hint: It refused what is good
+class Till:
+    def __init__(self):
+        self.amounts = {}
+
+    def handle_set(self, request):
+        if not request.item or request.cents <= 0:
+            raise rospy.ServiceException(f"{request.item}: {request.cents} cents cannot be")
+        self.amounts[request.item] = request.cents
+        return sum(self.amounts.values())
+
+    def handle_total(self, request):
+        return sum(self.amounts.values()), len(self.amounts)
+
 # %% 12.8 right: one lock around both
 class PrintedTill:
     def __init__(self, printer):
@@ -1379,6 +1724,50 @@ class PrintedTill:
             self.amounts = amounts
         return sum(self.amounts.values())
 
+# %% 12.8 wrong: takes the item out when it fails | hint: not the old price either
+class PrintedTill:
+    def __init__(self, printer):
+        self.printer, self.amounts, self.turn = printer, {}, threading.Lock()
+
+    def handle_set(self, request):
+        with self.turn:
+            self.amounts[request.item] = request.cents
+            try:
+                self.printer.print(f"{request.item} {request.cents}")
+            except PrinterFailed as error:
+                del self.amounts[request.item]
+                raise rospy.ServiceException(str(error))
+            return sum(self.amounts.values())
+
+# %% 12.8 wrong: tries until it is printed | hint: It tries again and again
+class PrintedTill:
+    def __init__(self, printer):
+        self.printer, self.amounts = printer, {}
+
+    def handle_set(self, request):
+        while True:
+            try:
+                self.printer.print(f"{request.item} {request.cents}")
+                break
+            except PrinterFailed:
+                time.sleep(0.01)
+        self.amounts[request.item] = request.cents
+        return sum(self.amounts.values())
+
+# %% 12.8 wrong: counts only what is new | hint: An item that was set again is in the sum twice
+class PrintedTill:
+    def __init__(self, printer):
+        self.printer, self.sum, self.turn = printer, 0, threading.Lock()
+
+    def handle_set(self, request):
+        with self.turn:
+            try:
+                self.printer.print(f"{request.item} {request.cents}")
+            except PrinterFailed as error:
+                raise rospy.ServiceException(str(error))
+            self.sum += request.cents
+            return self.sum
+
 # %% 12.9 right: in its turn
 class Register(OpenTill):
     def handle_reset(self, request):
@@ -1396,6 +1785,34 @@ class Register(OpenTill):
             amounts, self.amounts = self.amounts, {}
         message = "paid %d cents" % sum(amounts.values()) if amounts else "It was empty already."
         return {"success": True, "message": message}
+
+# %% 12.9 right: tries and gives back, with a full stop
+from std_srvs.srv import TriggerResponse
+
+
+class Register(OpenTill):
+    """My register."""
+
+    def __init__(self, printer):
+        super().__init__(printer)
+        self.customers = 0
+
+    def handle_reset(self, request):
+        answer = TriggerResponse(success=True)
+        self.turn.acquire()
+        try:
+            if len(self.amounts) > 0:
+                cents = 0
+                for item in self.amounts:
+                    cents += self.amounts[item]
+                self.amounts.clear()
+                self.customers += 1
+                answer.message = f"The customer paid {cents}."
+            else:
+                answer.message = "Already empty."
+        finally:
+            self.turn.release()
+        return answer
 
 # %% 12.9 wrong: does not wait for its turn | hint: An item was being set, and the reset came in between
 class Register(OpenTill):
@@ -1481,6 +1898,36 @@ class Register(OpenTill):
             paid = sum(self.amounts.values())
             self.amounts = {}
             return f"paid {paid} cents"
+
+# %% 12.9 wrong: the total first, and then its turn | hint: that item is lost
+class Register(OpenTill):
+    def handle_reset(self, request):
+        paid = self.total()
+        with self.turn:
+            if not self.amounts:
+                return True, "already empty"
+            self.amounts = {}
+            return True, f"paid {paid} cents"
+
+# %% 12.9 wrong: glued | hint: The number is no word of its own
+class Register(OpenTill):
+    def handle_reset(self, request):
+        with self.turn:
+            if not self.amounts:
+                return True, "already empty"
+            paid = sum(self.amounts.values())
+            self.amounts = {}
+            return True, f"paid {paid}ct"
+
+# %% 12.9 wrong: a refusal for what is empty | hint: A reset succeeds in any case
+class Register(OpenTill):
+    def handle_reset(self, request):
+        with self.turn:
+            if not self.amounts:
+                raise rospy.ServiceException("already empty")
+            paid = sum(self.amounts.values())
+            self.amounts = {}
+            return True, f"paid {paid} cents"
 
 # %% 12.10 right: as on the page
 %%writefile ask_customer.py
@@ -1785,6 +2232,117 @@ except (rospy.ROSException, rospy.ServiceException) as error:
     sys.exit(str(error))
 print("customer" if answer.found else "nobody")
 
+# %% 12.10 wrong: waits for ten seconds | hint: Give the wait its limit
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=10)
+    answer = rospy.ServiceProxy("/detect_customer", AwaitCustomer)(patience)
+except (rospy.ROSException, rospy.ServiceException) as error:
+    sys.exit(str(error))
+print("customer" if answer.found else "nobody")
+
+# %% 12.10 wrong: gives up without a word | hint: Nobody reads why it ended
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=3)
+except rospy.ROSException:
+    sys.exit(1)
+try:
+    answer = rospy.ServiceProxy("/detect_customer", AwaitCustomer)(patience)
+except rospy.ServiceException as error:
+    sys.exit(str(error))
+print("customer" if answer.found else "nobody")
+
+# %% 12.10 wrong: status 2 | hint: The exit status that says
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=3)
+    answer = rospy.ServiceProxy("/detect_customer", AwaitCustomer)(patience)
+except (rospy.ROSException, rospy.ServiceException) as error:
+    print(error)
+    sys.exit(2)
+print("customer" if answer.found else "nobody")
+
+# %% 12.10 wrong: two lines | hint: expects one line
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=3)
+    answer = rospy.ServiceProxy("/detect_customer", AwaitCustomer)(patience)
+except (rospy.ROSException, rospy.ServiceException) as error:
+    sys.exit(str(error))
+print(answer)
+print("customer" if answer.found else "nobody")
+
+# %% 12.10 wrong: half a second | hint: It waited for less than 3 s
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=0.5)
+    answer = rospy.ServiceProxy("/detect_customer", AwaitCustomer)(patience)
+except (rospy.ROSException, rospy.ServiceException) as error:
+    sys.exit(str(error))
+print("customer" if answer.found else "nobody")
+
+# %% 12.10 wrong: asks until somebody is there | hint: It asked more than once
+%%writefile ask_customer.py
+#!/usr/bin/env python3
+import sys
+
+import rospy
+from course_pkg.srv import AwaitCustomer
+
+rospy.init_node("ask_customer")
+patience = rospy.get_param("~wait", 2.0)
+try:
+    rospy.wait_for_service("/detect_customer", timeout=3)
+    detect = rospy.ServiceProxy("/detect_customer", AwaitCustomer)
+    for _ in range(3):
+        answer = detect(patience)
+        if answer.found:
+            break
+except (rospy.ROSException, rospy.ServiceException) as error:
+    sys.exit(str(error))
+print("customer" if answer.found else "nobody")
+
 # %% 12.11 right: an argument and a condition
 %%writefile my_cashier.launch
 <launch>
@@ -1812,6 +2370,18 @@ print("customer" if answer.found else "nobody")
   <node name="customer_detector" pkg="course_pkg" type="customer_detector"/>
   <node name="robot" pkg="course_pkg" type="robot"/>
   <node name="counter_camera" pkg="course_pkg" type="counter_camera"/>
+</launch>
+
+# %% 12.11 right: on the command line of the node
+%%writefile my_cashier.launch
+<launch>
+  <arg name="till" default="true" />
+  <arg name="wait" default="2.0" />
+  <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node pkg="course_pkg" type="robot" name="robot" />
+  <node pkg="course_pkg" type="customer_detector" name="customer_detector" />
+  <node pkg="course_pkg" type="robot_cashier" name="robot_cashier" args="_wait:=$(arg wait)" />
+  <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
 </launch>
 
 # %% 12.11 wrong: the till in any case | hint: It is there although nobody wants it
@@ -1973,6 +2543,62 @@ print("customer" if answer.found else "nobody")
   <arg name="wait" default="2.0" />
   <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
   <node pkg="course_pkg" type="robot" name="robot">
+  <node pkg="course_pkg" type="customer_detector" name="customer_detector" />
+  <node pkg="course_pkg" type="robot_cashier" name="robot_cashier">
+    <param name="wait" value="$(arg wait)" />
+  </node>
+  <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
+</launch>
+
+# %% 12.11 wrong: value for default | hint: An <arg> with value= is fixed
+%%writefile my_cashier.launch
+<launch>
+  <arg name="till" value="true" />
+  <arg name="wait" default="2.0" />
+  <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node pkg="course_pkg" type="robot" name="robot" />
+  <node pkg="course_pkg" type="customer_detector" name="customer_detector" />
+  <node pkg="course_pkg" type="robot_cashier" name="robot_cashier">
+    <param name="wait" value="$(arg wait)" />
+  </node>
+  <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
+</launch>
+
+# %% 12.11 wrong: misspelt package | hint: pkg= and type=
+%%writefile my_cashier.launch
+<launch>
+  <arg name="till" default="true" />
+  <arg name="wait" default="2.0" />
+  <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node pkg="course_pkg" type="robot" name="robot" />
+  <node pkg="course_package" type="customer_detector" name="customer_detector" />
+  <node pkg="course_pkg" type="robot_cashier" name="robot_cashier">
+    <param name="wait" value="$(arg wait)" />
+  </node>
+  <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
+</launch>
+
+# %% 12.11 wrong: the argument is misspelt | hint: An argument is not declared
+%%writefile my_cashier.launch
+<launch>
+  <arg name="tills" default="true" />
+  <arg name="wait" default="2.0" />
+  <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node pkg="course_pkg" type="robot" name="robot" />
+  <node pkg="course_pkg" type="customer_detector" name="customer_detector" />
+  <node pkg="course_pkg" type="robot_cashier" name="robot_cashier">
+    <param name="wait" value="$(arg wait)" />
+  </node>
+  <node if="$(arg till)" pkg="course_pkg" type="till" name="till" />
+</launch>
+
+# %% 12.11 wrong: another program under the name | hint: the program of its name as its type=
+%%writefile my_cashier.launch
+<launch>
+  <arg name="till" default="true" />
+  <arg name="wait" default="2.0" />
+  <node pkg="course_pkg" type="counter_camera" name="counter_camera" />
+  <node pkg="course_pkg" type="counter_camera" name="robot" />
   <node pkg="course_pkg" type="customer_detector" name="customer_detector" />
   <node pkg="course_pkg" type="robot_cashier" name="robot_cashier">
     <param name="wait" value="$(arg wait)" />

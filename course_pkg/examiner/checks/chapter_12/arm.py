@@ -86,6 +86,9 @@ def _stances(exam: Exam) -> list[Stance]:
     broken += [(good[8], "position", [])]
     broken += [(good[12], "position", [math.nan, *good[12]["position"][1:]])]
     broken += [(good[17], "velocity", [*good[17]["velocity"][:-1], math.inf])]
+    broken += [(good[5], "position", [*good[5]["position"], 0.5])]  # one without velocities
+    broken += [(good[14], "velocity", good[14]["velocity"][:2])]
+    broken += [(good[19], "velocity", [*good[19]["velocity"], 0.5])]
     for stance, field, values in broken:
         stance[field] = values
     return good
@@ -93,7 +96,10 @@ def _stances(exam: Exam) -> list[Stance]:
 
 def _stance(exam: Exam, number: int) -> Stance:
     return {
-        "header": {"stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)}},
+        "header": {
+            "stamp": {"secs": 1000 + number, "nsecs": exam.draw.integer(1, 999_999_999)},
+            "frame_id": "arm",
+        },
         "name": ["base", "shoulder", "elbow"],
         "position": exam.draw.numbers(3, -3.0, 3.0),
         "velocity": exam.draw.numbers(3, -3.0, 3.0) if number % 5 else [],
@@ -110,7 +116,7 @@ def _examine(exam: Exam, hearing: Hearing, stances: list[Stance], sent: list[flo
     good = [stance for stance in stances if _is_good(stance)]
     wanted = [stance["header"]["stamp"]["secs"] for stance in good]
     last = wanted[-1]
-    hearing.until(lambda arrivals: any(_number(arrival) == last for arrival in arrivals), 2.0)
+    hearing.until(lambda arrivals: any(_number(arrival) == last for arrival in arrivals), 5.0)
     heard = list(hearing.arrivals)
     exam.hold(
         "something comes out, with the time of its stance",
@@ -149,18 +155,24 @@ def _leaves_out(exam: Exam, images: list[Stance], stances: list[Stance]) -> None
         if stance is None:
             continue
         sizes = len(stance["position"]) != len(stance["name"])
+        speeds = len(stance["velocity"]) not in (0, len(stance["position"]))
         zeros = not any(image["position"]) and image["position"]
         exam.fail(
             "what is no stance is left out",
             expected="no image of it",
             seen=f"an image of {len(stance['position'])} positions for {len(stance['name'])} joints"
             if sizes
+            else f"an image of {len(stance['velocity'])} velocities for {len(stance['position'])} joints"
+            if speeds
             else "an image of a number that is not finite",
             hint="Zeros are a stance, too, and the arm would go there. Publish nothing for a broken one."
             if zeros
             else "There are not as many positions as names, so nobody knows which joint stands how: compare "
             "the lengths, and leave the message out."
             if sizes
+            else "There are velocities, and not as many as positions: compare these lengths, too. (None at "
+            "all are well.)"
+            if speeds
             else "nan and inf are no angles, and -nan is none either: math.isfinite tells. Look at the "
             "velocities, too.",
         )
@@ -168,6 +180,14 @@ def _leaves_out(exam: Exam, images: list[Stance], stances: list[Stance]) -> None
 
 
 def _is_image(exam: Exam, stance: Stance, image: Stance) -> None:
+    header = {key: image["header"][key] for key in ("stamp", "frame_id")}
+    if header != stance["header"]:
+        exam.fail(
+            "the header stays",
+            expected=f"frame_id arm, stamp {_words(stance['header']['stamp'])}",
+            seen=f"frame_id {header['frame_id'] or 'none'}, stamp {_words(header['stamp'])}",
+            hint="The header says when and of what. Hand all of it on: header=stance.header.",
+        )
     exam.expect(
         "the names stay",
         expected=stance["name"],
@@ -190,6 +210,10 @@ def _is_image(exam: Exam, stance: Stance, image: Stance) -> None:
                 (says(""), "Turn the sign of each number, and nothing else."),
             ],
         )
+
+
+def _words(stamp: dict[str, int]) -> str:
+    return f"{stamp['secs']}.{stamp['nsecs']:09d}"
 
 
 def _complete(exam: Exam, wanted: list[int], seen: list[int]) -> None:

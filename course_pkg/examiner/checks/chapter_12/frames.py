@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-from course_pkg.examiner import Exam, Its, part
+from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.outcome import Outcome
 
 A_FRAME = """
@@ -28,6 +29,12 @@ FALSE = "False is an answer, and says that nobody is there. Raise a ValueError: 
 TOO_FEW = "Bytes are missing. Compare len(frame.data) with frame.height * frame.step before you count."
 ENCODING = "These are three bytes for each point. Look at frame.encoding: only mono8 has one."
 SHORT = "A row of fewer bytes than points cannot be: step is at least width."
+POINTLESS = (
+    "The frame has bytes, and all of them are filling: 0 points in a row. Look at width and height, not only "
+    "at the data."
+)
+ANOTHER = "That is an error of another type, and whoever calls expects one: raise ValueError(words)."
+WORDLESS = "Nobody learns what is wrong with the frame: put it into words, ValueError(words)."
 
 
 @part(
@@ -58,9 +65,8 @@ def a_frame(exam: Exam) -> None:
         ("what fills up a row is no point of it", 0, False, _Look(extra=7, filling=0), PADDING),
         ("what fills up a row is no point of it", tenth, True, _Look(extra=9, filling=255), PADDING),
     ):
-        outcome = _shown(
-            exam, (width, height, width + look.extra, "mono8"), _data(exam, width, height, dark, look)
-        )
+        frame = (width, height, width + look.extra, "mono8")
+        outcome = _shown(exam, frame, _data(exam, width, height, dark, look), hint)
         hints = [((lambda seen: not isinstance(seen, bool)), KINDS), ((lambda _: True), hint)]
         exam.expect(rule, expected=expected, seen=outcome.value, hints=hints)
     _refuses(exam, width, height)
@@ -103,13 +109,23 @@ def _refuses(exam: Exam, width: int, height: int) -> None:
             "A frame of 0 by 0 points has its 0 bytes, and shows nothing.",
         ),
         ("rows shorter than their points", (width, height, width - 1, "mono8"), points[height:], SHORT),
+        ("no points at all", (0, height, 4, "mono8"), [0] * (4 * height), POINTLESS),
     ):
-        _shown(exam, frame, data).raised(
-            f"{what}: refused with a ValueError",
+        rule = f"{what}: refused with a ValueError"
+        said = _shown(exam, frame, data).raised(
+            rule,
             "ValueError",
-            hints=[((lambda seen: seen is False), FALSE), ((lambda _: True), hint)],
+            hints=[
+                ((lambda seen: seen is False), FALSE),
+                (says(r"^(?!ZeroDivision|Index)\w*(Error|Exception|Interrupt|Exit)?: "), ANOTHER),
+                ((lambda _: True), hint),
+            ],
         )
+        if not re.search(r"\w", said.partition(":")[2]):
+            exam.fail(rule, expected="a ValueError that says what is wrong", seen=said, hint=WORDLESS)
 
 
-def _shown(exam: Exam, frame: tuple[int, int, int, str], data: list[int]) -> Outcome:
-    return exam.run("shown", Its("sees_customer"), *frame, data, worded="sees_customer(frame)")
+def _shown(exam: Exam, frame: tuple[int, int, int, str], data: list[int], hint: str = "") -> Outcome:
+    """Have a frame looked at; `hint` is for a good one that is refused."""
+    refused = [(says("^ValueError"), hint)] if hint is PADDING else []
+    return exam.run("shown", Its("sees_customer"), *frame, data, worded="sees_customer(frame)", hints=refused)

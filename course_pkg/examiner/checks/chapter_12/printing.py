@@ -42,6 +42,7 @@ STUCK = (
     "The till never answers again: a lock was taken, an error came, and nobody gave it back. with self.turn: "
     "gives it back also then."
 )
+TRIES = "It tries again and again, and the caller stands there. Without paper it refuses, and at once."
 ERRORS = {
     says("cannot process request.*jam|error processing request.*jam"): JAM,
     says("TimesUp"): STUCK,
@@ -65,14 +66,14 @@ def a_printed_till(exam: Exam) -> None:
     exam.hold("a PrintedTill can be made and served", not opened.error, seen=opened.error)
     try:
         to_set = exam.service(name, "course_pkg/TillSet", hints=ERRORS)
-        total = _one(exam, to_set)
-        total = _without_paper(exam, to_set, total)
+        item, total = _one(exam, to_set)
+        total = _without_paper(exam, to_set, item, total)
         _many(exam, to_set, total)
     finally:
         exam.run("trial.close")
 
 
-def _one(exam: Exam, to_set: Service) -> int:
+def _one(exam: Exam, to_set: Service) -> tuple[str, int]:
     item, cents = exam.draw.choice(["milk", "bread", "apples"]), exam.draw.integer(100, 900)
     exam.expect("the answer is the total", expected=cents, seen=to_set(item=item, cents=cents).total)
     exam.expect(
@@ -81,18 +82,38 @@ def _one(exam: Exam, to_set: Service) -> int:
         seen=exam.run("trial.lines").value,
         hints={(): "Nothing was printed: self.printer.print(…).", says(""): 'The line is f"{item} {cents}".'},
     )
-    return cents
+    return item, cents
 
 
-def _without_paper(exam: Exam, to_set: Service, total: int) -> int:
+def _without_paper(exam: Exam, to_set: Service, item: str, total: int) -> int:
+    """Try an item that is new, and another price for one that is not."""
     exam.run("trial.paper", 0)
     lost = exam.draw.integer(1000, 9000)
+    for name in ("lost", item):
+        _is_refused(to_set, name, lost)
+    exam.run("trial.paper", 100)
+    cents = exam.draw.integer(100, 900)
+    exam.expect(
+        "what could not be printed does not count",
+        expected=total + cents,
+        seen=to_set(item="found", cents=cents).total,
+        hints={
+            cents: "The item was there before, and is gone now. After a refusal nothing has changed: not the "
+            "old price either. Print first, and count then.",
+            says(""): "A price that nobody has on paper is in the sum. Print first, and count then.",
+        },
+    )
+    return total + cents
+
+
+def _is_refused(to_set: Service, item: str, cents: int) -> None:
     to_set.refused(
         "without paper it refuses, and says why",
         saying="cannot process request.*paper",
-        item="lost",
-        cents=lost,
+        item=item,
+        cents=cents,
         hints=[
+            (says("TimesUp"), STUCK if item != "lost" else TRIES),
             (
                 (lambda seen: isinstance(seen, dict)),
                 "Nothing was printed, and it answered as if all were well. "
@@ -106,19 +127,6 @@ def _without_paper(exam: Exam, to_set: Service, total: int) -> int:
             (says("cannot process"), "The words don't say why: hand on those of PrinterFailed, str(error)."),
         ],
     )
-    exam.run("trial.paper", 100)
-    cents = exam.draw.integer(100, 900)
-    exam.expect(
-        "what could not be printed does not count",
-        expected=total + cents,
-        seen=to_set(item="found", cents=cents).total,
-        hints={
-            total
-            + cents
-            + lost: "The item that nobody has on paper is in the sum. Print first, and count then.",
-        },
-    )
-    return total + cents
 
 
 def _many(exam: Exam, to_set: Service, total: int) -> None:
@@ -132,8 +140,17 @@ def _many(exam: Exam, to_set: Service, total: int) -> None:
         "what many set at once adds up",
         expected=wanted - found,
         seen=seen.total,
-        hints="Some are missing in the sum: one thread put back what it had read before another one wrote. "
-        "Read, print and write with the lock held all the time.",
+        hints=[
+            (
+                lambda seen: seen > wanted - found,
+                "An item that was set again is in the sum twice. Its new price takes the place of the old.",
+            ),
+            (
+                says(""),
+                "Some are missing in the sum: one thread put back what it had read before another one wrote. "
+                "Read, print and write with the lock held all the time.",
+            ),
+        ],
     )
     sums = sorted(reply.response.total for reply in replies)
     steps = sorted(after - before for before, after in zip([total, *sums], sums, strict=False))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 import threading
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.calls import Service
+from course_pkg.examiner.waiting import until
 
-SLOW = 0.5  # s that the check's printer takes for an item in the middle of which the till is reset
+SLOW = 0.3  # s for which the check's printer goes on when a reset has come in the middle of an item
 
 A_REGISTER = """
+import threading
 import time
 
 import rospy
@@ -19,28 +22,65 @@ from std_srvs.srv import Trigger
 
 
 class Slow(Printer):
-    pause = 0.0
+    slow = False
     begun = False
 
     def print(self, text):
         super().print(text)
         self.begun = True
-        time.sleep(self.pause)
+        if self.slow:
+            trial.entered.wait(2.0)
+            time.sleep(SLOW)
+
+
+class Turn:
+    # The turn of a till at which somebody sets an item whenever a reset gives it back.
+    def __init__(self, till, cents):
+        self.till, self.cents, self.lock, self.count = till, cents, till.turn, 0
+
+    def acquire(self, *args, **kwargs):
+        return self.lock.acquire(*args, **kwargs)
+
+    def release(self):
+        self.count += 1
+        self.till.amounts = {**self.till.amounts, f"between {self.count}": self.cents}
+        self.lock.release()
+
+    def locked(self):
+        return self.lock.locked()
+
+    def __enter__(self):
+        return self.acquire()
+
+    def __exit__(self, *_):
+        self.release()
 
 
 class Trial:
     services = ()
 
     def open(self, cls, to_reset, to_set):
+        self.entered = threading.Event()
         self.printer = Slow()
         self.till = cls(self.printer)
         self.services = (
-            rospy.Service(to_reset, Trigger, self.till.handle_reset),
+            rospy.Service(to_reset, Trigger, self.reset),
             rospy.Service(to_set, TillSet, lambda request: self.till.put(request.item, request.cents)),
         )
 
-    def slow(self, pause):
-        self.printer.pause, self.printer.begun = pause, False
+    def reset(self, request):
+        self.entered.set()
+        return self.till.handle_reset(request)
+
+    def slow(self, slow):
+        self.printer.slow, self.printer.begun = slow, False
+        self.entered.clear()
+
+    def crowd(self, cents):
+        self.turn = self.till.turn = Turn(self.till, cents)
+
+    def uncrowd(self):
+        self.till.turn = self.turn.lock
 
     def begun(self):
         return self.printer.begun
@@ -65,6 +105,10 @@ ERRORS = {
         "Trigger answers with success, a bool, and message, a text: return True, words."
     ),
     says("has no attribute"): "The names are self.turn, self.amounts and self.printer, as OpenTill has them.",
+    says("cannot process request"): (
+        "A reset succeeds in any case: the caller wants an empty till, and it is empty. One who did not hear "
+        "the first answer asks again."
+    ),
 }
 
 
@@ -78,7 +122,7 @@ ERRORS = {
 def a_register(exam: Exam) -> None:
     """Reset after some items, again, and while an item is on its way."""
     names = [f"/{exam.draw.word()}" for _ in range(2)]
-    exam.prepare(A_REGISTER)
+    exam.prepare(A_REGISTER.replace("SLOW", str(SLOW)))
     opened = exam.run("trial.open", Its("Register"), *names, worded="Register(printer)")
     exam.hold("a Register can be made and served", not opened.error, seen=opened.error, hints=ERRORS)
     try:
@@ -86,6 +130,7 @@ def a_register(exam: Exam) -> None:
         to_set = exam.service(names[1], "course_pkg/TillSet")
         _one_after_the_other(exam, reset, to_set)
         _in_the_middle(exam, reset, to_set)
+        _in_between(exam, reset, to_set)
     finally:
         exam.run("trial.close")
 
@@ -107,14 +152,22 @@ def _paid(exam: Exam, reset: Service, paid: int) -> None:
     )
     exam.hold(
         "its message says how many cents were paid",
-        str(paid) in response.message.split(),
+        paid in _numbers(response.message),
         expected=f"{paid}, as a word of its own",
         seen=response.message or "no message",
         hints={
+            says(
+                rf"\d{paid}|{paid}\w"
+            ): "The number is no word of its own: put a space on either side of it.",
             says(r"\b0\b"): "It says 0: the sum was taken when the items were gone already.",
             says(""): 'The sum of the items belongs into it, such as "paid 340 cents".',
         },
     )
+
+
+def _numbers(message: str) -> list[int]:
+    """Return the numbers that are words of their own in a message."""
+    return [int(word) for word in re.findall(r"(?<![\w.])\d+(?!\w|\.\d)", message)]
 
 
 def _empty(exam: Exam, rule: str) -> None:
@@ -156,21 +209,38 @@ def _in_the_middle(exam: Exam, reset: Service, to_set: Service) -> None:
     cents = exam.draw.integer(100, 900)
     before = exam.draw.integer(100, 900)
     to_set(item="before", cents=before)
-    exam.run("trial.slow", SLOW)
+    exam.run("trial.slow", True)
     setting = threading.Thread(target=to_set, kwargs={"item": "slow", "cents": cents}, daemon=True)
     setting.start()
-    for _ in range(200):
-        if exam.run("trial.begun").value:
-            break
+    until(lambda: exam.run("trial.begun").value, 5.0)
     response = reset()
     setting.join(3.0)
-    exam.run("trial.slow", 0.0)
+    exam.run("trial.slow", False)
     exam.hold(
         "a reset waits for an item that is on its way",
-        str(before + cents) in response.message.split(),
+        before + cents in _numbers(response.message),
         expected=f"{before + cents} cents paid",
         seen=response.message or "no message",
         hints="An item was being set, and the reset came in between: one customer pays too little, and the "
         "next one the rest. with self.turn: waits for its turn.",
     )
     _empty(exam, "and leaves nothing behind")
+
+
+def _in_between(exam: Exam, reset: Service, to_set: Service) -> None:
+    """Set an item whenever the reset gives its turn back: it was paid, or is there for the next customer."""
+    before, between = exam.draw.integer(100, 900), exam.draw.integer(1000, 9000)
+    to_set(item="before", cents=before)
+    exam.run("trial.crowd", between)
+    message = reset().message
+    exam.run("trial.uncrowd")
+    count = exam.read("trial.turn.count")
+    left = exam.run("trial.total", worded="register.total()").value
+    if not any(paid + left == before + count * between for paid in _numbers(message)):
+        exam.fail(
+            "no item is lost in between",
+            expected=f"{before + count * between} cents, paid or left",
+            seen=f"{message or 'no message'}; {left} cents left",
+            hint="Between the sum and the emptying somebody else had a turn, and that item is lost. Do both "
+            "in one turn.",
+        )

@@ -1,55 +1,87 @@
-"""12.6: two things at once: an arm that mirrors at once, and a question that stands."""
+"""12.6: two things at once: an arm that mirrors at once, and a question that stands.
+
+What goes on at the same time is seen by its order, and not by a clock: a question of the check stands until
+stances that were published meanwhile have been mirrored, and a greeting lasts until then.
+"""
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from course_pkg.examiner import Exam, Its, part, says
-from course_pkg.examiner.scripted import Act, Late, Refuse, ScriptedServer
+from course_pkg.examiner import Exam, HangUp, Its, Refuse, part, says
+from course_pkg.examiner.hearing import Arrival, Hearing
+from course_pkg.examiner.scripted import Act, ScriptedServer
 from course_pkg.examiner.waiting import until
 
 JOINTS = "sensor_msgs/JointState"
 AWAIT = "course_pkg/AwaitCustomer"
-STANDS = 0.5  # s for which a question of the check stands
-GREETING = 0.25  # s that a greeting takes
-SLACK = 1.2  # s: a busy machine is no mistake
-REFUSING = 1.0  # s for which nobody can tell who is there
-MOST = 8  # questions in that time that are no flood
+WORDS = "std_msgs/String"
+EVERY = 0.04  # s between stances
+MOVES = 8  # stances for which a question stands, and a greeting lasts
+LONGEST = 1.8  # s after which they end in any case: less than the patience of the question
+ASKING = 6.0  # s for a question that is due, on a busy machine
+FOUND = (1, 3)  # the questions at which somebody is there
+LAST = 4  # the question after which it is clear who was greeted
+REFUSALS = 3
+PAUSE, TOO_LONG = (
+    0.4,
+    1.5,
+)  # s: half a second is more than the one; whoever waits for the other waits for long
+HANGS = 6.0  # s for which a question is left without an answer, if its caller does not give up before
+QUIET = 1.2  # s without a question, by which it has ended
+WORDED = "start_robot(stances, mirror, service, greet, over)"
 
 A_GREETER = """
 import threading
-import time
+
+import rospy
+from std_msgs.msg import String
 
 
 class Work:
+    subscriber = None
+
     def __init__(self):
         self.over = threading.Event()
-        self.greeted = []
-        self.mirrored = []
-        self.begun = time.monotonic()
+        self.gone = threading.Semaphore(0)
+
+    def open(self, topic):
+        self.said = rospy.Publisher(topic, String, queue_size=10_000)
+
+    @property
+    def is_heard(self):
+        return self.said.get_num_connections() > 0
 
     def mirror(self, stance):
-        self.mirrored.append([stance.header.stamp.secs, time.monotonic() - self.begun])
+        self.said.publish(str(stance.header.stamp.secs))
 
     def greet(self):
-        self.greeted.append(time.monotonic() - self.begun)
-        time.sleep(GREETING)
+        self.said.publish("greeting")
+        self.gone.acquire(timeout=10.0)
+
+    def go(self):
+        self.gone.release()
 
     def begin(self, start, stances, service):
-        self.threads = set(threading.enumerate())
         self.subscriber = start(stances, self.mirror, service, self.greet, self.over)
         return hasattr(self.subscriber, "unregister") or hasattr(self.subscriber, "stop")
 
     def end(self):
         self.over.set()
+        self.gone.release(100)
         for way in ("unregister", "stop"):
-            if hasattr(getattr(self, "subscriber", None), way):
+            if hasattr(self.subscriber, way):
                 getattr(self.subscriber, way)()
         self.subscriber = None
+
+    def close(self):
+        self.end()
+        self.said.unregister()
 
 
 work = Work()
@@ -61,59 +93,84 @@ work = Work()
     points=3,
     goal="Mirror at once while a question stands, and greet each customer.",
     needs=["start_robot"],
-    deadline=40.0,
+    deadline=60.0,
 )
 def two_things_at_once(exam: Exam) -> None:
     """Have customers come, nobody, and a camera that is gone, and publish stances all the time."""
-    stances, service = (f"/{exam.draw.word()}" for _ in range(2))
-    detector = _Detector()
-    exam.prepare(A_GREETER.replace("GREETING", str(GREETING)))
+    stances, service, words = (f"/{exam.draw.word()}" for _ in range(3))
+    exam.prepare(A_GREETER)
+    said = exam.hear(words, WORDS)
+    exam.run("work.open", words)
+    until(lambda: exam.read("work.is_heard"), ASKING)
+    detector = _Detector(said)
     with _begun(exam, stances, service, detector) as server:
-        speaking = exam.publish(stances, JOINTS, _numbered(), every=0.04, once=True)
+        speaking = exam.publish(stances, JOINTS, _numbered(), every=EVERY, once=True)
+        detector.sent = speaking.sent
         speaking.listened(hints="Make a rospy.Subscriber for `stances`, of type JointState, and return it.")
         _asks(exam, server)
         _greets(exam, detector)
-        _mirrors(exam, speaking.sent)
+        _mirrors(exam, detector)
         _goes_on(exam, detector)
-        _ends(exam, server)
+        _is_left_alone(exam, detector)
+        _ends(exam, detector)
 
 
 class _Detector:
-    """Answers as a detector does: two customers, nobody, no camera, and then a customer again."""
+    """Answers as a detector does: two customers and nobody; then as one without a camera, or not at all."""
 
-    def __init__(self) -> None:
-        self.found: list[float] = []  # when each customer was told of
-        self.patience: list[float] = []
-        self.refusing = False
-        self.refused = 0
-        self._asked = 0
+    def __init__(self, said: Hearing) -> None:
+        self.said = said  # a number for each stance that was mirrored, and a word for each greeting
+        self.sent: Sequence[float] = ()  # of each stance that was published, when
+        self.asked: list[float] = []  # of each question, when
+        self.told: list[int] = []  # the questions at which somebody was there
+        self.refusing = self.hanging = False
+        self.moved: set[str] = set()  # what went on while the arm did
         self._turn = threading.Lock()
 
-    def answer(self, request: Any) -> Act:  # noqa: ANN401 -- a class that catkin generates
-        """Answer a question, late as a rule: the student's program has to stand there."""
+    def answer(self, _request: object) -> Act:
+        """Answer a question; as a rule it stands while the arm goes on."""
         with self._turn:
-            self._asked += 1
-            self.patience.append(request.patience)
-            if self.refusing:
-                self.refused += 1
-                return Refuse("the camera has said nothing for 1 s, so nobody can tell")
-            found = self._asked in (1, 3)
-            if found:
-                self.found.append(time.monotonic() + STANDS)
-        return Late(STANDS, {"found": found})
+            self.asked.append(time.monotonic())
+            number = len(self.asked)
+        if self.refusing:
+            return Refuse("the camera has said nothing for 1 s, so nobody can tell")
+        if self.hanging:
+            self.hanging, self.refusing = False, True  # the next one is answered
+            until(lambda: len(self.asked) > number, HANGS)
+            return HangUp()
+        self.moves_while("a question stood")
+        if number in FOUND:
+            self.told.append(number)
+        return {"found": number in FOUND}
+
+    def moves_while(self, what: str) -> None:
+        """Wait until stances that are published from now on were mirrored, and note that they were."""
+        last = len(self.sent) + MOVES
+        if self.said.until(lambda arrivals: _newest(arrivals) >= last, LONGEST):
+            self.moved.add(what)
+
+    @property
+    def greeted(self) -> int:
+        """How many greetings have begun."""
+        return sum(arrival.fields["data"] == "greeting" for arrival in self.said.arrivals)
+
+
+def _newest(arrivals: Sequence[Arrival]) -> int:
+    """Return the number of the stance that was mirrored last; 0 if none was."""
+    said = (arrival.fields["data"] for arrival in reversed(arrivals))
+    return next((int(words) for words in said if words.isdecimal()), 0)
 
 
 def _numbered() -> list[dict[str, Any]]:
     return [
         {"header": {"stamp": {"secs": number + 1, "nsecs": 0}}, "name": ["a"], "position": [0.1]}
-        for number in range(1000)
+        for number in range(2000)
     ]
 
 
 @contextmanager
 def _begun(exam: Exam, stances: str, service: str, detector: _Detector) -> Iterator[ScriptedServer]:
     server = exam.serve(service, AWAIT, detector.answer)
-    worded = "start_robot(stances, mirror, service, greet, over)"
     try:
         started = exam.run(
             "work.begin",
@@ -121,7 +178,7 @@ def _begun(exam: Exam, stances: str, service: str, detector: _Detector) -> Itera
             stances,
             service,
             within=3.0,
-            worded=worded,
+            worded=WORDED,
             hints={
                 says(
                     "TimesUp"
@@ -137,11 +194,11 @@ def _begun(exam: Exam, stances: str, service: str, detector: _Detector) -> Itera
         )
         yield server
     finally:
-        exam.run("work.end")
+        exam.run("work.close")
 
 
 def _asks(exam: Exam, server: ScriptedServer) -> None:
-    asked = until(lambda: bool(server.requests), 2.5)
+    asked = until(lambda: bool(server.requests), ASKING)
     exam.hold(
         "it asks whether somebody is there",
         asked,
@@ -159,21 +216,24 @@ def _asks(exam: Exam, server: ScriptedServer) -> None:
 
 
 def _greets(exam: Exam, detector: _Detector) -> None:
-    """Wait for the second customer, and look at whom was greeted."""
-    came = until(lambda: len(detector.found) >= 2, 3 * STANDS + 2 * GREETING + 2 * SLACK)
+    """Let each greeting last for a while, until it is clear who was greeted."""
+    greeted = 0
+    while _is_greeted_again(detector, greeted):
+        greeted += 1
+        detector.moves_while("somebody was greeted")
+        _is_greeted_first(exam, detector, greeted)
+        exam.run("work.go", worded=WORDED)
     exam.hold(
         "it asks again after each answer",
-        came,
+        len(detector.asked) >= FOUND[-1],
         expected="a third question",
-        seen=f"{len(detector.patience)} questions",
+        seen=f"{len(detector.asked)} questions",
         hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
     )
-    # Who has put the next question has done with the answer before it.
-    until(lambda: len(detector.patience) >= 4, STANDS + GREETING + SLACK)
     exam.expect(
         "each customer is greeted, once, and nobody is not",
-        expected=2,
-        seen=len(exam.read("work.greeted")),
+        expected=len(FOUND),
+        seen=greeted,
         hints=[
             (0, "Nobody was greeted: call greet() where found is True."),
             (
@@ -189,11 +249,30 @@ def _greets(exam: Exam, detector: _Detector) -> None:
     )
 
 
-def _mirrors(exam: Exam, sent: list[float]) -> None:
-    """Hold that what was published until now was mirrored, and at once."""
-    count = len(sent) - 1
-    until(lambda: any(number >= count for number, _ in exam.read("work.mirrored")), SLACK)
-    seen = [number for number, _ in exam.read("work.mirrored") if number <= count]
+def _is_greeted_again(detector: _Detector, greeted: int) -> bool:
+    """Wait for another greeting, or until it is clear that there will be none; say whether it began."""
+    until(lambda: detector.greeted > greeted or len(detector.asked) >= LAST, ASKING)
+    return detector.greeted > greeted
+
+
+def _is_greeted_first(exam: Exam, detector: _Detector, greeted: int) -> None:
+    """Hold that nobody has asked again while this greeting is under way."""
+    if greeted <= len(detector.told) and len(detector.asked) > detector.told[greeted - 1]:
+        exam.fail(
+            "it asks again when the customer has gone",
+            expected="no question while greet() is under way",
+            seen="the next question",
+            hint="The customer is still there, and would be found and greeted again. greet() comes back when "
+            "the customer has gone: call it on the thread that asks, and ask again after it.",
+        )
+
+
+def _mirrors(exam: Exam, detector: _Detector) -> None:
+    """Hold that what was published until now was mirrored, and while the rest went on."""
+    count = len(detector.sent)
+    detector.said.until(lambda arrivals: _newest(arrivals) >= count, ASKING)
+    words = [arrival.fields["data"] for arrival in detector.said.arrivals]
+    seen = [int(word) for word in words if word.isdecimal() and int(word) <= count]
     exam.hold(
         "every stance is mirrored, in order, whatever else goes on",
         seen == list(range(1, count + 1)),
@@ -202,20 +281,22 @@ def _mirrors(exam: Exam, sent: list[float]) -> None:
         hints=[
             ((lambda _: not seen), "mirror was never called. It is the callback of the subscriber."),
             (
+                (lambda _: len(set(seen)) < len(seen)),
+                "mirror was called more than once for a stance. Once for each message.",
+            ),
+            (
                 says(""),
                 "The arm stood still while a question stood, or somebody was greeted. The callback only "
                 "mirrors; asking is the work of another thread, and no lock is shared.",
             ),
         ],
     )
-    at = dict(exam.read("work.mirrored"))
-    begun = exam.read("work.begun")
-    late = sorted(at[number] + begun - sent[number - 1] for number in seen)[len(seen) * 17 // 20]
+    still = [what for what in ("a question stood", "somebody was greeted") if what not in detector.moved]
     exam.hold(
         "and at once",
-        late < STANDS / 2,
-        expected="a few milliseconds after the stance",
-        seen=f"one in six of them later than {late:.1f} s",
+        not still,
+        expected="an arm that goes on, whatever is asked",
+        seen=f"an arm that stood still while {' and while '.join(still)}",
         hints="The stances came, and had to wait. Don't ask and don't greet where they are handled.",
     )
 
@@ -223,41 +304,65 @@ def _mirrors(exam: Exam, sent: list[float]) -> None:
 def _goes_on(exam: Exam, detector: _Detector) -> None:
     """Refuse for a while: it has to ask again, and not all the time."""
     detector.refusing = True
-    refused = until(lambda: detector.refused >= 1, STANDS + GREETING + SLACK)
+    before = len(detector.asked)
     exam.hold(
         "it asks on and on",
-        refused,
+        until(lambda: len(detector.asked) > before, ASKING),
         expected="another question",
         seen="none",
         hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
     )
-    time.sleep(REFUSING)
+    until(lambda: len(detector.asked) >= before + REFUSALS, ASKING)
+    refused = detector.asked[before : before + REFUSALS]
     exam.hold(
         "a refusal does not end it",
-        detector.refused > 1,
+        len(refused) > 1,
         expected="another question, half a second later",
         seen="none",
         hints="The detector refused, and the thread ended with a ServiceException that nobody caught. Catch "
         "it, pause, and ask again.",
     )
+    pauses = [after - before for before, after in itertools.pairwise(refused)]
     exam.hold(
         "who is refused pauses before the next question",
-        detector.refused <= MOST,
-        expected="about two questions a second",
-        seen="more than a dozen",
-        hints="Refusals come at once, and so did the next questions. Pause for half a second: "
-        "over.wait(0.5).",
+        max(pauses) > PAUSE and min(pauses) < TOO_LONG,
+        expected="the next question half a second later",
+        seen=f"after {max(pauses) if max(pauses) < PAUSE else min(pauses):.1f} s",
+        hints=[
+            (
+                (lambda _: max(pauses) < PAUSE),
+                "Refusals come at once, and so did the next questions. Pause for half a second: "
+                "over.wait(0.5).",
+            ),
+            (says(""), "Who comes meanwhile is not greeted. Pause for half a second, and no longer."),
+        ],
     )
 
 
-def _ends(exam: Exam, server: ScriptedServer) -> None:
-    exam.run("work.end")
-    until(lambda: False, 0.6)
-    before = len(server.requests)
-    until(lambda: len(server.requests) > before, 0.8)
+def _is_left_alone(exam: Exam, detector: _Detector) -> None:
+    """Leave a question without an answer: whoever has a time limit asks again, and others are hung up on."""
+    detector.hanging, detector.refusing = True, False
+    before = len(detector.asked)
+    until(lambda: len(detector.asked) > before, ASKING)
+    before = len(detector.asked)
+    if not until(lambda: len(detector.asked) > before, HANGS + ASKING):
+        exam.fail(
+            "a question without an answer does not end it",
+            expected="another question",
+            seen="none",
+            hint="No answer came, and the thread ended with an error that nobody caught. node.call raises a "
+            "CallTimeout then, which is no ServiceException: catch both.",
+        )
+
+
+def _ends(exam: Exam, detector: _Detector) -> None:
+    detector.refusing = True
+    exam.run("work.end", worded=WORDED)
+    before, told = len(detector.asked), time.monotonic()
+    quiet = until(lambda: time.monotonic() - max(told, detector.asked[-1]) > QUIET, 4 * QUIET)
     exam.expect(
         "it ends when it is told to",
         expected=0,
-        seen=len(server.requests) - before,
+        seen=0 if quiet else len(detector.asked) - before,
         hints="`over` was set, and it asked on. Look at over.is_set() before each question.",
     )

@@ -23,6 +23,7 @@ class Trial:
     def close(self):
         for service in self.services:
             service.shutdown("checked")
+        self.services = ()
 
 
 trial = Trial()
@@ -35,6 +36,10 @@ ERRORS = {
     ): "An item that is set for the first time is in no dict yet. amounts[item] = cents puts it there.",
     says("wrong number of values|Invalid number of arguments"): (
         "TillTotal has two fields, cents and items: return both, in this order. TillSet has one, the total."
+    ),
+    says("cannot process request"): (
+        "It refused what is good: an item that costs nothing, or one that is set again, perhaps with "
+        "another price."
     ),
     says("has no attribute"): "What the handlers use has to be there from __init__ on.",
 }
@@ -58,6 +63,11 @@ def a_till(exam: Exam) -> None:
         to_total = exam.service(names[1], "course_pkg/TillTotal", hints=ERRORS)
         _adds_up(exam, to_set, to_total)
         _refuses(exam, to_set, to_total)
+        exam.run("trial.close")
+        exam.run("trial.open", Its("Till"), *names, worded="Till()")
+        shared = "Another Till() knows this one's items: what stands in the class is shared by all of them. "
+        shared += "Begin with an empty dict in __init__: self.amounts = {}."
+        _totals(exam, "an empty till has a total of 0", to_total, 0, 0, shared)
     finally:
         exam.run("trial.close")
 

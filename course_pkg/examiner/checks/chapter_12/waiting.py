@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from course_pkg.examiner import Exam, Its, part
+from course_pkg.examiner import Exam, Its, part, says
 
-SLACK = 1.2  # s: a busy machine is no mistake
+SLACK = 2.0  # s: a busy machine is no mistake
 LATER = 0.4  # s until somebody comes
 LONG = 4.0  # s of patience that must not run out
-LOOKS = 150  # more than the frames of a second give reason for
+LOOKS = 2000  # more than one who pauses for a millisecond takes; without a pause it is many times that
 
 # An eye that sees what the check's script says, with twenty good frames a second as long as it sees at all.
 AN_EYE = """
@@ -91,6 +91,14 @@ SILENT = (
     "look() was None, so nobody can tell, and False says that nobody is there. Raise CameraSilent when the "
     "time is over and look() is None."
 )
+UNHELD = "A condition is held while one waits at it: with eye.changed: ..."
+STUMBLED = "That is an error, and neither an answer nor CameraSilent: run it yourself with an Eye."
+CAME_BACK = (
+    "The camera was silent for a while, and saw that nobody was there when the time was over. That look "
+    "counts, and no earlier one."
+)
+CERTAIN = "look() was False: the camera saw that nobody is there, and that is the answer."
+WRONG_ERROR = "Whoever asks catches CameraSilent, and no error of another type: raise CameraSilent(words)."
 MAY_RETURN = "The camera came back in time, and somebody was there. Wait on while look() is None."
 
 
@@ -129,8 +137,12 @@ def _nobody(exam: Exam) -> None:
     exam.expect(
         "no customer, no detection",
         expected=False,
-        seen=answer["value"],
-        hints={None: "It came to its end without a return: False, when nobody came."},
+        seen=answer["error"] or answer["value"],
+        hints=[
+            (None, "It came to its end without a return: False, when nobody came."),
+            (says("^CameraSilent"), CERTAIN),
+            (says("Error"), STUMBLED),
+        ],
     )
     exam.hold(
         "it waited as long as it was asked to",
@@ -143,8 +155,12 @@ def _nobody(exam: Exam) -> None:
         "who waits leaves the processor alone",
         answer["looks"] < LOOKS,
         expected="a look for each frame",
-        seen="hundreds of looks",
+        seen="thousands of looks",
         hints=BUSY,
+    )
+    answer = _ask(exam, [(0.0, None), (0.2, False)], 0.8)
+    exam.expect(
+        "no customer, no detection", expected=False, seen=answer["error"] or answer["value"], hints=CAME_BACK
     )
 
 
@@ -156,7 +172,7 @@ def _a_camera_that_dies(exam: Exam) -> None:
         answer["error"].startswith("CameraSilent"),
         expected="CameraSilent",
         seen=answer["error"] or answer["value"],
-        hints=SILENT,
+        hints=WRONG_ERROR if answer["error"] else SILENT,
     )
     answer = _ask(exam, [(0.0, None), (LATER, True)], LONG)
     _found(exam, "a camera that comes back in time is waited for", answer, LATER, MAY_RETURN)
@@ -207,5 +223,9 @@ def _found(exam: Exam, rule: str, answer: dict[str, Any], after: float, hint: st
         answer["value"] is True and not late,
         expected="True" + (f" {after:g} s after the question" if after else " at once"),
         seen=answer["error"] or f"{answer['value']} after {answer['took']:.1f} s",
-        hints=hint,
+        hints=[
+            (says("un-acquired lock"), UNHELD),
+            (says("^(?!CameraSilent)\\w+(Error|Exception):"), STUMBLED),
+            (says(""), hint),
+        ],
     )
