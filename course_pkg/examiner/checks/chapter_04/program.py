@@ -28,7 +28,7 @@ ENDINGS = (  # the words that it printed when it ended, and what to do
 )
 
 FAULTS = {
-    says("error processing writing|exactly 3|rgb must be"): "rgb takes three numbers in a list: r, g and b.",
+    says("expected 3 items|exactly 3|rgb must be"): "rgb takes three numbers in a list: r, g and b.",
     says(
         "process request: (?!service handler)"
     ): "It is not refused: the answer to a mode that there is not has success=False.",
