@@ -32,8 +32,7 @@ FAULTS = {
 ERRORS = {
     says("TimesUp"): (
         "It waits for ever for a till that says nothing: rospy has no limit. Use node.call(..., "
-        "timeout=...), and "
-        "end the whole when the deadline has passed."
+        "timeout=...), and end the whole when the deadline has passed."
     ),
     says(
         "^CallTimeout"
@@ -44,12 +43,8 @@ ERRORS = {
     says("unsupported operand|NoneType"): "Something is None here: look what the last try left behind.",
 }
 
-GIVEN_UP = {
-    says(
-        "^CallTimeout|^ServiceException"
-    ): "Nobody knows whether it was paid. Return None, and raise nothing.",
-    **ERRORS,
-}
+UNKNOWN = "Nobody knows whether it was paid. Return None, and raise nothing."
+GIVEN_UP = {says("^CallTimeout|^ServiceException"): UNKNOWN, **ERRORS}
 
 
 class Books:
@@ -157,8 +152,7 @@ def _refused(exam: Exam, name: str, till: FaultyServer) -> None:
         seen=len(till.requests) - before,
         hints=(
             "The till had decided, and was asked again. Words with `cannot process request` are its "
-            "decision: raise "
-            "the error on, at once."
+            "decision: raise the error on, at once."
         ),
     )
     outcome.raised(
@@ -244,8 +238,8 @@ def _patient(exam: Exam, name: str, till: FaultyServer, books: Books) -> None:
         min(pauses) > 0.9 * PAUSE,
         expected=f"{PAUSE:g} s or more",
         seen=f"{min(pauses):.3f} s",
-        hints="A till that is being started is not helped by a thousand questions a "
-        "second. time.sleep(pause) after a try that failed.",
+        hints="A till that is being started is not helped by a thousand questions a second. "
+        "time.sleep(pause) after a try that failed.",
     )
     exam.hold(
         "each pause is longer than the one before",
