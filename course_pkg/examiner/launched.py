@@ -34,4 +34,4 @@ def telling_line(printed: str) -> str:
     """Return the last line that tells of an error, or else the last line; without colours and this folder."""
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
-    return (telling or lines or ["nothing"])[-1].replace(os.getcwd(), "")
+    return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")
