@@ -28,10 +28,7 @@ ASKING = 6.0  # s for a question that is due, on a busy machine
 FOUND = (1, 3)  # the questions at which somebody is there
 LAST = 4  # the question after which it is clear who was greeted
 REFUSALS = 3
-PAUSE, TOO_LONG = (
-    0.4,
-    1.5,
-)  # s: half a second is more than the one; whoever waits for the other waits for long
+PAUSE, TOO_LONG = 0.4, 1.5  # s between which half a second is, on a busy machine too
 HANGS = 6.0  # s for which a question is left without an answer, if its caller does not give up before
 QUIET = 1.2  # s without a question, by which it has ended
 WORDED = "start_robot(stances, mirror, service, greet, over)"
