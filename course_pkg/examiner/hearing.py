@@ -23,7 +23,6 @@ from course_pkg.examiner.plain import Message, Plain, ServiceClass, plain
 from course_pkg.examiner.waiting import until
 
 KEPT = 20_000  # messages: a student's loop may lack its sleep
-LOOK = 0.02  # s between looks at the master
 
 
 @dataclass(frozen=True)

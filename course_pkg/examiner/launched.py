@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import time
 from collections.abc import Callable
+from contextlib import suppress
 
 from course_pkg.errors import GraphError
+from course_pkg.examiner.waiting import until
 from course_pkg.graph.snapshot import Snapshot, look
 
-LOOK = 0.1  # s between looks
+LOOK = 0.1  # s between looks at a whole graph
 COLOUR = re.compile(r"\x1b\[\d*m")
 
 
@@ -19,15 +20,13 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
     At the latest after `within` s. There may be no master yet.
     """
-    deadline = time.monotonic() + within
-    while time.monotonic() < deadline:
-        try:
-            if condition(look(uri)):
-                return True
-        except GraphError:
-            pass  # its master has not come up yet
-        time.sleep(LOOK)
-    return False
+
+    def holds() -> bool:
+        with suppress(GraphError):  # its master has not come up yet
+            return bool(condition(look(uri)))
+        return False
+
+    return until(holds, within, LOOK)
 
 
 def telling_line(printed: str) -> str:

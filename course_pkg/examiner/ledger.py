@@ -41,6 +41,12 @@ def same(expected: Plain, seen: Plain, near: float = 0.0) -> bool:
     return type(expected) is type(seen) and bool(expected == seen)
 
 
+def first_unlike(expected: Iterable[Plain], seen: Iterable[Plain], near: float) -> tuple[Plain, Plain]:
+    """Return the first two of a place that are not the same: a whole list says little. ({}, {}) for none."""
+    pairs = zip(expected, seen, strict=False)
+    return next((pair for pair in pairs if not same(*pair, near)), ({}, {}))
+
+
 def hint_for(hints: Hints, seen: Plain, near: float = 0.0) -> str:
     """Return the first of `hints` that recognises `seen`, or an empty text."""
     if isinstance(hints, str):

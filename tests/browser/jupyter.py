@@ -17,16 +17,13 @@ from urllib.error import URLError
 import nbformat
 from playwright.sync_api import Browser, Locator, Page, expect
 
+import course_pkg.lab
 from course_pkg.graph import PrivateMaster
 from course_pkg.graph.leash import Leash
 from tests.support import eventually
 
 READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
-SETTINGS = {
-    "notification": {"fetchNews": "false", "checkForUpdates": False},
-    "themes": {"theme": "JupyterLab {}"},
-    "kernels-settings": {"commsOverSubshells": "disabled"},  # as in the course's own
-}
+OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's own
 
 
 @dataclass(frozen=True)
@@ -131,11 +128,12 @@ def _command(port: int, root: Path) -> list[str]:
 
 def _environment(folder: Path, master: str, theme: str) -> Mapping[str, str]:
     """Give the server settings, state and kernels' files of its own, so that runs in parallel do not meet."""
-    settings = folder / "settings" / "@jupyterlab" / "apputils-extension"
-    settings.mkdir(parents=True)
-    for name, values in SETTINGS.items():
-        text = json.dumps(values).replace("{}", theme)
-        (settings / f"{name}.jupyterlab-settings").write_text(text)
+    themes = {"@jupyterlab/apputils-extension:themes": {"theme": f"JupyterLab {theme}"}}
+    for place, values in (json.loads(OVERRIDES.read_text("utf-8")) | themes).items():
+        extension, _, name = place.partition(":")
+        settings = folder / "settings" / extension
+        settings.mkdir(parents=True, exist_ok=True)
+        (settings / f"{name}.jupyterlab-settings").write_text(json.dumps(values))
     places = {
         "JUPYTERLAB_SETTINGS_DIR": folder / "settings",
         "JUPYTERLAB_WORKSPACES_DIR": folder / "workspaces",

@@ -20,12 +20,12 @@ class Surroundings:
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return what is different now. What others started may end meanwhile: that is nobody's trace."""
+        """Return what is different now. A process that others started may end meanwhile."""
         now = Surroundings()
         left = {
             "graph": now.graph if now.graph != self.graph else None,
             "processes": now.processes - self.processes,
-            "ports": now.ports - self.ports,
+            "ports": now.ports ^ self.ports,
             "environment": dict(set(now.environment.items()) ^ set(self.environment.items())),
         }
         return {name: what for name, what in left.items() if what}

@@ -9,7 +9,7 @@ from typing import Any
 
 from course_pkg.examiner import Exam, Its, part, says
 from course_pkg.examiner.hearing import Arrival
-from course_pkg.examiner.ledger import same
+from course_pkg.examiner.ledger import first_unlike
 from course_pkg.examiner.plain import Plain
 
 JOINTS = "sensor_msgs/JointState"
@@ -122,8 +122,7 @@ def _changed(messages: Sequence[Plain], witnessed: Sequence[Plain]) -> tuple[Pla
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
-    pairs = zip(given, seen, strict=False)
-    return next((pair for pair in pairs if not same(pair[0], pair[1], near=1e-9)), ({}, {}))
+    return first_unlike(given, seen, near=1e-9)
 
 
 def _stances(exam: Exam, count: int) -> list[dict[str, Any]]:

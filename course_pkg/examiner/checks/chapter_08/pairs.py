@@ -4,14 +4,14 @@ from collections.abc import Callable
 from threading import Timer
 
 from course_pkg.examiner import Exam, Refuse, part, says
-from course_pkg.examiner.ledger import same
+from course_pkg.examiner.checks.chapter_08.spawning import LONGEST
+from course_pkg.examiner.ledger import first_unlike
 from course_pkg.examiner.plain import Plain
 from course_pkg.examiner.scripted import Script
 
 TWIST = "geometry_msgs/Twist"
 ORDER = ["/spawn", "/toggle_forward", "/change_speed"]
 IN_ORDER = "spawn, toggle and speed are asked once each, in this order"
-LONGEST = 1.9  # s for a patience of 0.5; a busy machine may need more once, and not twice
 NO_RETURN = "None was returned, as by a function that comes to its end without a return line."
 
 
@@ -45,8 +45,7 @@ def go_alike(exam: Exam) -> None:
     hearing.wait(len(orders), 3.0)
     seen = [arrival.fields for arrival in hearing.arrivals]
     exam.expect("every order is passed on, once", expected=len(orders), seen=len(seen), hints=_count_hints())
-    pairs = zip(orders, seen, strict=True)
-    order, other = next((pair for pair in pairs if not same(*pair, near=1e-9)), (orders[0], seen[0]))
+    order, other = first_unlike(orders, seen, near=1e-9)
     exam.expect(
         "each as it was, in order",
         expected=order,

@@ -7,82 +7,27 @@ stances that were published meanwhile have been mirrored, and a greeting lasts u
 from __future__ import annotations
 
 import itertools
-import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from course_pkg.examiner import Exam, HangUp, Its, Refuse, part, says
-from course_pkg.examiner.hearing import Arrival, Hearing
-from course_pkg.examiner.scripted import Act, ScriptedServer
+from course_pkg.examiner import Exam, Its, part, says
+from course_pkg.examiner.checks.chapter_12.watched import A_GREETER, FOUND, HANGS, Detector, newest
+from course_pkg.examiner.scripted import ScriptedServer
 from course_pkg.examiner.waiting import until
 
 JOINTS = "sensor_msgs/JointState"
 AWAIT = "course_pkg/AwaitCustomer"
 WORDS = "std_msgs/String"
 EVERY = 0.04  # s between stances
-MOVES = 8  # stances for which a question stands, and a greeting lasts
-LONGEST = 1.8  # s after which they end in any case: less than the patience of the question
 ASKING = 6.0  # s for a question that is due, on a busy machine
-FOUND = (1, 3)  # the questions at which somebody is there
 LAST = 4  # the question after which it is clear who was greeted
 REFUSALS = 3
 PAUSE, TOO_LONG = 0.4, 1.5  # s between which half a second is, on a busy machine too
-HANGS = 6.0  # s for which a question is left without an answer, if its caller does not give up before
 QUIET = 1.2  # s without a question, by which it has ended
+ASK_ON = "It asked, and then no more. Ask in a loop: while not over.is_set()."
 WORDED = "start_robot(stances, mirror, service, greet, over)"
-
-A_GREETER = """
-import threading
-
-import rospy
-from std_msgs.msg import String
-
-
-class Work:
-    subscriber = None
-
-    def __init__(self):
-        self.over = threading.Event()
-        self.gone = threading.Semaphore(0)
-
-    def open(self, topic):
-        self.said = rospy.Publisher(topic, String, queue_size=10_000)
-
-    @property
-    def is_heard(self):
-        return self.said.get_num_connections() > 0
-
-    def mirror(self, stance):
-        self.said.publish(str(stance.header.stamp.secs))
-
-    def greet(self):
-        self.said.publish("greeting")
-        self.gone.acquire(timeout=10.0)
-
-    def go(self):
-        self.gone.release()
-
-    def begin(self, start, stances, service):
-        self.subscriber = start(stances, self.mirror, service, self.greet, self.over)
-        return hasattr(self.subscriber, "unregister") or hasattr(self.subscriber, "stop")
-
-    def end(self):
-        self.over.set()
-        self.gone.release(100)
-        for way in ("unregister", "stop"):
-            if hasattr(self.subscriber, way):
-                getattr(self.subscriber, way)()
-        self.subscriber = None
-
-    def close(self):
-        self.end()
-        self.said.unregister()
-
-
-work = Work()
-"""
 
 
 @part(
@@ -99,7 +44,7 @@ def two_things_at_once(exam: Exam) -> None:
     said = exam.hear(words, WORDS)
     exam.run("work.open", words)
     until(lambda: exam.read("work.is_heard"), ASKING)
-    detector = _Detector(said)
+    detector = Detector(said)
     with _begun(exam, stances, service, detector) as server:
         speaking = exam.publish(stances, JOINTS, _numbered(), every=EVERY, once=True)
         detector.sent = speaking.sent
@@ -112,52 +57,6 @@ def two_things_at_once(exam: Exam) -> None:
         _ends(exam, detector)
 
 
-class _Detector:
-    """Answers as a detector does: two customers and nobody; then as one without a camera, or not at all."""
-
-    def __init__(self, said: Hearing) -> None:
-        self.said = said  # a number for each stance that was mirrored, and a word for each greeting
-        self.sent: Sequence[float] = ()  # of each stance that was published, when
-        self.asked: list[float] = []  # of each question, when
-        self.told: list[int] = []  # the questions at which somebody was there
-        self.refusing = self.hanging = False
-        self.moved: set[str] = set()  # what went on while the arm did
-        self._turn = threading.Lock()
-
-    def answer(self, _request: object) -> Act:
-        """Answer a question; as a rule it stands while the arm goes on."""
-        with self._turn:
-            self.asked.append(time.monotonic())
-            number = len(self.asked)
-        if self.refusing:
-            return Refuse("the camera has said nothing for 1 s, so nobody can tell")
-        if self.hanging:
-            self.hanging, self.refusing = False, True  # the next one is answered
-            until(lambda: len(self.asked) > number, HANGS)
-            return HangUp()
-        self.moves_while("a question stood")
-        if number in FOUND:
-            self.told.append(number)
-        return {"found": number in FOUND}
-
-    def moves_while(self, what: str) -> None:
-        """Wait until stances that are published from now on were mirrored, and note that they were."""
-        last = len(self.sent) + MOVES
-        if self.said.until(lambda arrivals: _newest(arrivals) >= last, LONGEST):
-            self.moved.add(what)
-
-    @property
-    def greeted(self) -> int:
-        """How many greetings have begun."""
-        return sum(arrival.fields["data"] == "greeting" for arrival in self.said.arrivals)
-
-
-def _newest(arrivals: Sequence[Arrival]) -> int:
-    """Return the number of the stance that was mirrored last; 0 if none was."""
-    said = (arrival.fields["data"] for arrival in reversed(arrivals))
-    return next((int(words) for words in said if words.isdecimal()), 0)
-
-
 def _numbered() -> list[dict[str, Any]]:
     return [
         {"header": {"stamp": {"secs": number + 1, "nsecs": 0}}, "name": ["a"], "position": [0.1]}
@@ -166,7 +65,7 @@ def _numbered() -> list[dict[str, Any]]:
 
 
 @contextmanager
-def _begun(exam: Exam, stances: str, service: str, detector: _Detector) -> Iterator[ScriptedServer]:
+def _begun(exam: Exam, stances: str, service: str, detector: Detector) -> Iterator[ScriptedServer]:
     server = exam.serve(service, AWAIT, detector.answer)
     try:
         started = exam.run(
@@ -212,7 +111,7 @@ def _asks(exam: Exam, server: ScriptedServer) -> None:
     )
 
 
-def _greets(exam: Exam, detector: _Detector) -> None:
+def _greets(exam: Exam, detector: Detector) -> None:
     """Let each greeting last for a while, until it is clear who was greeted."""
     greeted = 0
     while _is_greeted_again(detector, greeted):
@@ -225,7 +124,7 @@ def _greets(exam: Exam, detector: _Detector) -> None:
         len(detector.asked) >= FOUND[-1],
         expected="a third question",
         seen=f"{len(detector.asked)} questions",
-        hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
+        hints=ASK_ON,
     )
     exam.expect(
         "each customer is greeted, once, and nobody is not",
@@ -246,13 +145,13 @@ def _greets(exam: Exam, detector: _Detector) -> None:
     )
 
 
-def _is_greeted_again(detector: _Detector, greeted: int) -> bool:
+def _is_greeted_again(detector: Detector, greeted: int) -> bool:
     """Wait for another greeting, or until it is clear that there will be none; say whether it began."""
     until(lambda: detector.greeted > greeted or len(detector.asked) >= LAST, ASKING)
     return detector.greeted > greeted
 
 
-def _is_greeted_first(exam: Exam, detector: _Detector, greeted: int) -> None:
+def _is_greeted_first(exam: Exam, detector: Detector, greeted: int) -> None:
     """Hold that nobody has asked again while this greeting is under way."""
     if greeted <= len(detector.told) and len(detector.asked) > detector.told[greeted - 1]:
         exam.fail(
@@ -264,10 +163,10 @@ def _is_greeted_first(exam: Exam, detector: _Detector, greeted: int) -> None:
         )
 
 
-def _mirrors(exam: Exam, detector: _Detector) -> None:
+def _mirrors(exam: Exam, detector: Detector) -> None:
     """Hold that what was published until now was mirrored, and while the rest went on."""
     count = len(detector.sent)
-    detector.said.until(lambda arrivals: _newest(arrivals) >= count, ASKING)
+    detector.said.until(lambda arrivals: newest(arrivals) >= count, ASKING)
     words = [arrival.fields["data"] for arrival in detector.said.arrivals]
     seen = [int(word) for word in words if word.isdecimal() and int(word) <= count]
     exam.hold(
@@ -298,7 +197,7 @@ def _mirrors(exam: Exam, detector: _Detector) -> None:
     )
 
 
-def _goes_on(exam: Exam, detector: _Detector) -> None:
+def _goes_on(exam: Exam, detector: Detector) -> None:
     """Refuse for a while: it has to ask again, and not all the time."""
     detector.refusing = True
     before = len(detector.asked)
@@ -307,7 +206,7 @@ def _goes_on(exam: Exam, detector: _Detector) -> None:
         until(lambda: len(detector.asked) > before, ASKING),
         expected="another question",
         seen="none",
-        hints="It asked, and then no more. Ask in a loop: while not over.is_set().",
+        hints=ASK_ON,
     )
     until(lambda: len(detector.asked) >= before + REFUSALS, ASKING)
     refused = detector.asked[before : before + REFUSALS]
@@ -336,7 +235,7 @@ def _goes_on(exam: Exam, detector: _Detector) -> None:
     )
 
 
-def _is_left_alone(exam: Exam, detector: _Detector) -> None:
+def _is_left_alone(exam: Exam, detector: Detector) -> None:
     """Leave a question without an answer: whoever has a time limit asks again, and others are hung up on."""
     detector.hanging, detector.refusing = True, False
     before = len(detector.asked)
@@ -352,7 +251,7 @@ def _is_left_alone(exam: Exam, detector: _Detector) -> None:
         )
 
 
-def _ends(exam: Exam, detector: _Detector) -> None:
+def _ends(exam: Exam, detector: Detector) -> None:
     detector.refusing = True
     exam.run("work.end", worded=WORDED)
     before, told = len(detector.asked), time.monotonic()
