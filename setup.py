@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from setuptools import setup
+from setuptools.command.build_py import build_py
 
 HERE = Path(__file__).resolve().parent
 PACKAGES = sorted(path.parent for path in HERE.glob("course_pkg/**/__init__.py"))
@@ -17,16 +18,26 @@ def names(pattern: str) -> list[str]:
     return sorted(str(path.relative_to(HERE)) for path in HERE.glob(pattern))
 
 
+class BuildWithoutAnswers(build_py):
+    """Leave the example answers out: a student who installs the wheel must not find them."""
+
+    def find_package_modules(self, package: str, package_dir: str) -> list[tuple[str, str, str]]:
+        """Return (package, module, file) for every module except `answers`."""
+        found = super().find_package_modules(package, package_dir)
+        return [module for module in found if module[1] != "answers"]
+
+
 setup(
     name="course_pkg",
     version=ElementTree.parse(HERE / "package.xml").findtext("version"),  # noqa: S314 -- our own file
     packages=[str(folder.relative_to(HERE)).replace("/", ".") for folder in PACKAGES],
+    cmdclass={"build_py": BuildWithoutAnswers},
     # Whatever lies beside the modules: front ends, settings, locks.
     package_data={
         "course_pkg": sorted(
             str(path.relative_to(HERE / "course_pkg"))
             for path in HERE.glob("course_pkg/**/*")
-            if (path.is_file() and path.suffix not in (".pyc", ".py")) or path.name.endswith(".answers.py")
+            if path.is_file() and path.suffix not in (".pyc", ".py")
         )
     },
     data_files=[

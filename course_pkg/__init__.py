@@ -10,14 +10,11 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
-    from course_pkg.building import my_workspace
-    from course_pkg.examiner import check, results
-    from course_pkg.graph import join
-    from course_pkg.graph.explanations import explain
+    from course_pkg.checking import check
+    from course_pkg.overview.notebook import predictions, progress
     from course_pkg.panels import (
         BreakIt,
         GraphPanel,
-        Plot,
         ServicePanel,
         Timeline,
         TopicPanel,
@@ -26,18 +23,16 @@ if TYPE_CHECKING:
         WireView,
         choose,
         predict,
-        predictions,
-        show_image,
-        timeline_text,
     )
+    from course_pkg.ros import join
+    from course_pkg.ros.explain import explain
 
-# catkin generates `course_pkg.srv` into another folder; without this, the checkout hides it.
+# catkin generates `course_pkg.srv` into another folder; without this line, the checkout hides that folder.
 __path__ = extend_path(__path__, __name__)
 
 __all__ = [
     "BreakIt",
     "GraphPanel",
-    "Plot",
     "ServicePanel",
     "Timeline",
     "TopicPanel",
@@ -48,24 +43,21 @@ __all__ = [
     "choose",
     "explain",
     "join",
-    "my_workspace",
     "predict",
     "predictions",
-    "results",
-    "show_image",
-    "timeline_text",
+    "progress",
 ]
 
 __getattr__ = lazily(
     __name__,
     {
-        "building": "my_workspace",
-        "examiner": "check results",
-        "graph": "join",
-        "graph.explanations": "explain",
+        "checking": "check",
+        "overview.notebook": "predictions progress",
+        "ros": "join",
+        "ros.explain": "explain",
         "panels": (
-            "BreakIt GraphPanel Plot ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser WireView "
-            "choose predict predictions show_image timeline_text"
+            "BreakIt GraphPanel ServicePanel Timeline TopicPanel TurtlePanel TypeBrowser WireView "
+            "choose predict"
         ),
     },
 )

@@ -1,70 +1,67 @@
 """Every error that the course raises.
 
 CourseError
-├── SetupError: what the course needs is not there and could not be made
-├── InterfaceError: a service or message type, or a value of one, is not what it should be
-│   ├── UnknownType: no such type here
-│   ├── BrokenDefinition: a .srv or .msg text that ROS refuses; with line and column
-│   └── FieldError: a value that its field cannot hold; a ValueError, too
-├── GraphError: the ROS graph is not as a call needs it
+├── SetupError: something that the course needs is missing and could not be created
+├── InterfaceError: a service or message type, or a value of one, is wrong
+│   ├── UnknownType: there is no such type
+│   ├── BrokenDefinition: a .srv or .msg text that ROS does not accept; with line and column
+│   └── FieldError: a value that its field cannot hold; also a ValueError
+├── GraphError: a problem with the ROS graph
 │   ├── MalformedMasterUri: ROS_MASTER_URI is not http://HOST:PORT
-│   ├── MasterUnreachable: nobody takes connections at that address
-│   ├── MasterSilent: somebody takes the connection and does not answer
-│   ├── NotAMaster: somebody answers, and it is not a ROS master
-│   ├── PortBusy: the port asked for belongs to another program
-│   ├── NodeNameTaken: another living node has this name
-│   ├── NotJoined: this kernel is no node, no longer, or not one that can do this
-│   ├── NotAServiceType, NotAMessageType: another class was given in its place
-│   ├── CallError: CallTimeout, CallCancelled, a call that brought no answer
-│   ├── NothingHeard: fewer messages than asked for within the time
-│   ├── NobodyListens: fewer subscribers than asked for within the time
-│   ├── NotAdvertised: this publisher was stopped
-│   ├── UnknownExecutable: no such package, or no such program in it
-│   └── NodeFailed: the process of a node ended; holds the end of its output
-├── ExamError: a check cannot be carried out
+│   ├── MasterUnreachable: no program accepts connections at that address
+│   ├── MasterSilent: a program accepts the connection, but does not answer
+│   ├── NotAMaster: a program answers that is not a ROS master
+│   ├── PortBusy: another program uses the port
+│   ├── NodeNameTaken: another running node has this name
+│   ├── NotJoined: this kernel is not a node, or is the wrong kind of node
+│   ├── NotAServiceType, NotAMessageType: the argument is another class
+│   ├── CallError: CallTimeout, CallCancelled: a call ended without a response
+│   ├── NothingHeard: too few messages within the time
+│   ├── TooFewSubscribers: too few subscribers within the time
+│   ├── PublisherStopped: this publisher was stopped
+│   ├── UnknownExecutable: no such package, or no such program or launch file in it
+│   └── NodeFailed: the process of a node ended; contains the end of its output
+├── ChannelError: ChannelBroken, ChannelClosed, ChannelTimeout, between two processes of the course
+├── CheckError: a check cannot run
 │   ├── UnknownCheck: no check has this id
-│   ├── ToolMissing: this machine lacks what the part is built with; the student can do nothing in it yet
-│   ├── LinkError: LinkBroken, LinkClosed, LinkSilent, between a kernel and its judge
-│   └── AnswersBroken: the file of right and wrong answers cannot be read
-├── CameraSilent: the camera of chapter 03's shop says nothing, so nobody can tell who is there
-├── PrinterFailed: the printer of chapter 12's till has printed nothing
-├── UnknownFault: the lab has no fault of this name
-├── AuthoringError: a solution notebook cannot be taken as it is
-├── GradingError: submissions cannot be graded as they are, or not here
-│   ├── WallsMissing: this machine cannot keep a submission from the rest of it
-│   └── WardFailed: the process that runs submissions ended, or never began
-├── PanelError: a panel cannot do what a cell asked of it
-│   ├── NothingPicked: no service, or none that has a form
-│   ├── CallUnderWay: one call at a time
-│   ├── DrawingFailed: graphviz did not lay the graph out
-│   ├── PredictionsBroken: the file of predictions cannot be read
-│   ├── NotASeries: what a plot was given cannot be drawn
-│   ├── NotAChoice: a case expects what is no option, or stands there twice
-│   ├── NotATopic: this cannot be the name of a topic
-│   └── NotAnImage: what should be shown is no picture, or not one that can be shown
-├── SiteError: the site cannot be built, or what was built is not as it should be
-└── (each subpackage adds its branch below, and to this picture)
+│   └── ToolMissing: this machine lacks a tool that the exercise needs
+├── CameraSilent: the camera of the shop sends no messages
+├── PrinterFailed: the printer of the till has printed nothing
+├── UnknownFault: BreakIt has no fault of this name
+├── AuthoringError: a solution notebook breaks a rule of the course
+├── GradingError: submissions cannot be graded
+│   ├── SandboxUnavailable: this machine cannot isolate a submission
+│   └── WorkerFailed: the process that runs submissions ended, or did not start
+├── PanelError: a panel cannot do what a cell asks for
+│   ├── NoServiceSelected: no service is selected, or one without a form
+│   ├── CallInProgress: a panel makes one call at a time
+│   ├── DrawingFailed: graphviz failed
+│   ├── InvalidPredictions: the file of predictions cannot be read
+│   ├── NotAChoice: an invalid case of choose()
+│   └── NotATopic: the string cannot be the name of a topic
+├── ExportFailed: a file with the student's progress cannot be written
+└── SiteError: the site cannot be built, or a check of the built site failed
 
-A message says what happened, where, and what to do next.
+Each message says what happened, where, and what to do next.
 """
 
 from __future__ import annotations
 
 
 class CourseError(Exception):
-    """The root: `except CourseError` catches whatever the course itself raises."""
+    """The base class: `except CourseError` catches all errors of the course."""
 
 
 class SetupError(CourseError):
-    """What the course needs is not there and could not be made."""
+    """Something that the course needs is missing, and the course could not create it."""
 
 
 class InterfaceError(CourseError):
-    """A service or message type, or a value of one, is not what it should be."""
+    """A service or message type, or a value of one, is wrong."""
 
 
 class UnknownType(InterfaceError):
-    """No service or message type has this `name` here."""
+    """There is no service or message type with this `name`."""
 
     def __init__(self, name: str, message: str) -> None:
         super().__init__(message)
@@ -72,14 +69,14 @@ class UnknownType(InterfaceError):
 
 
 class BrokenDefinition(InterfaceError):
-    """The text of a service or message type is not what ROS accepts.
+    """ROS does not accept the text of a service or message type.
 
-    `source` names the type or file, `line` and `column` count from 1, `text` is
-    the offending line, `problem` and `remedy` are two halves of a sentence.
+    `source` names the type or file, `line` and `column` count from 1, `text` is the wrong line. `problem` and
+    `remedy` are the two parts of one sentence.
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # A tab is one column here, so that the mark stands below the right letter.
+        # a tab becomes one space, so that the mark is below the right letter
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -94,9 +91,8 @@ class BrokenDefinition(InterfaceError):
 class FieldError(InterfaceError, ValueError):
     """A value that a field cannot hold.
 
-    `field` is the path to it (`points[2].x`), `value` is what was given,
-    `allowed` is what would be right, `problem` is what is wrong, and `hint`,
-    if not empty, is what was probably meant.
+    `field` is the path of the field (`points[2].x`), and `value` the given value. `allowed` describes the
+    valid values, `problem` what is wrong, and `hint`, if not empty, the value that was probably meant.
     """
 
     def __init__(self, field: str, value: object, allowed: str, problem: str = "", hint: str = "") -> None:
@@ -111,7 +107,7 @@ class FieldError(InterfaceError, ValueError):
 
 
 class GraphError(CourseError):
-    """The ROS graph is not as a call needs it."""
+    """A problem with the ROS graph."""
 
 
 class MalformedMasterUri(GraphError):
@@ -119,43 +115,43 @@ class MalformedMasterUri(GraphError):
 
 
 class MasterUnreachable(GraphError):
-    """Nobody takes connections at the address of the master."""
+    """No program accepts connections at the address of the master."""
 
 
 class MasterSilent(GraphError):
-    """Somebody takes connections at the address of the master and does not answer in time."""
+    """A program accepts connections at the address of the master, but does not answer in time."""
 
 
 class NotAMaster(GraphError):
-    """Somebody answers at the address of the master, and it is not a ROS master."""
+    """The program that answers at the address of the master is not a ROS master."""
 
 
 class PortBusy(GraphError):
-    """The port asked for belongs to another program."""
+    """Another program uses the port."""
 
 
 class NodeNameTaken(GraphError):
-    """Another living node has this name."""
+    """Another running node has this name."""
 
 
 class NotJoined(GraphError):
-    """This kernel is no node, no longer one, or one of another name."""
+    """This kernel is not a node, is no longer a node, or is a node with another name."""
 
 
 class NotAServiceType(GraphError, TypeError):
-    """Something else was given where a service type belongs."""
+    """The argument should be a service type."""
 
 
 class NotAMessageType(GraphError, TypeError):
-    """Something else was given where a message type belongs."""
+    """The argument should be a message type."""
 
 
 class CallError(GraphError):
-    """A service call ended without an answer, and not by an error that rospy has words for."""
+    """A service call ended without a response, and rospy has no exception for the reason."""
 
 
 class CallTimeout(CallError):
-    """The deadline of a service call passed."""
+    """A service call reached its deadline."""
 
 
 class CallCancelled(CallError):
@@ -163,23 +159,23 @@ class CallCancelled(CallError):
 
 
 class NothingHeard(GraphError):
-    """Fewer messages came than were asked for within the time."""
+    """Fewer messages than requested arrived within the time."""
 
 
-class NobodyListens(GraphError):
-    """Fewer subscribers connected than were asked for within the time."""
+class TooFewSubscribers(GraphError):
+    """Fewer subscribers than requested connected within the time."""
 
 
-class NotAdvertised(GraphError):
+class PublisherStopped(GraphError):
     """This publisher was stopped."""
 
 
 class UnknownExecutable(GraphError):
-    """No package of this name, or no program of this name in it."""
+    """There is no package of this name, or no program or launch file of this name in it."""
 
 
 class NodeFailed(GraphError):
-    """The process of a node ended; `output` is the end of what it printed, `returncode` its exit status."""
+    """The process of a node ended; `output` is the end of its output, `returncode` its exit status."""
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
         super().__init__(message)
@@ -187,40 +183,36 @@ class NodeFailed(GraphError):
         self.returncode = returncode
 
 
-class ExamError(CourseError):
-    """A check cannot be carried out."""
+class ChannelError(CourseError):
+    """The channel between two processes of the course failed."""
 
 
-class UnknownCheck(ExamError):
+class ChannelBroken(ChannelError):
+    """A message on the channel breaks the protocol."""
+
+
+class ChannelClosed(ChannelError):
+    """The other end of the channel is closed."""
+
+
+class ChannelTimeout(ChannelError):
+    """The other end of the channel did not read or answer in time."""
+
+
+class CheckError(CourseError):
+    """A check cannot run."""
+
+
+class UnknownCheck(CheckError):
     """No check has this id."""
 
 
-class ToolMissing(ExamError):
-    """This machine lacks what a part is built with: it cannot be attempted here."""
-
-
-class LinkError(ExamError):
-    """The link between a kernel and its judge failed."""
-
-
-class LinkBroken(LinkError):
-    """A message on the link is not what the protocol allows."""
-
-
-class LinkClosed(LinkError):
-    """The other end of the link is gone."""
-
-
-class LinkSilent(LinkError):
-    """The other end of the link did not answer in time."""
-
-
-class AnswersBroken(ExamError):
-    """The file of right and wrong answers cannot be read."""
+class ToolMissing(CheckError):
+    """This machine lacks a tool that an exercise needs."""
 
 
 class CameraSilent(CourseError):
-    """The camera of a shop has said nothing for so long that nobody can tell who is at the counter."""
+    """The camera of a shop has sent no message for so long that it is not known who is at the counter."""
 
 
 class PrinterFailed(CourseError):
@@ -228,60 +220,56 @@ class PrinterFailed(CourseError):
 
 
 class UnknownFault(CourseError):
-    """The lab has no fault of this name."""
+    """BreakIt has no fault of this name."""
 
 
 class AuthoringError(CourseError):
-    """A solution notebook cannot be taken as it is."""
+    """A solution notebook breaks a rule of the course."""
 
 
 class GradingError(CourseError):
-    """Submissions cannot be graded as they are, or not here."""
+    """Submissions cannot be graded."""
 
 
-class WallsMissing(GradingError):
-    """This machine cannot keep a submission from the rest of it."""
+class SandboxUnavailable(GradingError):
+    """This machine cannot isolate a submission."""
 
 
-class WardFailed(GradingError):
-    """The process that runs submissions ended, or never began."""
+class WorkerFailed(GradingError):
+    """The process that runs submissions ended, or did not start."""
 
 
 class PanelError(CourseError):
-    """A panel cannot do what a cell asked of it."""
+    """A panel cannot do what a cell asks for."""
 
 
-class NothingPicked(PanelError):
-    """No service is picked, or what is picked has no form."""
+class NoServiceSelected(PanelError):
+    """No service is selected, or the selected one has no form."""
 
 
-class CallUnderWay(PanelError):
-    """The panel is calling already; it makes one call at a time."""
+class CallInProgress(PanelError):
+    """The panel is making a call; it makes one call at a time."""
 
 
 class DrawingFailed(PanelError):
-    """Graphviz is missing or did not lay the graph out."""
+    """Graphviz is missing, or it could not draw the graph."""
 
 
-class PredictionsBroken(PanelError):
+class InvalidPredictions(PanelError):
     """The file of predictions cannot be read."""
 
 
-class NotASeries(PanelError):
-    """A plot was given what is no series of numbers."""
-
-
 class NotAChoice(PanelError):
-    """A case of choose() expects what is no option, or stands there twice."""
+    """A case of choose() expects an unknown option, or is in the list twice."""
 
 
 class NotATopic(PanelError):
-    """This cannot be the name of a topic."""
+    """The string cannot be the name of a topic."""
 
 
-class NotAnImage(PanelError, TypeError):
-    """What should be shown is no sensor_msgs/Image, or not one that can be shown."""
+class ExportFailed(CourseError):
+    """A file with the student's progress cannot be written."""
 
 
 class SiteError(CourseError):
-    """The site cannot be built, or is not as it should be."""
+    """The site cannot be built, or a check of the built site failed."""

@@ -1,4 +1,4 @@
-"""Names that a package offers and looks up on first use, so that importing the package costs nothing."""
+"""Names that a package imports on first use, so that importing the package itself is fast."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 def lazily(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     """Return a `__getattr__` (PEP 562) for `package`.
 
-    `homes` says for each of its modules, relative to it, which names come from there, blanks between them.
+    `homes` maps each module, relative to the package, to the names that it defines, separated by spaces.
     """
     modules = {name: f"{package}.{module}" for module, names in homes.items() for name in names.split()}
 

@@ -1,17 +1,26 @@
-"""Where the course keeps what a student did: one folder per checkout, outside the checkout."""
+"""The folder for a student's work and results: one folder per checkout, outside the checkout."""
 
 from __future__ import annotations
 
+import errno
+import fcntl
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from datetime import datetime, timezone
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
+
+from course_pkg.files import write_atomically
+from course_pkg.waiting import wait_until
+
+LOCK = 5.0  # time limit in s for a lock; each program that has the lock writes one small file
 
 
 def state_folder() -> Path:
-    """Return the folder of this checkout's state: `COURSE_STATE`, or one below the user's state home."""
+    """Return the folder of this checkout's state: COURSE_STATE, or a folder in the user's state home."""
     if given := os.environ.get("COURSE_STATE"):
         return Path(given)
     home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
@@ -20,11 +29,36 @@ def state_folder() -> Path:
 
 
 def write_json(path: Path, data: Mapping[str, Any]) -> None:
-    """Write `data` to `path` whole or not at all, so that a reader never meets half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
+    """Write `data` to `path` as JSON, completely or not at all. Raises OSError if it cannot be written."""
+    write_atomically(path, json.dumps(data, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
+
+
+@contextmanager
+def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
+    """Hold the lock of `folder` during the block, so that two kernels do not use it at the same time.
+
+    Creates the folder. Raises OSError if that fails, or if another process holds the lock for `timeout` s.
+    On a file system without locks, the block runs without a lock.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / ".lock").open("ab") as file:
+        if not wait_until(lambda: _lock(file), timeout):
+            raise TimeoutError(errno.ETIMEDOUT, "another program keeps it locked", str(folder))
+        yield
+
+
+def now() -> str:
+    """Return the current time in UTC, as ISO 8601."""
+    return datetime.now(timezone.utc).isoformat(timespec="seconds")
+
+
+def _lock(file: IO[bytes]) -> bool:
+    """Take the lock of `file`, which is released when the file is closed; return whether it was free."""
     try:
-        draft.write_text(json.dumps(data, indent=1, sort_keys=True, ensure_ascii=False) + "\n", "utf-8")
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError as error:
+        if error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL):
+            raise
+    return True

@@ -1,40 +1,64 @@
-"""Fixtures that tests of several parts share."""
+"""Fixtures for tests of several folders."""
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Browser
 
-from course_pkg.graph.master import PrivateMaster
+from course_pkg.ros.process.master import PrivateMaster
+from course_pkg.ros.process.node_process import NodeProcess
+from course_pkg.sandbox.bubblewrap import refusal
 from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 
-ANSWERS, NOTEBOOKS = "tests/examiner/test_answers.py", "tests/notebooks/test_validation.py"
+ANSWERS, NOTEBOOKS = "tests/checking/test_answers.py", "tests/notebooks/test_validation.py"
+LAB = "JupyterLab"  # the group of all tests that use it
 
 
+def pytest_configure() -> None:
+    """Handle the signals that a shell ignores for background commands; all child processes inherit this."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+@pytest.hookimpl(tryfirst=True)  # xdist reads the marks in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests on one worker (`--dist loadgroup`), and begin with the two files that take longest.
+    """Form the groups that stay on one worker (`--dist loadgroup`), and begin with those that take longest.
 
-    The tests of a file share a master, or a browser.
+    The tests of a file share a master. The answers stay on one worker, whose sandboxes run them side by side,
+    and so do all tests that use JupyterLab: a page takes longer to load than most of them to run.
     """
-    files = {item: item.path.relative_to(item.config.rootpath).as_posix() for item in items}
-    items.sort(key=lambda item: (files[item] != ANSWERS, files[item] != NOTEBOOKS))
-    for item, file in files.items():
-        item.add_marker(pytest.mark.xdist_group(file))
+    for item in items:
+        group = item.path.relative_to(item.config.rootpath).as_posix()
+        if group == NOTEBOOKS:
+            group = item.name
+        elif "lab" in getattr(item, "fixturenames", ()):
+            group = LAB
+        item.add_marker(pytest.mark.xdist_group(group))
+    items.sort(key=_place)
+
+
+def _place(item: pytest.Item) -> int:
+    group = next(item.iter_markers("xdist_group")).args[0]
+    if group in (ANSWERS, LAB):
+        return 0
+    return 1 if item.path.match(NOTEBOOKS) else 2 if item.path.match("tests/site/*") else 3
 
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    """Start a browser, once for all tests of a worker: a second one would not start beside it."""
+    """Start one browser for all tests of a worker."""
     with chromium() as started:
         yield started
 
 
 @pytest.fixture(scope="module")
 def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
-    """A real master for one module of tests, on a port of its own, and the environment that leads to it."""
+    """Start a real master on a free port for the tests of one module, and set the environment for it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")
@@ -46,6 +70,23 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
 
 @pytest.fixture
 def kernel(master: PrivateMaster) -> Iterator[Kernel]:
-    """A process of its own that runs cells: rospy allows one node for each process, and starts it once."""
+    """Start a process that runs cells; rospy allows one node for each process, and starts only once."""
     with Kernel() as fresh:
         yield fresh
+
+
+@pytest.fixture(scope="module")
+def server(master: PrivateMaster) -> Iterator[NodeProcess]:
+    """Run the course's geometry server on the master."""
+    assert master.uri
+    server = NodeProcess.rosrun("course_pkg", "server")
+    server.wait_for_service("/getGeometry", timeout=20)
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="session")
+def sandbox() -> None:
+    """Skip the test, with the reason, on a machine without a sandbox, where `course grade` refuses, too."""
+    if reason := refusal():
+        pytest.skip(reason)

@@ -37,7 +37,7 @@ for line in sys.stdin:
 
 @dataclass(frozen=True)
 class Reply:
-    """What a cell came to: `value` of its name `result`, or the class and words of its error; `took` in s."""
+    """The result of a cell: `value` of its name `result`, or its error's class and message; `took` in s."""
 
     value: Any
     error: str
@@ -46,7 +46,7 @@ class Reply:
 
 
 class Kernel:
-    """One such process. A cell that takes too long is killed with the process, and fails the test."""
+    """Such a process. A cell that takes too long is killed with the process, and fails the test."""
 
     def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
         reader, writer = os.pipe()
@@ -74,37 +74,37 @@ class Kernel:
         self.exit()
 
     def ask(self, cell: str, patience: float = PATIENCE) -> Reply:
-        """Run a cell and return what it came to, be it an error."""
+        """Run a cell and return its result, which may be an error."""
         self.begin(cell)
         return self.reply(patience)
 
     def run(self, cell: str, patience: float = PATIENCE) -> Any:  # noqa: ANN401
-        """Run a cell that has to succeed, and return its `result`."""
+        """Run a cell that must succeed, and return its `result`."""
         reply = self.ask(cell, patience)
         assert not reply.error, f"{reply.error}: {reply.words}"
         return reply.value
 
     def begin(self, cell: str) -> None:
-        """Begin a cell, and do not wait for its end."""
+        """Start a cell, and do not wait for its end."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
         assert self._line(PATIENCE) == "begun\n"
 
     def reply(self, patience: float = PATIENCE) -> Reply:
-        """Return what the cell that was begun came to."""
+        """Return the result of the cell that was started."""
         return Reply(**json.loads(self._line(patience)))
 
     def kill(self) -> None:
-        """Kill it, as the system does when memory runs out."""
+        """Kill the process, as the system does when memory runs out."""
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the cell that runs, as Jupyter does: its whole process group."""
+        """Interrupt the running cell as Jupyter does: its whole process group."""
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, patience: float = 10.0) -> str:
-        """Let it end, kill it if it does not, and return all that it printed."""
+        """End the process, kill it if necessary, and return all that it printed."""
         try:
             printed, _ = self._process.communicate(timeout=patience)
         except subprocess.TimeoutExpired:
@@ -127,5 +127,5 @@ class Kernel:
 
     @property
     def returncode(self) -> int | None:
-        """Its exit status, or None while it lives."""
+        """The exit status, or None while the process runs."""
         return self._process.poll()

@@ -1,9 +1,10 @@
-"""What tests of every part share."""
+"""What tests of all folders share."""
 
 from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ Result = TypeVar("Result")
 
 
 def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval: float = 0.01) -> Result:
-    """Return the first true value of `condition`, asked every `interval` s; fail after `timeout` s."""
+    """Return the first true value of `condition`, evaluated every `interval` s; fail after `timeout` s."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
         if time.monotonic() > deadline:
@@ -25,7 +26,7 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
 
 @contextmanager
 def stopped(pid: int) -> Iterator[None]:
-    """Stop a process by SIGSTOP for the block; all its threads stand still when the block begins."""
+    """Stop a process by SIGSTOP for the block; all its threads are stopped when the block begins."""
     os.kill(pid, signal.SIGSTOP)
     try:
         eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))
@@ -36,7 +37,7 @@ def stopped(pid: int) -> Iterator[None]:
 
 
 def process_state(pid: int) -> str:
-    """Return the letter for the state of a process, as in ps; "Z" also for one that is gone."""
+    """Return the letter for the state of a process, as in ps; "Z" also for a process that has ended."""
     return _state(Path(f"/proc/{pid}/stat"))
 
 
@@ -49,3 +50,14 @@ def _state(stat: Path) -> str:
         return stat.read_text().rpartition(")")[2].split()[0]
     except OSError:
         return "Z"
+
+
+def terminal(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end, with its output as text."""
+    env = {**os.environ, **environment}
+    return subprocess.run(command, capture_output=True, text=True, timeout=30, env=env, check=False)
+
+
+def program(name: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run one of the course's programs to its end."""
+    return terminal("rosrun", "course_pkg", name, *arguments, **environment)

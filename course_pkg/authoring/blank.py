@@ -9,7 +9,7 @@ Three rules. Everything that they do not name stays as it is, byte for byte.
    other text becomes its leading comment lines and `...`.
 
 Where something is to be repaired, none of the three helps: there the check itself says what a student begins
-with (`start`, see examiner/parts.py), and it knows that cell again when it has not been touched.
+with (`start`, see checking/parts.py), and it knows that cell again when it has not been touched.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ import tokenize
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from course_pkg.checking.parts import start_of
 from course_pkg.errors import AuthoringError
-from course_pkg.examiner.parts import start_of
 
 COMMENT = ("#", "//", "<!--")
 PYTHON_MAGICS = ("%%time", "%%timeit", "%%capture")
@@ -149,7 +149,7 @@ class _Cell:
     def _placeholder(self, node: Function, kept: int) -> bytes:
         first = node.body[0]
         line = self._lines[first.lineno - 1][: first.col_offset]
-        if line.strip():  # the body stands on the line of the signature
+        if line.strip():  # the body is on the line of the signature
             return b"; ..." if kept == self._end(first) else b" ..."
         return b"\n" + line + b"..."
 

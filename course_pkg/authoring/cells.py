@@ -7,10 +7,81 @@ A cell that shows an error on purpose carries the tag `raises-exception`.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypedDict
 
-Cell = dict[str, Any]
-Notebook = dict[str, Any]
+from course_pkg.types.fields import Plain
+
+
+class CourseMetadata(TypedDict, total=False):
+    """What the course notes about a cell."""
+
+    exercise: str
+    check: str
+    points: int
+
+
+class CellMetadata(TypedDict, total=False):
+    """The metadata of a cell, as far as the course reads or writes them."""
+
+    course: CourseMetadata
+    tags: list[str]
+    recording: bool  # a cell that is added only while the site's panels are recorded
+
+
+class Output(TypedDict, total=False):
+    """An output of a code cell (nbformat 4); which keys it has depends on `output_type`."""
+
+    output_type: str  # "stream", "execute_result", "display_data", "error"
+    name: str
+    text: str
+    data: dict[str, Plain]  # by MIME type
+    metadata: dict[str, dict[str, str]]  # by MIME type
+    execution_count: int | None
+    ename: str
+    evalue: str
+    traceback: list[str]
+
+
+class Cell(TypedDict, total=False):
+    """A cell (nbformat 4); `outputs` and `execution_count` are those of a code cell."""
+
+    id: str
+    cell_type: str  # "code", "markdown", "raw"
+    metadata: CellMetadata
+    source: str
+    outputs: list[Output]
+    execution_count: int | None
+
+
+class WidgetModel(TypedDict, total=False):
+    """One saved widget."""
+
+    state: dict[str, Plain]  # its traits
+    buffers: list[dict[str, Plain]]
+
+
+class WidgetModels(TypedDict):
+    """The saved widgets of a notebook, by their model ids."""
+
+    state: dict[str, WidgetModel]
+
+
+class NotebookMetadata(TypedDict, total=False):
+    """The metadata of a notebook."""
+
+    title: str
+    kernelspec: dict[str, str]
+    language_info: dict[str, str]
+    widgets: dict[str, WidgetModels]  # by MIME type
+
+
+class Notebook(TypedDict, total=False):
+    """A notebook (nbformat 4), its multi-line strings joined."""
+
+    cells: list[Cell]
+    metadata: NotebookMetadata
+    nbformat: int
+    nbformat_minor: int
 
 
 def exercise_of(cell: Cell) -> str:
@@ -39,6 +110,18 @@ def code_cells(notebook: Notebook) -> list[Cell]:
     return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
 
 
-def _course(cell: Cell) -> dict[str, Any]:
+def not_passed(notebook: Notebook) -> dict[str, str]:
+    """Return what is stored for each check that has not passed: its report, by the id of the part."""
+    reports = {check: _plain_text(cell) for cell in code_cells(notebook) if (check := check_of(cell))}
+    return {check: text for check, text in reports.items() if not text.startswith(f"{check} passed")}
+
+
+def _plain_text(cell: Cell) -> str:
+    """Return the cell's outputs that have a form as plain text, without what was only printed."""
+    texts = (output.get("data", {}).get("text/plain", "") for output in cell["outputs"])
+    return "\n".join(str(text) for text in texts if text)
+
+
+def _course(cell: Cell) -> CourseMetadata:
     course = cell["metadata"].get("course", {})
     return course if isinstance(course, dict) else {}

@@ -1,75 +1,154 @@
-"""Run solutions from the top in a fresh kernel, and keep what they show."""
+"""Run notebooks from the top, several at once, each in a fresh kernel, and keep what they show."""
 
 from __future__ import annotations
 
+import asyncio
 import os
-import sys
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any
+from textwrap import indent
 
 import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from traitlets.config import Config
 
-from course_pkg.authoring.cells import Notebook, code_cells
-from course_pkg.authoring.shelf import Shelf, read, text_of
-from course_pkg.authoring.tidy import strip, tidy
+from course_pkg.authoring.cells import Notebook, code_cells, not_passed
+from course_pkg.authoring.normalise import strip, tidy
+from course_pkg.authoring.notebook_store import NotebookStore, read, text_of
+from course_pkg.authoring.pictures import add_pictures
+from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.errors import AuthoringError
+from course_pkg.setup.progress import Progress
 
-CELL = 120  # s; a chapter that makes its reader wait longer needs another cell
+CELL_TIMEOUT = 120  # s; a chapter that makes its reader wait longer needs another cell
+PER_CORE = 3  # notebooks at once: most of the time a notebook waits, for nodes to start and for answers
+A_CELL = 2.0  # s; how a cell counts beside the deadline of a check
+
+Finished = Callable[[str, Notebook], None]
+
+
+def workers_here(notebooks: int) -> int:
+    """Return how many of `notebooks` notebooks to run at once on this machine."""
+    return max(1, min(notebooks, PER_CORE * (os.cpu_count() or 1)))
 
 
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
-    """Run the solutions of `chapters`, such as ["05"], or all, and store them with what they show."""
-    for path in Shelf(root).solutions(chapters):
-        notebook = read(path)
-        strip(notebook)
-        run(path.stem, notebook)
+    """Run the solutions of `chapters`, such as ["05"], or all, and store them with what they show.
+
+    Raises AuthoringError with the errors of all solutions that could not be run to their end, and with the
+    reports of all checks that have not passed; the files of these solutions stay as they were.
+    """
+    paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
+    stored = {name: read(path) for name, path in paths.items()}
+
+    def store(name: str, notebook: Notebook) -> None:
+        if failed := not_passed(notebook):
+            raise AuthoringError("\n".join(_about_check(name, *each) for each in failed.items()))
+        add_pictures(notebook, stored[name])
         tidy(notebook)
-        path.write_text(text_of(notebook), "utf-8")
+        paths[name].write_text(text_of(notebook), "utf-8")
+
+    errors = run_all(stored, store)
+    if errors:
+        raise AuthoringError("\n".join(map(str, errors.values())))
 
 
-def run(name: str, notebook: Notebook) -> None:
-    """Run `notebook` in place, in a fresh kernel with a master and folders of its own."""
-    total = len(code_cells(notebook))
-    done = iter(range(1, total + 1))
+def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
+    """Run `notebooks` by name, several at once; call `finished` with each that has run to its end.
 
-    def progress(**_: Any) -> None:  # noqa: ANN401 -- what nbclient hands to a hook
-        sys.stderr.write(f"\r{name}: cell {next(done, total)} of {total}")
-        sys.stderr.flush()
+    Returns the errors of the others, by name. An interrupt (KeyboardInterrupt) ends all kernels.
+    """
+    progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
+    # In the main thread nbclient would take SIGINT over, for one of its kernels only.
+    with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
+        task = loop.create_task(_run_all(notebooks, finished, progress))
+        try:
+            return thread.submit(loop.run_until_complete, task).result()
+        except KeyboardInterrupt:
+            loop.call_soon_threadsafe(task.cancel)
+            raise
 
+
+async def _run_all(
+    notebooks: Mapping[str, Notebook], finished: Finished, progress: Progress
+) -> dict[str, AuthoringError]:
+    slots = asyncio.Semaphore(workers_here(len(notebooks)))
+    errors: dict[str, AuthoringError] = {}
+
+    async def run(name: str) -> None:
+        async with slots:
+            try:
+                with progress.step(name):
+                    finished(name, await _run(name, notebooks[name], progress))
+            except AuthoringError as error:
+                errors[name] = error
+
+    await asyncio.gather(*(run(name) for name in _longest_first(notebooks)))
+    return errors
+
+
+def _about_check(name: str, check: str, report: str) -> str:
+    """Return the message about a check that does not accept the solution."""
+    shown = indent(report, "  ") or "  The cell shows no report."
+    return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
+
+
+def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
+    """Return the names in an order in which no long notebook begins last.
+
+    A notebook's time grows with its cells and with the deadlines of its checks.
+    """
+
+    def estimate(name: str) -> float:
+        deadlines = [part.deadline for part in parts_of(name[:2])] if name[:2] in chapters() else []
+        return A_CELL * len(code_cells(notebooks[name])) + sum(deadlines)
+
+    return sorted(notebooks, key=estimate, reverse=True)
+
+
+async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
+    """Return `notebook` as it ran in a fresh kernel with a master and folders of its own."""
+    node = nbformat.from_dict(notebook)
+    fresh: Notebook = node
+    strip(fresh)
     with surroundings() as (folder, environment):
         client = NotebookClient(
-            nbformat.from_dict(notebook),
-            timeout=CELL,
+            node,
+            timeout=CELL_TIMEOUT,
             kernel_name="python3",
-            on_cell_executed=progress,
+            on_cell_executed=lambda **_: progress.advance(),
             config=_by_files(folder.parent),
         )
         client.resources = {"metadata": {"path": str(folder)}}
         try:
-            client.execute(env=environment)
+            await client.async_execute(env=environment)
         except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
-            raise AuthoringError(f"{name}: {_what_went_wrong(client.nb, error)}") from error
-        finally:
-            sys.stderr.write("\n")
-        notebook.update(client.nb)
+            raise AuthoringError(f"{name}: {_what_went_wrong(fresh, error)}") from error
+    return fresh
 
 
 @contextmanager
 def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
     """Give a notebook an empty folder to work in, and an environment in which nothing was done before.
 
-    No master is named in it: the notebook's own set-up starts a private one.
+    Temporary files, results and logs go into folders beside it, so that several notebooks can run at once.
+    No master is named in the environment: the notebook's own set-up starts a private one.
     """
-    with tempfile.TemporaryDirectory(prefix="course-notebook-") as folder:
-        work = Path(folder, "work")
+    with tempfile.TemporaryDirectory(prefix="course-notebook-", ignore_cleanup_errors=True) as folder:
+        work, temporary = Path(folder, "work"), Path(folder, "tmp")
         work.mkdir()
-        environment = {**os.environ, "COURSE_STATE": str(Path(folder, "state"))}
+        temporary.mkdir()
+        private = {
+            "TMPDIR": temporary,
+            "COURSE_STATE": Path(folder, "state"),
+            "COURSE_WORKSPACE": Path(folder, "workspace"),  # chapters call it ../workspace
+            "ROS_LOG_DIR": Path(folder, "log"),
+        }
+        environment = {**os.environ, **{name: str(path) for name, path in private.items()}}
         environment.pop("ROS_MASTER_URI", None)
         yield work, environment
 

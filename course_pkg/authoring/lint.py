@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, check_of, code_cells, exercise_of, may_raise, points_of
+from course_pkg.checking.parts import Part, chapters, parts_of
 from course_pkg.errors import AuthoringError
-from course_pkg.examiner.parts import Part, chapters, parts_of
 
 
 def problems(name: str, notebook: Notebook) -> list[str]:

@@ -1,4 +1,4 @@
-"""Validate stored notebooks: nbval runs each and compares what it shows with what is stored."""
+"""Validate stored notebooks: nbval runs each of them and compares what it shows with what is stored."""
 
 from __future__ import annotations
 
@@ -6,36 +6,35 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from course_pkg.authoring.execute import CELL, surroundings
+from course_pkg.authoring.execute import CELL_TIMEOUT, workers_here
 
 SANITIZE = Path(__file__).with_name("nbval_sanitize.cfg")
-A_CORE = 2  # notebooks: most of their time they wait, for nodes to start and for answers
-
-
-def workers_here(notebooks: int) -> int:
-    """Return how many notebooks to run at once on this machine."""
-    return max(1, min(notebooks, A_CORE * (os.cpu_count() or 1)))
+PLUGINS = (
+    "course_pkg.authoring.private_notebook",
+    "course_pkg.authoring.nbval_figures",
+    "no:cacheprovider",
+)
 
 
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval over `notebooks`, each on a master of its own, `workers` at once, within `timeout` s.
+    """Run nbval over `notebooks`, `workers` at once, and return how that ended.
 
-    A notebook stays on one worker (`--dist loadfile`): nbval cannot share a kernel between two; those with
-    the most cells begin. Each runs as a copy in a folder of its own, for nbval gives the kernel the
-    notebook's folder to work in. Without `compare`, a notebook only has to run to its end: what it shows is
-    not held against what is stored.
+    Each notebook runs on a master of its own. It stays on one worker (`--dist loadfile`), because nbval
+    cannot share a kernel between two. It is run as a copy in an empty folder, because nbval starts the kernel
+    in the notebook's folder. Without `compare`, a notebook only has to run to its end: its outputs are not
+    compared with the stored ones. Raises subprocess.TimeoutExpired after `timeout` s.
     """
-    with surroundings() as (folder, environment):
-        copies = [_copied(path, folder) for path in notebooks]
+    with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
+        copies = [_copied(path, Path(folder)) for path in notebooks]
         return subprocess.run(
             command(copies, workers=workers or workers_here(len(copies)), compare=compare),
             cwd=folder,
-            env=environment,
             capture_output=True,
             text=True,
             timeout=timeout,
@@ -50,20 +49,13 @@ def _copied(notebook: Path, folder: Path) -> Path:
 
 
 def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) -> list[str]:
-    """Return the command; no configuration of the repository's own tests takes part in it."""
+    """Return the command of `validate`; no configuration of the repository's own tests takes part in it."""
     parallel = ["-n", str(workers), "--dist", "loadfile"] if workers > 1 else ["-p", "no:xdist"]
     return [
-        *(
-            sys.executable,
-            "-m",
-            "pytest",
-            "-q",
-            "--nbval" if compare else "--nbval-lax",
-            "-p",
-            "no:cacheprovider",
-            *parallel,
-        ),
-        *("-c", os.devnull, "--rootdir", str(notebooks[0].parents[1]), "--nbval-cell-timeout", str(CELL)),
-        *("--nbval-sanitize-with", str(SANITIZE)),
+        *(sys.executable, "-m", "pytest", "-q", "--nbval" if compare else "--nbval-lax"),
+        *(word for plugin in PLUGINS for word in ("-p", plugin)),
+        *parallel,
+        *("-c", os.devnull, "--rootdir", str(notebooks[0].parents[1])),
+        *("--nbval-cell-timeout", str(CELL_TIMEOUT), "--nbval-sanitize-with", str(SANITIZE)),
         *map(str, notebooks),
     ]

@@ -1,9 +1,9 @@
-"""What goes wrong with services, caused for real and undone: the cases of the lab.
+"""Faults of services, nodes and masters, really caused and undone: the cases of the lab.
 
     with caused("stale") as stage:
         seen = stage.symptom()
 
-`fault` is one thing that goes wrong; `program` and `stage` run it; `catalogue` has all of them.
+`fault` describes one; `program` and `stage` run it; `catalogue` holds all of them.
 """
 
 from typing import TYPE_CHECKING
@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
-    from course_pkg.faults.catalogue import every_fault, named, names
+    from course_pkg.faults.catalogue import caused, every_fault, named, names
     from course_pkg.faults.fault import Fault
     from course_pkg.faults.probes import TOOLS, probe
     from course_pkg.faults.program import Program, Seen
-    from course_pkg.faults.stage import Stage, caused
+    from course_pkg.faults.stage import Stage
 
 __all__ = [
     "TOOLS",
@@ -33,10 +33,10 @@ __all__ = [
 __getattr__ = lazily(
     __name__,
     {
-        "catalogue": "every_fault named names",
+        "catalogue": "caused every_fault named names",
         "fault": "Fault",
         "probes": "TOOLS probe",
         "program": "Program Seen",
-        "stage": "Stage caused",
+        "stage": "Stage",
     },
 )

@@ -4,28 +4,34 @@ from __future__ import annotations
 
 import socket
 from functools import partial
-from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, asking, calling, keeper, kill_server, nothing, running, serving
-from course_pkg.graph.ports import port_of
-from course_pkg.graph.rpc import MasterClient
-
-if TYPE_CHECKING:
-    from course_pkg.faults.stage import Stage
+from course_pkg.faults.programs import (
+    VISITOR,
+    asking,
+    calling,
+    keeper,
+    kill_server,
+    nothing,
+    running,
+    serving,
+)
+from course_pkg.faults.stage import Stage
+from course_pkg.ros.protocol.master_api import MasterClient
+from course_pkg.ros.protocol.xmlrpc import port_of
 
 NO_HOST = "robot-2"  # a name that this machine cannot look up
 
 _well = partial(Fault, group="calling", chapter="06", play=serving('return SetBoolResponse(True, "open")'))
 _python = partial(
-    _well, look="python", story="The door is asked to open, and the program ends with an error."
+    _well, look="python", story="A client calls the door's service, and its program ends with an error."
 )
 _broken = partial(
     Fault,
     group="calling",
-    chapter="10",
+    chapter="12",
     visitor=VISITOR,
-    story="The door has opened all day. Now it is asked once more.",
+    story="The door's service has worked all day. Now a client calls it once more.",
 )
 
 SLOW_KEEPER = keeper().replace(
@@ -117,7 +123,7 @@ def _hog(stage: Stage) -> None:
 def _misname(stage: Stage) -> None:
     """Serve under a host name that leads nowhere; so nobody can ask whether the server answers."""
     master = MasterClient(stage.uri)
-    # With the name localhost, rospy refuses other names in words of its own before it looks them up.
+    # With the name localhost, rospy refuses other names with its own message before it looks them up.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)
@@ -133,171 +139,213 @@ CALLING: tuple[Fault, ...] = (
     _well(
         name="no_service",
         look="gone unavailable",
-        story="The door is asked to open.",
+        story="A client calls the door's service.",
         visitor=VISITOR.replace("/lab/door", "/lab/dor"),
-        diagnosis="The client asks for a name that nobody serves: the two are spelt differently.",
+        diagnosis="The client calls a name that no node provides: client and server spell it differently.",
         remedy="Compare the name in the client with `rosservice list`.",
-        reason="`unavailable` means that the master has no provider of this name. The server is there, and "
-        "its name has one letter more.",
+        reason=(
+            "`unavailable` means that no node provides a service of this name. The server runs, but its"
+            " service name has one more letter."
+        ),
     ),
     _well(
         name="wait_in_vain",
         look="gone unavailable",
-        story="The door is asked to open, as soon as there is one.",
+        story="A client waits for the door's service and calls it.",
         play=_start_slowly,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=1)', "import std_srvs.srv"),
-        diagnosis="The server's node is up, and serves the name only after the client's wait is over.",
-        remedy="Wait longer than the server takes to start, or try again after a while.",
-        reason="wait_for_service() gave up after its second: `rosnode list` shows the keeper, and "
-        "`rosservice list` has no door yet.",
+        diagnosis=(
+            "The server's node runs, but it provides the service only after the client has stopped waiting."
+        ),
+        remedy="Wait longer than the server needs to start, or try again later.",
+        reason=(
+            "wait_for_service() ended after one second: `rosnode list` shows the node, and `rosservice "
+            "list` does not show the service yet."
+        ),
         unlike=("no_service",),
     ),
     _well(
         name="wait_for_ever",
         look="wait start",
-        story="The door is asked to open, as soon as there is one.",
+        story="A client waits for the door's service and calls it.",
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door")', "import std_srvs.srv"),
-        diagnosis="The client waits, without a limit, for a server that was never started.",
+        diagnosis="The client waits without a limit for a server that was never started.",
         remedy="Start the server, and give wait_for_service() a timeout.",
-        reason="`rosservice list` has no door and `rosnode list` no keeper. Without a timeout "
-        "wait_for_service() waits for ever, and says nothing.",
+        reason=(
+            "`rosservice list` shows no such service, and `rosnode list` no such node. Without a "
+            "timeout, wait_for_service() waits for ever and prints nothing."
+        ),
         hangs=True,
     ),
     _python(
         name="zero_timeout",
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=0)', "import std_srvs.srv"),
-        diagnosis="wait_for_service() is given a time of 0, which it does not take.",
-        remedy="Give it some seconds, or leave the wait out and catch the exception of the call.",
-        reason="`timeout must be non-zero` is a ValueError of the client's own: nobody was asked anything.",
+        diagnosis="wait_for_service() gets a timeout of 0, which it does not accept.",
+        remedy="Give it some seconds, or omit the wait and catch the exception of the call.",
+        reason="`timeout must be non-zero` is a ValueError in the client: no request was sent.",
     ),
     _python(
         name="too_few",
         visitor=calling('print(move_door(True, "slowly"))'),
-        diagnosis="The call gives more, or fewer, values by position than the request has fields.",
+        diagnosis="The call has more or fewer positional values than the request has fields.",
         remedy="Give one value for each field, or name the fields.",
-        reason="It is a TypeError, and no ServiceException: the request could not be made, so nothing was "
-        "sent. `except rospy.ServiceException` would not have caught it.",
+        reason=(
+            "The exception is a TypeError and not a ServiceException: the request could not be created,"
+            " so nothing was sent. `except rospy.ServiceException` would not catch it."
+        ),
     ),
     _python(
         name="mixed",
         visitor=calling("print(move_door(True, data=True))"),
-        diagnosis="The call gives values by position and by keyword at once.",
-        remedy="Give all values in one way.",
-        reason="The message speaks of publish(): services and topics make their messages with the same code.",
+        diagnosis="The call mixes positional values and keywords.",
+        remedy="Give all values by position, or all by keyword.",
+        reason=(
+            "The message mentions publish(), because services and topics create their messages with the"
+            " same code."
+        ),
     ),
     _python(
         name="misspelt",
         visitor=calling("print(move_door(dat=True))"),
         diagnosis="The call names a field that the request does not have.",
         remedy="Compare the name with the request in `rossrv show`.",
-        reason="`dat is not an attribute of SetBoolRequest`: an AttributeError of the client's own, before "
-        "anything was sent.",
+        reason=(
+            "`dat is not an attribute of SetBoolRequest` is an AttributeError in the client, before "
+            "anything was sent."
+        ),
     ),
     _well(
         name="left_out",
         look="quiet call",
-        story="The door is asked to open, and the answer is another one than hoped for.",
+        story="A client calls the door's service, and the response is not the expected one.",
         play=running(keeper()),
         visitor=calling("print(move_door())"),
-        diagnosis="The call leaves a field out, which is then False or 0 without a word.",
-        remedy="Give every field a value, by name.",
-        reason="A field that is not given has the zero of its type. Nothing tells that from a False that was "
-        "meant.",
+        diagnosis="The call omits a field, which therefore has the value False or 0. No error reports this.",
+        remedy="Give each field a value, by name.",
+        reason=(
+            "An omitted field has the zero of its type. The server cannot distinguish it from an "
+            "intended False."
+        ),
     ),
     _python(
         name="wrong_value",
         visitor=calling('print(move_door("yes"))'),
-        diagnosis="A value in the call is of another type than its field.",
+        diagnosis="A value in the call has another type than its field.",
         remedy="Convert the value to the type of its field before the call.",
-        reason="The request was made and could not be packed: a SerializationError in the client, and no "
-        "ServiceException.",
+        reason=(
+            "The request was created but could not be packed: the exception is a SerializationError in "
+            "the client, not a ServiceException."
+        ),
     ),
     _broken(
         name="md5",
         look="gone connection",
         chapter="04",
-        story="The door is asked to open.",
+        story="A client calls the door's service.",
         play=serving('return SetBoolResponse(True, "open")'),
         visitor=VISITOR.replace("SetBool", "Trigger").replace("(True)", "()"),
-        diagnosis="Client and server do not mean the same type of service.",
+        diagnosis="Client and server use different service types.",
         remedy="Compare `rosservice type` and `rossrv md5`, and use one definition on both sides.",
-        reason="`md5sums do not match`: the server compares a sum over the definition before it reads any "
-        "request. Here one side has Trigger, the other SetBool.",
+        reason=(
+            "`md5sums do not match`: the server compares a checksum of the definition before it reads a"
+            " request. Here one side uses Trigger and the other SetBool."
+        ),
     ),
     _broken(
         name="stale",
         look="gone connection",
         play=kill_server,
-        diagnosis="The server was killed, and the master still lists it.",
-        remedy="Start the server again, or remove the dead entry with `rosnode cleanup`.",
-        reason="The master led the client to a port where nobody listens any more: `Connection refused`. A "
-        "process that is killed by SIGKILL cannot sign off.",
+        diagnosis="The server was killed, and it is still registered with the master.",
+        remedy="Start the server again, or remove the stale registration with `rosnode cleanup`.",
+        reason=(
+            "The master returned an address at which no process listens any more: `Connection refused`."
+            " A process that is killed by SIGKILL cannot unregister."
+        ),
         unlike=("killed",),
     ),
     _broken(
         name="died",
         look="gone connection",
         play=running("import os\n" + keeper("os._exit(1)  # the motor takes the power supply down")),
-        diagnosis="The server took the request, and ended before it answered.",
-        remedy="Start the server again and repeat the call, if doing it twice does no harm.",
-        reason="`unable to receive data from sender`: the connection stood, and broke while the client was "
-        "waiting. Nobody knows how far the work has come.",
+        diagnosis="The server received the request, and ended before it sent the response.",
+        remedy="Start the server again. Repeat the call if doing the work twice does no harm.",
+        reason=(
+            "`unable to receive data from sender`: the connection was open, and closed while the client"
+            " waited. The client cannot know how much of the work was done."
+        ),
         unlike=("stale",),
     ),
     _broken(
         name="stopped",
         look="wait call",
         play=_freeze,
-        diagnosis="The server's process is stopped: it is there and does nothing.",
-        remedy="Let the process go on: `kill -CONT`, or `fg` where Ctrl-Z was pressed.",
-        reason="The system still takes connections for it, so that wait_for_service() succeeds; but no "
-        "thread of the process runs. `rosnode ping` gets no answer either.",
+        diagnosis="The server's process is stopped: it exists and does nothing.",
+        remedy="Continue the process with `kill -CONT`, or with `fg` if Ctrl-Z has stopped it.",
+        reason=(
+            "The operating system still accepts connections for the process, so wait_for_service() "
+            "succeeds. But no thread of the process runs, and `rosnode ping` gets no answer either."
+        ),
         hangs=True,
     ),
     _broken(
         name="hogged",
         look="wait call",
         play=_hog,
-        diagnosis="A client that connected and says nothing keeps the server from all others.",
-        remedy="End that client; have the server read each header on a thread of its own.",
-        reason="rospy reads the header of each connection on the one thread that accepts them. `rosnode "
-        "ping` goes by another way and is answered, while no probe of the service is. prepare_node() of the "
-        "course is the way round.",
+        diagnosis="A client that has connected and sends nothing blocks all other clients of the server.",
+        remedy="End that client. To prevent it, let the server read each header on a separate thread.",
+        reason=(
+            "rospy reads the header of each connection on the one thread that accepts connections. "
+            "`rosnode ping` uses another thread and gets an answer, but no probe of the service does. "
+            "prepare_node() of the course avoids this."
+        ),
         hangs=True,
     ),
     _broken(
         name="persistent",
         look="gone connection",
-        chapter="09",
-        story="A door is opened. Its keeper crashes and is started again, and the door is to be shut.",
+        chapter="11",
+        story=(
+            "A client opens the door. The server crashes and is started again. Then the client calls "
+            "again to close the door."
+        ),
         play=running(RESTARTED),
         visitor=KEEPS_CALLING,
-        diagnosis="The client keeps a connection to a server that is gone, and never makes a new one.",
-        remedy="Close the persistent proxy and make a new one, or call without persistent=True.",
-        reason="A persistent proxy asks the master once. After the restart each call fails in other words: "
-        "first the transport, then a broken pipe, then 'tell'. The new server is never asked.",
+        diagnosis="The client keeps a connection to a server that is gone, and never opens a new one.",
+        remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
+        reason=(
+            "A persistent proxy looks the service up once. After the restart, each call fails with "
+            "another message: first about the transport, then a broken pipe, then 'tell'. The proxy "
+            "never calls the new server."
+        ),
     ),
     _broken(
         name="hostname",
         look="gone connection",
         play=_misname,
-        diagnosis="The server is registered under a host name that cannot be looked up here.",
-        remedy="Start the server with ROS_HOSTNAME=localhost, or a name that all machines know.",
-        reason="The server is listed and runs, but its address is of no use: `rosservice uri` shows the "
-        "name. The node takes it from ROS_HOSTNAME and does not try it.",
+        diagnosis="The server is registered under a host name that cannot be resolved here.",
+        remedy="Start the server with ROS_HOSTNAME=localhost, or with a name that all machines know.",
+        reason=(
+            "The server runs and is registered, but its address cannot be used: `rosservice uri` shows "
+            "the name. The node takes the name from ROS_HOSTNAME and does not test it."
+        ),
     ),
     _well(
         name="shared_proxy",
         look="quiet call",
-        chapter="10",
-        story="Four threads ask the door again and again. Each should get the answer to its own question.",
+        chapter="12",
+        story=(
+            "Four threads call the door's service repeatedly. Each thread should get the response to "
+            "its own request."
+        ),
         play=running(keeper()),
         visitor=SHARED,
-        diagnosis="Several threads share one persistent proxy, and read each other's answers.",
-        remedy="Give each thread a proxy of its own, or hold a lock around each call.",
-        reason="The answers of one connection come one after the other, and who reads first gets the first. "
-        "rospy's proxy does not keep its callers apart.",
+        diagnosis="Several threads share one persistent proxy and read each other's responses.",
+        remedy="Give each thread its own proxy, or hold a lock around each call.",
+        reason=(
+            "The responses arrive on one connection, one after the other, and the first thread that "
+            "reads gets the first response. rospy's proxy does not separate its callers."
+        ),
     ),
 )

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from course_pkg.errors import UnknownFault
 from course_pkg.faults.calling import CALLING
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.masters import MASTERS
 from course_pkg.faults.nodes import NODES
 from course_pkg.faults.serving import SERVING
+from course_pkg.faults.stage import Stage
 
 GROUPS = ("serving", "calling", "masters")
 
@@ -25,6 +29,20 @@ def names() -> list[str]:
 def named(name: str) -> Fault:
     """Return the fault of this name. Raises UnknownFault."""
     return _only(select(name), name)
+
+
+@contextmanager
+def caused(name: str) -> Iterator[Stage]:
+    """Cause the fault of this name for the block of a `with`; it is undone when the block ends.
+
+    Raises UnknownFault, and NodeFailed where the fault could not be caused.
+    """
+    stage = Stage(named(name))
+    stage.cause()
+    try:
+        yield stage
+    finally:
+        stage.undo()
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:

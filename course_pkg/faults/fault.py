@@ -1,27 +1,25 @@
-"""One thing that goes wrong: how it is caused, what is seen of it, and what there is to say about it."""
+"""One fault: how it is caused, what shows it, and the texts about it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from course_pkg.faults.stage import Stage
+from course_pkg.faults.stage import Stage
 
-HANG = 2.0  # s after which a program that waits is taken to wait for ever
-START = 2.0  # s more for a command, which has its start before it
-PATIENCE = 10.0  # s for one that comes to an end by itself
+HANG = 2.0  # s after which a waiting program is taken to wait for ever
+START = 2.0  # s more for a command, which has to start first
+TIMEOUT = 10.0  # s for a program that ends by itself
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault. `story` is all that a student is told; `diagnosis` and `remedy` are what they choose.
+    """One fault. Students see only `story`; `diagnosis` and `remedy` are the right choices.
 
-    `play` causes it on a stage. `visitor` is what shows it: the text of a Python program, or a command line.
-    `look` names what symptoms have in common, a word for the family and one more for those that are closest,
-    so that wrong diagnoses come from faults that look alike. Those named in `unlike` are not offered, since
-    they would be true here, too.
+    `play` causes it on a stage. `visitor` shows it: the text of a Python program, or a command line after
+    "$ ". `look` names the kind of symptom, a word for the family and one more for the closest faults, so that
+    the wrong diagnoses belong to faults with a similar symptom. The faults named in `unlike` are not offered,
+    since they would be right here, too.
     """
 
     name: str
@@ -38,9 +36,9 @@ class Fault:
     unlike: tuple[str, ...] = ()
 
     @property
-    def patience(self) -> float:
-        """How long its symptom is watched, in s."""
-        return (HANG + START if self.is_command else HANG) if self.hangs else PATIENCE
+    def timeout(self) -> float:
+        """For how many s its symptom is watched."""
+        return (HANG + START if self.is_command else HANG) if self.hangs else TIMEOUT
 
     @property
     def is_command(self) -> bool:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import socket
 from functools import partial
-from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, keeper
+from course_pkg.faults.programs import VISITOR, keeper
+from course_pkg.faults.stage import Stage
 
-if TYPE_CHECKING:
-    from course_pkg.faults.stage import Stage
-
-_fault = partial(Fault, group="masters", chapter="10")
-_asked = partial(_fault, visitor=VISITOR, story="The door is asked to open.")
+_fault = partial(Fault, group="masters", chapter="12")
+_asked = partial(_fault, visitor=VISITOR, story="A client calls the door's service.")
 
 BARE = VISITOR.replace('rospy.init_node("visitor")\n', "")
 
@@ -50,10 +47,12 @@ MASTERS: tuple[Fault, ...] = (
         name="no_master",
         look="wait start",
         play=_no_master,
-        diagnosis="There is no master, and init_node() goes on looking for one.",
+        diagnosis="No master runs, and init_node() keeps trying to reach one.",
         remedy="Start a master, or correct ROS_MASTER_URI.",
-        reason="`Unable to register with master node … Will keep trying` comes once, then nothing more. The "
-        "program has not even come to its call.",
+        reason=(
+            "`Unable to register with master node … Will keep trying` is printed once, and then nothing"
+            " more. The program has not reached its call yet."
+        ),
         hangs=True,
     ),
     _asked(
@@ -61,76 +60,88 @@ MASTERS: tuple[Fault, ...] = (
         look="gone connection",
         play=_no_master,
         visitor=BARE,
-        diagnosis="There is no master to ask where the service is.",
+        diagnosis="No master runs, so the client cannot look up the service.",
         remedy="Start a master, or correct ROS_MASTER_URI.",
-        reason="`unable to contact master`: without init_node() the call itself is the first to miss it, and "
-        "says so at once. The tools say the same.",
+        reason=(
+            "`unable to contact master`: without init_node(), the call is the first step that needs the"
+            " master, and it fails at once. The tools print the same message."
+        ),
     ),
     _asked(
         name="no_master_param",
         look="python",
-        story="The width of the door is looked up in a parameter.",
+        story="A program reads the width of the door from a parameter.",
         play=_no_master,
         visitor='import rospy\n\nprint(rospy.get_param("/lab/width", 0.9))\n',
-        diagnosis="There is no master to ask for a parameter.",
-        remedy="Start a master; catch ConnectionRefusedError where one may be missing.",
-        reason="get_param() lets the socket's own ConnectionRefusedError through, in spite of its default: "
-        "the default is for a parameter that is not set.",
+        diagnosis="No master runs, so the program cannot read a parameter.",
+        remedy="Start a master. Catch ConnectionRefusedError if the master may be missing.",
+        reason=(
+            "get_param() raises the socket's ConnectionRefusedError, although a default is given: the "
+            "default is only for a parameter that is not set."
+        ),
     ),
     _asked(
         name="restarted_master",
         look="gone unavailable",
-        story="The door has opened all day. Now it is asked once more.",
+        story="The door's service has worked all day. Now a client calls it once more.",
         play=_restart_master,
-        diagnosis="The master was restarted, and knows nothing of the server, which still runs.",
+        diagnosis="The master was restarted and does not know the server, which still runs.",
         remedy="Start the server again: rospy does not register it a second time.",
-        reason="The keeper's process is well, and a new master has an empty list. rospy registers a service "
-        "once, when it is declared.",
+        reason=(
+            "The server's process works, but the new master has an empty list. rospy registers a "
+            "service once, when it is created."
+        ),
         unlike=("no_service", "wait_in_vain"),
     ),
     _asked(
         name="hung_master",
         look="wait call",
         play=_hang_master,
-        diagnosis="The master takes connections and does not answer.",
-        remedy="Let the master's process go on, or end it and start everything again.",
-        reason="Every tool hangs, too, since each asks the master first. A stopped process still gets "
-        "connections from the system.",
+        diagnosis="The master accepts connections and does not answer.",
+        remedy="Continue the master's process, or end it and start everything again.",
+        reason=(
+            "All tools hang, too, because each of them calls the master first. The operating system "
+            "still accepts connections for a stopped process."
+        ),
         hangs=True,
     ),
     _fault(
         name="port_taken",
         look="gone connection",
         chapter="01",
-        story="A master is to be started.",
+        story="A student starts a master.",
         play=_own_master,
         visitor="$ roscore -p MASTER_PORT",
-        diagnosis="A master runs on this port already.",
-        remedy="Use the one that runs, or start the second on another port.",
-        reason="roscore looks before it starts, and ends with status 1.",
+        diagnosis="A master already runs on this port.",
+        remedy="Use the running master, or start the second one on another port.",
+        reason="roscore checks the port before it starts, and ends with status 1.",
         unlike=("port_taken_rosmaster",),
     ),
     _fault(
         name="port_taken_rosmaster",
         look="wait start",
         chapter="01",
-        story="A master is started without roscore.",
+        story="A student starts a master without roscore.",
         play=_own_master,
         visitor="$ rosmaster --core -p MASTER_PORT",
-        diagnosis="The port is taken, and the program that wanted it stays, of no use to anybody.",
-        remedy="End it, and look who has the port before starting another.",
-        reason="rosmaster prints `[Errno 98] Address already in use` and never ends. So whether it runs says "
-        "nothing about whether it serves.",
+        diagnosis="The port is taken, and the new master's process stays without doing anything.",
+        remedy="End this process, and find out which program uses the port before you start another.",
+        reason=(
+            "rosmaster prints `[Errno 98] Address already in use` and never ends. So a running process "
+            "does not prove that the master answers."
+        ),
         hangs=True,
     ),
     _asked(
         name="malformed_uri",
         look="wait start",
         play=_malform,
-        diagnosis="ROS_MASTER_URI is not written as an address, and init_node() waits all the same.",
-        remedy="Write it whole: http://localhost:11311.",
-        reason="Without http:// in front it is no address, and init_node() treats that like a master that is "
-        "not there yet. The master and the server are well, as the tools show.",
+        diagnosis="ROS_MASTER_URI is not a valid address, and init_node() still keeps trying.",
+        remedy="Write the whole address: http://localhost:11311.",
+        reason=(
+            "Without http:// at the beginning it is not an address, and init_node() treats it like a "
+            "master that has not started yet. The tools show that master and server work."
+        ),
         hangs=True,
     ),
     _asked(
@@ -138,8 +149,8 @@ MASTERS: tuple[Fault, ...] = (
         look="python",
         play=_malform,
         visitor=BARE,
-        diagnosis="ROS_MASTER_URI is not written as an address, so that the call cannot even begin.",
-        remedy="Write it whole: http://localhost:11311.",
-        reason="`invalid master URI` is a ValueError, and no ServiceException.",
+        diagnosis="ROS_MASTER_URI is not a valid address, so the call cannot begin.",
+        remedy="Write the whole address: http://localhost:11311.",
+        reason="`invalid master URI` is a ValueError, and not a ServiceException.",
     ),
 )

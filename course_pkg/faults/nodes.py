@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import signal
 from functools import partial
-from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, keeper, kill_server, nothing, running
-from course_pkg.graph.rpc import MasterClient
+from course_pkg.faults.programs import VISITOR, keeper, kill_server, nothing, running
+from course_pkg.faults.stage import Stage
+from course_pkg.ros.protocol.master_api import MasterClient
 
-if TYPE_CHECKING:
-    from course_pkg.faults.stage import Stage
-
-_fault = partial(Fault, group="masters", chapter="10")
-_asked = partial(_fault, visitor=VISITOR, story="The door is asked to open.")
+_fault = partial(Fault, group="masters", chapter="12")
+_asked = partial(_fault, visitor=VISITOR, story="A client calls the door's service.")
 
 SPUN = """\
 import rospy
@@ -154,96 +151,116 @@ NODES: tuple[Fault, ...] = (
         name="init_again",
         chapter="02",
         look="python",
-        story="A cell of a notebook is changed and run again.",
+        story="A student changes a cell of a notebook and runs it again.",
         play=nothing,
         visitor=TWO_NAMES,
         diagnosis="One program tries to be two nodes.",
-        remedy="Keep the name, or restart the kernel to take another.",
-        reason="init_node() with the same arguments again does nothing; with others it refuses. A process is "
-        "one node, once.",
+        remedy="Keep the name, or restart the kernel to use another one.",
+        reason=(
+            "A second init_node() with the same arguments does nothing, and with other arguments it "
+            "raises an error. A process is one node, and only once."
+        ),
     ),
     _fault(
         name="init_on_thread",
         chapter="02",
         look="python",
-        story="A button of a notebook starts the node in the background.",
+        story="A button in a notebook starts the node in the background.",
         play=nothing,
         visitor=ON_A_THREAD,
-        diagnosis="The node is initialized on a thread that is not the main one.",
-        remedy="Restart the kernel, and call init_node() on the main thread, before any other.",
-        reason="init_node() sets handlers for signals, which Python allows on the main thread only. By then "
-        "it has noted that it was called, so that a second try does nothing.",
+        diagnosis="init_node() is called on a thread that is not the main thread.",
+        remedy="Restart the kernel, and call init_node() on the main thread first.",
+        reason=(
+            "init_node() sets signal handlers, which Python permits only on the main thread. At that "
+            "point it has already stored that it was called, so a second call does nothing."
+        ),
     ),
     _asked(
         name="spun",
         look="gone unavailable",
-        story="A notebook serves the door, says its output. The door is asked to open.",
+        story=(
+            "The output of a notebook reports that it provides the door's service. A client calls this "
+            "service."
+        ),
         play=_spin_and_interrupt,
-        diagnosis="rospy.spin() was interrupted in the server's notebook, and its node is dead since.",
-        remedy="Restart the kernel, or join() again; and never spin in a notebook.",
-        reason="Interrupting spin() shuts the node down without a word. After that init_node() and Service() "
-        "raise nothing and do nothing.",
+        diagnosis="rospy.spin() was interrupted in the server's notebook, which has shut its node down.",
+        remedy="Restart the kernel, or call join() again. Never call spin() in a notebook.",
+        reason=(
+            "Interrupting spin() shuts the node down without a message. After that, init_node() and "
+            "Service() do nothing and raise no error."
+        ),
         unlike=("no_service", "wait_in_vain", "restarted_master"),
     ),
     _asked(
         name="same_name",
         look="gone unavailable",
         chapter="01",
-        story="The door has opened all day. Now it is asked once more.",
+        story="The door's service has worked all day. Now a client calls it once more.",
         play=_twin,
-        diagnosis="Another node has taken the server's node name, which ended the server.",
-        remedy="Give each node a name of its own, and start the server again.",
-        reason="The server's output has `new node registered with same name`: the master shuts the older "
-        "node of a name down.",
+        diagnosis="Another node has started with the server's node name, which ended the server.",
+        remedy="Give each node its own name, and start the server again.",
+        reason=(
+            "The server's output contains `new node registered with same name`: the master shuts down "
+            "the older node of this name."
+        ),
         unlike=("no_service",),
     ),
     _fault(
         name="killed",
         look="gone connection",
-        story="The keeper stands in `rosnode list`. Is it well?",
+        story="`rosnode list` shows the door's node. Does it work?",
         play=kill_server,
         visitor="$ rosnode ping -c 1 /lab/keeper",
-        diagnosis="The node was killed, and its name is still in the master's list.",
+        diagnosis="The node was killed, and its name is still registered with the master.",
         remedy="Remove it with `rosnode cleanup`, and start the node again.",
-        reason="`rosnode list` shows what the master was told, not who lives. `rosnode ping` asks the node "
-        "itself, and nobody is there.",
+        reason=(
+            "`rosnode list` shows the registrations, not the running nodes. `rosnode ping` calls the "
+            "node itself, which does not answer."
+        ),
         unlike=("stale",),
     ),
     _fault(
         name="first_message",
         look="quiet topic",
         chapter="02",
-        story="The bell is rung once, and the keeper should have heard it.",
+        story="A program rings the bell once by a message. The door's node should have received it.",
         play=running(LISTENER),
         visitor=RINGS_ONCE,
-        diagnosis="The message was published before any subscriber was connected, and is lost.",
-        remedy="Wait for the connection before publishing, or latch the topic.",
-        reason="A publisher tells the master, the master tells the subscribers, and these connect: that "
-        "takes some milliseconds, and what is published meanwhile goes to nobody.",
+        diagnosis="The message was published before a subscriber was connected, and is lost.",
+        remedy="Wait for the connection before you publish, or latch the topic.",
+        reason=(
+            "A publisher registers with the master, the master informs the subscribers, and these "
+            "connect. This takes some milliseconds, and messages that are published in the meantime are"
+            " lost."
+        ),
     ),
     _fault(
         name="topic_types",
         look="quiet topic",
         chapter="02",
-        story="The bell is rung ten times, and the keeper should have heard it.",
+        story="A program rings the bell by ten messages. The door's node should have received them.",
         play=running(LISTENER),
         visitor=RINGS_OTHERWISE,
-        diagnosis="Publisher and subscriber have different types for one topic.",
+        diagnosis="Publisher and subscriber use different types for one topic.",
         remedy="Compare them with `rostopic info`, and use one type on both sides.",
-        reason="The subscriber's connection is refused, and it is not told. Only the publisher's log has a "
-        "line about it, if anywhere.",
+        reason=(
+            "The publisher refuses the connection, and the subscriber gets no error. Only the "
+            "publisher's log may contain a line about it."
+        ),
         unlike=("first_message",),
     ),
     _fault(
         name="print_in_callback",
         look="quiet topic",
         chapter="02",
-        story="The first cell of a notebook subscribes to the bell, the second one only adds two numbers.",
+        story=("The first cell of a notebook subscribes to the bell. The second cell only adds two numbers."),
         play=_ring,
         visitor=NOTEBOOK,
-        diagnosis="A callback prints, and its words come out below whatever cell runs at the time.",
-        remedy="Have callbacks record what came, and show the record in a cell of its own.",
-        reason="Callbacks run on threads of rospy's. A notebook puts what they print below the cell that "
-        "runs then, or the last one.",
+        diagnosis="A callback prints, and its output appears below the cell that runs at that time.",
+        remedy="Let callbacks store what they receive, and show it in a separate cell.",
+        reason=(
+            "Callbacks run on threads of rospy. A notebook shows their output below the cell that runs "
+            "at that time, or below the last one."
+        ),
     ),
 )

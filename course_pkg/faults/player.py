@@ -1,10 +1,10 @@
-"""Runs one short program of a case, as `python FILE` would, in a process that waits to be told to begin.
+"""Runs one short program of a case, as `python FILE` would, in a process that waits for a signal to begin.
 
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
-READY is a descriptor to which a byte is written when the interpreter and rospy are there, and the exit status
-as another when the code has come to its end; GO is one from which a byte is read before the code begins. So
-what a program needs to start is no part of what is measured, and can be spent before it is wanted.
+READY is a descriptor to which a byte is written when the interpreter and rospy are loaded, and the exit
+status as another when the code has ended; GO is one from which a byte is read before the code begins. So the
+time to start an interpreter is not measured, and can be spent before the program is needed.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ def main(argv: list[str]) -> int:
     """Run the code and return its exit status; a traceback begins in the code, not here."""
     ready, go = int(argv[1]), int(argv[2])
     name, code = argv[3:5]
-    del sys.path[0]  # where this file lies, whose neighbours are none of the program's modules
-    import rospy  # noqa: F401 -- what takes long comes before the first byte
+    del sys.path[0]  # the folder of this file: its other modules are not for the program
+    import rospy  # noqa: F401 -- slow imports come before the first byte
     import std_srvs.srv  # noqa: F401
 
     sys.argv = [name, *argv[5:]]

@@ -1,15 +1,14 @@
-"""The tools with which a student looks into a case: real commands, each within a limit."""
+"""The tools with which a student examines a case: real commands, each with a time limit."""
 
 from __future__ import annotations
 
 from course_pkg.errors import GraphError
 from course_pkg.faults.program import Seen
-from course_pkg.faults.registrations import nodes_below
 from course_pkg.faults.stage import Stage
-from course_pkg.graph.rpc import MasterClient
-from course_pkg.graph.stale import remove_stale
+from course_pkg.ros.protocol.master_api import MasterClient
+from course_pkg.ros.protocol.registrations import remove_stale
 
-PATIENCE = 4.0  # s for a tool, of which it takes 0.5 s to start
+TIMEOUT = 4.0  # s for a tool; it takes 0.5 s to start
 
 COMMANDS = {
     "services": "rosservice list",
@@ -26,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Use a tool of TOOLS on a case, and return what is seen; it takes at most 10 s."""
+    """Use a tool of TOOLS on a case, and return what it shows; it takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":
@@ -34,7 +33,7 @@ def probe(stage: Stage, tool: str) -> Seen:
     if tool == "cleanup":
         return _cleaned(stage)
     program = stage.command(COMMANDS[tool])
-    seen = program.watch(PATIENCE)
+    seen = program.watch(TIMEOUT)
     program.end()
     return seen
 
@@ -49,10 +48,11 @@ def _output(stage: Stage) -> Seen:
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Do what `rosnode cleanup` does, for the nodes of the case alone: the others are not the lab's."""
+    """Do what `rosnode cleanup` does, but only for the nodes of the case."""
     try:
-        nodes = nodes_below(MasterClient(stage.uri), f"{stage.namespace}/")
-        removed = remove_stale(stage.uri, nodes=frozenset(nodes))
+        nodes = MasterClient(stage.uri).system_state().nodes
+        own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]
+        removed = remove_stale(stage.uri, nodes=own)
     except GraphError as error:
         return Seen("rosnode cleanup, for the nodes of this case", str(error), 0.0, 1)
     lines = [f"Unregistering {entry.kind} {entry.name} of {entry.node}" for entry in removed]

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from course_pkg.faults.fault import Fault
-from course_pkg.faults.texts import VISITOR, asking, keeper, running, serving
-
-if TYPE_CHECKING:
-    from course_pkg.faults.stage import Stage
+from course_pkg.faults.programs import VISITOR, asking, keeper, running, serving
+from course_pkg.faults.stage import Stage
 
 _served = partial(Fault, group="serving", chapter="05", visitor=VISITOR)
-_replied = partial(_served, look="reply", story="The door is asked to open, and an error comes back.")
-_silent = partial(_served, story="The door is asked to open.", chapter="10", hangs=True)
+_replied = partial(_served, look="reply", story="A client calls the door's service and gets an error.")
+_silent = partial(_served, story="A client calls the door's service.", chapter="12", hangs=True)
 
 LOCKED = """\
 import threading
@@ -90,33 +87,39 @@ SERVING: tuple[Fault, ...] = (
     _replied(
         name="returns_none",
         play=serving('message = "open" if request.data else "shut"\nSetBoolResponse(True, message)'),
-        diagnosis="The handler builds its response and does not return it.",
+        diagnosis="The handler creates its response and does not return it.",
         remedy="Write return in front of the response.",
-        reason="A function without return returns None, and rospy says just that. An empty response has to "
-        "be returned, too.",
+        reason=(
+            "A function without return returns None, and rospy reports exactly this. An empty response "
+            "must be returned, too."
+        ),
     ),
     _replied(
         name="raises",
         play=serving('angle = {"open": 90}["closed"]\nreturn SetBoolResponse(True, str(angle))'),
-        diagnosis="The handler fails with an exception that nobody expected.",
-        remedy="Read the traceback in the server's output, and mend the line that it names.",
-        reason="`error processing request` comes before the words of any exception but ServiceException. The "
-        "client gets the words; the traceback stays with the server.",
+        diagnosis="The handler raises an unexpected exception.",
+        remedy="Read the traceback in the server's output, and correct the line that it names.",
+        reason=(
+            "`error processing request` is followed by the message of any exception except "
+            "ServiceException. The client gets the message; the traceback is in the server's output."
+        ),
     ),
     _replied(
         name="refuses",
         play=serving('raise rospy.ServiceException("somebody stands in the doorway")'),
-        diagnosis="The handler refuses this request on purpose, and says why.",
+        diagnosis="The handler refuses this request on purpose, and gives the reason.",
         remedy="Do what the reason asks for, and call again.",
-        reason="`service cannot process request` with a reason in plain words is what a handler says by "
-        "raising ServiceException. The server is well.",
+        reason=(
+            "A handler that raises ServiceException causes `service cannot process request` with its "
+            "reason. The server works."
+        ),
     ),
     _replied(
         name="returns_number",
         play=serving("return 90"),
-        diagnosis="The handler returns a plain value where the response has several fields.",
+        diagnosis="The handler returns a single value, but the response has several fields.",
         remedy="Return one value for each field: a response, a tuple, a list or a dict.",
-        reason="A single value stands for a response of one field. SetBool's response has two.",
+        reason="A single value is allowed only for a response with one field. SetBool's response has two.",
         unlike=("wrong_length",),
     ),
     _replied(
@@ -124,7 +127,10 @@ SERVING: tuple[Fault, ...] = (
         play=serving('return [True, "open", 90]'),
         diagnosis="The handler returns a list or a tuple that is too long or too short.",
         remedy="Return as many values as the response has fields, in their order.",
-        reason="`wrong number of values`: three came, and SetBool's response has success and message.",
+        reason=(
+            "`wrong number of values`: the handler returned three, and SetBool's response has success "
+            "and message."
+        ),
     ),
     _replied(
         name="flat_list",
@@ -132,34 +138,43 @@ SERVING: tuple[Fault, ...] = (
             'print(rospy.ServiceProxy("/lab/door", GetLoggers)())', "from roscpp.srv import GetLoggers"
         ),
         play=running(LOGGERS),
-        diagnosis="The response has one field that is a list, and the handler returns that list bare.",
+        diagnosis=(
+            "The only field of the response is a list, and the handler returns this list without "
+            "another list around it."
+        ),
         remedy="Put the list into a list, [[…]], or name the field in a dict.",
-        reason="rospy takes a returned list for the values of the fields. Three values for one field are two "
-        "too many; the list itself has to be the one value.",
+        reason=(
+            "rospy uses the elements of a returned list as the values of the fields. Three values are "
+            "too many for one field; the whole list must be the one value."
+        ),
         unlike=("wrong_length",),
     ),
     _replied(
         name="dict_slip",
         play=serving('return {"sucess": True, "message": "open"}'),
-        diagnosis="The handler returns a dict, and one of its keys is no field of the response.",
+        diagnosis="The handler returns a dict with a key that is not a field of the response.",
         remedy="Compare the keys with `rossrv show`, and correct the spelling.",
-        reason="The message names both: the key `sucess`, and the response class that has no such field.",
+        reason="The message names both: the key `sucess`, and the response class, which has no such field.",
     ),
     _replied(
         name="wrong_type",
         play=serving('return SetBoolResponse("yes", "open")'),
         diagnosis="A field of the response gets a value of another type.",
-        remedy="Convert the value to the type of its field before it is returned.",
-        reason="`field success is not a bool`: the response is made without a word, and refused when it is "
-        "packed to be sent. So the handler itself has no error to show.",
+        remedy="Convert the value to the type of its field before you return it.",
+        reason=(
+            "`field success is not a bool`: the response is created without an error, and fails when it"
+            " is packed for sending. So the handler itself raises no exception."
+        ),
     ),
     _replied(
         name="wrong_arity",
         play=running(keeper('return SetBoolResponse(True, "open")', **{"(request)": "()"})),
-        diagnosis="The handler does not take the request as its argument.",
+        diagnosis="The handler does not accept the request as its argument.",
         remedy="Give the handler one parameter, the request.",
-        reason="`takes 0 positional arguments but 1 was given`: rospy calls every handler with the request, "
-        "be it empty.",
+        reason=(
+            "`takes 0 positional arguments but 1 was given`: rospy passes the request to every handler,"
+            " even an empty one."
+        ),
     ),
     _silent(
         name="sleeps",
@@ -169,59 +184,73 @@ SERVING: tuple[Fault, ...] = (
             "import threading\n\nhinge = threading.Event()\n",
         ),
         diagnosis="The handler waits for something that does not happen.",
-        remedy="Give every wait in a handler a limit, and the call a deadline.",
-        reason="The node answers `rosnode ping` and a probe of its service: both go by other threads. Its "
-        "output ends with what the handler waits for, and rospy puts no limit on a call.",
+        remedy="Give each wait in a handler a limit, and give the call a deadline.",
+        reason=(
+            "The node answers `rosnode ping` and a probe of its service, because both use other "
+            "threads. The last line of its output names what the handler waits for. rospy sets no limit"
+            " for a call."
+        ),
         unlike=("lock",),
     ),
     _silent(
         name="exits",
         look="wait call",
         play=serving('print("there is no door: leaving")\nsys.exit(1)', "import sys\n"),
-        diagnosis="The handler calls sys.exit(), which ends its thread and sends no answer.",
-        remedy="Have the handler raise ServiceException to refuse; end programs elsewhere.",
-        reason="sys.exit() raises SystemExit, which rospy neither answers nor reports. The output ends with "
-        "a goodbye, and the process is still there: only the thread is gone, and the client waits.",
+        diagnosis="The handler calls sys.exit(), which ends its thread, so that no response is sent.",
+        remedy="Raise ServiceException to refuse a request, and end programs elsewhere.",
+        reason=(
+            "sys.exit() raises SystemExit, which rospy neither reports nor sends to the client. The "
+            "process still runs: only the handler's thread has ended, and the client waits."
+        ),
     ),
     _served(
         name="request_for_type",
         look="gone unavailable",
-        story="The program that serves the door is started.",
+        story="A student starts the program that serves the door.",
         play=_requests_class,
         visitor="$ rosservice info /lab/door",
-        diagnosis="The service is declared with its request class in the place of its type.",
-        remedy="Give SetBool, the type that holds both halves.",
-        reason="The server's output ends with `has no attribute '_request_class'`: only the type itself "
-        "knows its two halves. The server never came to serve anything.",
+        diagnosis="The service is created with its request class instead of its type.",
+        remedy="Use SetBool, the type that contains request and response.",
+        reason=(
+            "The server's output ends with `has no attribute '_request_class'`: only the type itself "
+            "knows its two classes. The service was never provided."
+        ),
     ),
     _served(
         name="declared_twice",
         look="quiet call",
-        story="The handler was mended and its cell run again. The door still does not open.",
+        story="A student corrects the handler and runs its cell again. The door still does not open.",
         play=running(TWICE),
-        diagnosis="The service was declared a second time in one program, and the old handler still answers.",
-        remedy="Call shutdown() on the first service before declaring it again.",
-        reason="The server's output says `already registered`: the second declaration was refused, and the "
-        "first handler goes on answering.",
+        diagnosis="The service was created a second time in one program, and the old handler still answers.",
+        remedy="Call shutdown() on the first service before you create it again.",
+        reason=(
+            "The server's output contains `already registered`: rospy refused the second service, and "
+            "the first handler still answers."
+        ),
     ),
     _served(
         name="two_providers",
         look="quiet call",
-        story="The keeper of the door is well, and yet the door does not open.",
+        story="The door's node works, but the door does not open.",
         play=_two_providers,
-        diagnosis="Another node serves the same name since, and gets all calls.",
-        remedy="End that node, or give one of the two services another name, and start the other again.",
-        reason="A name has one provider: who registers last, without an error to anybody. `rosservice info` "
-        "names the node, and it is not the keeper.",
+        diagnosis="Another node now provides a service of the same name, and receives all calls.",
+        remedy="End that node, or rename one of the two services and start the other again.",
+        reason=(
+            "A service name has one provider: the node that registered last. No node gets an error. "
+            "`rosservice info` names another node than the door's."
+        ),
     ),
     _silent(
         name="lock",
         look="wait call",
         play=running(LOCKED),
         diagnosis="The handler holds a lock while it calls a service that needs the same lock.",
-        remedy="Let go of the lock before calling, or pass on what is needed without a call.",
-        reason="Each waits for the other: the handler for the bolt's answer, the bolt for the lock. That a "
-        "service calls another of its own node does no harm; the lock held across the call does.",
+        remedy="Release the lock before the call, or pass the data without a call.",
+        reason=(
+            "Each handler waits for the other: the door's handler for the response of the bolt, and the"
+            " bolt's handler for the lock. A service may call another service of its node; holding the "
+            "lock during the call is the mistake."
+        ),
         unlike=("sleeps",),
     ),
 )

@@ -1,1 +1,1 @@
-"""Grading: what was handed in is placed into the reference, run behind walls, and examined from outside."""
+"""Place answers into the reference notebook, run it in a sandbox, and check it from outside."""

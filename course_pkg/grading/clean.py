@@ -1,6 +1,6 @@
-"""Whatever comes from a submission, made harmless for a page, a table, XML and the name of a file.
+"""Make strings from a submission safe for a page, a table, XML, or the name of a file.
 
-The one place for it. A text that was cleaned stays as it is when it is cleaned again.
+No other module does this. Cleaning a string a second time does not change it.
 """
 
 from __future__ import annotations
@@ -8,36 +8,41 @@ from __future__ import annotations
 import hashlib
 import re
 import unicodedata
+from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Any
 
-LONG = 4_000  # characters of a text of many lines
-SHORT = 300  # of one line
-NAME = 60  # of a file's name
+from course_pkg.types.fields import Plain
+
+LONG = 4_000  # characters of a text with several lines
+SHORT = 300  # characters of one line
+NAME = 60  # characters of the name of a file
 LINES = 200
-ITEMS = 1_000  # of a list in a record
+ITEMS = 1_000  # entries of a list in a record
 
 ANSI = re.compile(
-    r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"  # what sets a title, or makes a link
-    r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"  # colours, movements
+    r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"  # sequences that set a title or make a link
+    r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"  # sequences that set colours or move the cursor
     r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # strings for a device
     r"|\x1b[ -/]*[0-~]?"
 )
 UNSEEN = re.compile(
-    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters; tab, line feed and return are dealt with
-    "\u00ad\u061c\u180e\u200b\u200e\u200f\u2060-\u206f\ufeff\ufff9-\ufffb"  # what turns or hides letters
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters; `text` handles tab, line feed and return
+    # characters that reverse or hide other characters
+    "\u00ad\u061c\u180e\u200b\u200e\u200f\u2060-\u206f\ufeff\ufff9-\ufffb"
     "\u202a-\u202e\U000e0000-\U000e007f]"
 )
-ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")  # halves of pairs, and what is no character
+# halves of surrogate pairs, and codes that are not characters
+ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"  # with the wide forms that some spreadsheets take for the same
+# the characters that begin a formula, with the wide forms that some spreadsheets accept
+FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
-MARKED = re.compile(r"-[0-9a-f]{10}")  # how file_name() ends the name of what had to be changed
+MARKED = re.compile(r"-[0-9a-f]{10}")  # the end that file_name() adds to a name that it had to change
 
 
 def text(value: object, limit: int = LONG) -> str:
-    """Return a text of at most `limit` characters and LINES lines that shows what it is."""
+    """Return `value` as readable text, with at most `limit` characters and LINES lines."""
     whole = str(value)
     kept = BREAKS.sub("\n", ANSI.sub("", whole[: 4 * limit + 1000]))
     kept = ILLEGAL.sub("\ufffd", UNSEEN.sub("", kept))
@@ -49,44 +54,48 @@ def text(value: object, limit: int = LONG) -> str:
 
 
 def line(value: object, limit: int = SHORT) -> str:
-    """Return the same as one line."""
+    """Return `value` as readable text on one line."""
     return " ".join(text(value, limit).split())
 
 
 def html(value: object, limit: int = LONG) -> str:
-    """Return a text for a page: no markup in it."""
+    """Return a text for a page, with its markup escaped."""
     return escape(text(value, limit), quote=True)
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return one line for a table: no spreadsheet takes it for a formula."""
+    """Return one line for a table, which no spreadsheet reads as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
 
-def data(value: Any) -> Any:  # noqa: ANN401 -- plain data of any shape
-    """Return plain data with every text in it cleaned, and no list of endless length."""
+def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
+    """Return plain data: each string in it is cleaned, and a list has at most ITEMS items."""
+    return {line(key): _value(item) for key, item in fields.items()}
+
+
+def _value(value: Plain) -> Plain:
     if isinstance(value, str):
         return text(value)
-    if isinstance(value, dict):
-        return {line(key): data(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [data(item) for item in value[:ITEMS]]
+    if isinstance(value, Mapping):
+        return record(value)
+    if isinstance(value, Sequence):
+        return [_value(item) for item in value[:ITEMS]]
     return value
 
 
 def identity(name: str) -> str:
-    """Return the name of a student as it stands in records; another name stays another one."""
+    """Return the name of a student for records. Different names stay different."""
     known = unicodedata.normalize("NFC", name)
     kept = line(known, 120)
     return kept if kept == known else f"{kept}~{_mark(name)}".strip()
 
 
 def file_name(name: str) -> str:
-    """Return the name of a file or folder for `name`: plain, never one of a device, never out of its folder.
+    """Return a safe name of a file or folder for `name`: it never names a device or leaves its folder.
 
-    Names that differ stay apart, also where capitals do not count: whatever had to be changed ends in a mark
-    of its own.
+    Different names stay different, even on a file system that ignores upper and lower case: each name that
+    had to be changed ends in a mark of its own.
     """
     if PLAIN_NAME.fullmatch(name) and _may_stand(name):
         return name

@@ -1,7 +1,7 @@
-"""What an instructor adds in a folder of their own, never shown to students.
+"""Private parts and points of an instructor, in a separate folder; students never see them.
 
-private_05.py   further parts for exercises of chapter 05, declared as in examiner/checks, with ids such as
-                "05.1.1": they are examined after the student's cell of exercise 05.1
+private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
+                such as "05.1.1": they are examined after the student's cell of exercise 05.1
 points.json     other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part out of the sum
 """
 
@@ -12,22 +12,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from course_pkg.checking.parts import add_private, chapters, parts_of
+from course_pkg.checking.report import Report
 from course_pkg.errors import GradingError
-from course_pkg.examiner.parts import add_private, chapters, parts_of
-from course_pkg.examiner.report import Report
-from course_pkg.provision.stamps import digest
+from course_pkg.setup.stamps import digest
 
 
 @dataclass(frozen=True)
 class Extras:
-    """The folder, if there is one, and the points in it."""
+    """The private folder, if there is one, and the points in it."""
 
     folder: Path | None = None
     points: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def digest(self) -> str:
-        """What changes with any file of the folder."""
+        """Return a digest that changes with each file of the folder."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
         texts = [part for path in files for part in (path.name, path.read_bytes())]
         return digest([*texts, json.dumps(dict(self.points))])
@@ -41,11 +41,13 @@ class Extras:
 
 
 def read_extras(folder: Path | None) -> Extras:
-    """Return what is in `folder`, its parts declared from now on; raise GradingError for nonsense in it."""
+    """Read `folder` and declare the parts in it; raise GradingError if its contents are not valid."""
     if folder is None:
         return Extras()
     if not folder.is_dir():
-        raise GradingError(f"{folder} is no folder: give the one that holds private_NN.py and points.json.")
+        raise GradingError(
+            f"{folder} is not a folder: give the folder that contains private_NN.py and points.json."
+        )
     folder = folder.resolve()
     add_private(str(folder))
     try:
@@ -65,8 +67,8 @@ def _points(path: Path, known: set[str]) -> dict[str, int]:
         assert all(type(value) is int and value >= 0 for value in points.values())
     except (ValueError, AttributeError, AssertionError) as error:
         raise GradingError(
-            f'{path} is not a table of points: it should be like {{"05.1": 4}}, whole numbers by part.'
+            f'{path} is not a table of points: it should be like {{"05.1": 4}}, a whole number for each part.'
         ) from error
     if unknown := sorted(set(points) - known):
-        raise GradingError(f"{path} gives points to {', '.join(unknown)}, and there is no such part.")
+        raise GradingError(f"{path} gives points to {', '.join(unknown)}, but there is no such part.")
     return {str(check): int(value) for check, value in points.items()}

@@ -1,32 +1,51 @@
-"""What grading is about, as plain data: what was handed in, and what it earned.
+"""The data of grading: what was handed in, and which points it earned.
 
-Everything here goes through JSON unchanged: a record on the disk is all that a report needs.
+Everything here can be stored as JSON and read again unchanged, so a report needs only the records on disk.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from course_pkg.examiner.report import Report, report_from
+from course_pkg.checking.report import Report, report_from
+from course_pkg.sandbox.job import WorkFile
+
+
+@dataclass(frozen=True)
+class Package:
+    """A catkin package of a student, as it was handed in."""
+
+    name: str
+    files: tuple[WorkFile, ...] = field(repr=False)
+    origin: str  # its folder's path inside what was handed in
+
+    def has(self, paths: Iterable[str]) -> bool:
+        """Return whether all files `paths`, relative to the package, are in it."""
+        return {file.path for file in self.files}.issuperset(paths)
 
 
 @dataclass(frozen=True)
 class Submission:
-    """One notebook of one student, as it was handed in; `problem` says why it cannot be taken as one."""
+    """What one student handed in for one chapter: a notebook, packages that its parts examine, or both.
+
+    `problem` says why the notebook cannot be graded, or that there is none.
+    """
 
     student: str
-    chapter: str  # such as "05"; empty where nothing tells it
-    content: bytes = field(repr=False)  # a notebook; nothing in it that grading does not look at
+    chapter: str  # such as "05"; empty if unknown
+    content: bytes = field(repr=False)  # a notebook with only what grading needs
     origin: str  # the file's path inside what was handed in
     late: float = 0.0  # days after the deadline
     problem: str = ""
-    notes: tuple[str, ...] = ()  # what was out of the ordinary about how it was handed in
+    notes: tuple[str, ...] = ()  # what was unusual about how it was handed in
+    packages: tuple[Package, ...] = ()
 
 
 @dataclass(frozen=True)
 class CellOutcome:
-    """How one cell of the rebuilt notebook went in nbval's run; this is feedback, and earns nothing."""
+    """How one cell of the rebuilt notebook ran in nbval; this is feedback and earns no points."""
 
     cell: str
     outcome: str  # "passed", "failed", "skipped"
@@ -35,35 +54,35 @@ class CellOutcome:
 
 @dataclass(frozen=True)
 class Grade:
-    """What one submission earned: a report a part, in the order of the reference, none left out."""
+    """The grade of one submission: a report for each part, in the order of the reference, without gaps."""
 
     student: str
     chapter: str
     reports: tuple[Report, ...]
-    notes: tuple[str, ...] = ()  # what was out of the ordinary about the notebook
-    cells: tuple[CellOutcome, ...] = ()  # nbval's run, where there was one
-    walls: bool = True  # False: it was run with nothing around it
+    notes: tuple[str, ...] = ()  # what was unusual about the notebook
+    cells: tuple[CellOutcome, ...] = ()  # the cells of nbval's run, if there was one
+    sandboxed: bool = True  # False: it was run without a sandbox
     late: float = 0.0  # days
-    factor: float = 1.0  # of the points, for being late
+    factor: float = 1.0  # the factor for the points of a late submission
     key: str = ""  # of submission, reference and checks
     origin: str = ""
-    problem: str = ""  # the submission's, where there was one: then nothing was examined
-    private: tuple[str, ...] = ()  # parts of which students see the points alone
+    problem: str = ""  # the problem of the submission, if there was one: then nothing was examined
+    private: tuple[str, ...] = ()  # parts of which students see only the points
 
     @property
     def earned(self) -> float:
-        """The points, lateness taken off."""
+        """The points, after what lateness costs."""
         return round(sum(report.points for report in self.reports) * self.factor, 2)
 
     @property
     def possible(self) -> int:
-        """The points that there were to earn."""
+        """The points that could be earned."""
         return sum(report.possible for report in self.reports)
 
     def for_student(self) -> Grade:
-        """Return the grade with nothing in it that would tell how a private part is examined."""
+        """Return the grade without anything that shows how a private part is examined."""
         shown = (
-            replace(report, goal="A further check.", rules=(), note="", printed="")
+            replace(report, goal="A further check.", assertions=(), note="", printed="")
             if report.check in self.private
             else report
             for report in self.reports

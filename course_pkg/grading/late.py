@@ -1,4 +1,4 @@
-"""Lateness: how many days, from a table, and what they cost, from a policy."""
+"""Lateness: how many days, from a table, and what they cost, from the options of `course grade`."""
 
 from __future__ import annotations
 
@@ -14,60 +14,65 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 
-POLICY = re.compile(
-    r"(?P<percent>\d+(?:\.\d+)?)\s*%\s*(?:a|per|each)\s+day"
-    r"(?:\s*,?\s*(?:at most|up to|for)?\s*(?P<days>\d+(?:\.\d+)?)\s*days?)?",
-    re.IGNORECASE,
-)
 COLUMNS = (["student", "days"], ["student", "chapter", "days"])
 LARGEST = 1_000_000  # bytes of a table
 
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """What lateness costs: `percent` of the points for each day begun; nothing is left after `days`."""
+    """What lateness costs: `per_day` percent of the points for each day that has begun.
 
-    percent: float = 0.0
-    days: float = math.inf
+    After more than `max_days` days, no points are left.
+    """
+
+    per_day: float = 0.0
+    max_days: float = math.inf
 
     def factor(self, late: float) -> float:
-        """Return what the points of a submission are multiplied by, `late` days after the deadline."""
+        """Return the factor for the points of a submission that came `late` days after the deadline."""
         if late <= 0:
             return 1.0
-        if late > self.days:
+        if late > self.max_days:
             return 0.0
-        return round(max(0.0, 1.0 - math.ceil(late) * self.percent / 100.0), 6)
+        return round(max(0.0, 1.0 - math.ceil(late) * self.per_day / 100.0), 6)
 
 
-def late_policy(words: str) -> LatePolicy:
-    """Return the policy in `words`, such as "10% a day, 3 days"; an empty text or "none" costs nothing."""
-    if words.strip().lower() in ("", "none"):
-        return LatePolicy()
-    found = POLICY.fullmatch(words.strip())
-    if not found or float(found["percent"]) > 100:
+def late_policy(table: Path | None, per_day: float | None, max_days: float | None) -> LatePolicy:
+    """Return the policy of the options --late-per-day (percent) and --late-max-days.
+
+    Raises GradingError if there is a table of late days and no policy, or a policy and no table, or if a
+    number is out of its range.
+    """
+    if table and per_day is None and max_days is None:
         raise GradingError(
-            f"The late policy {words!r} is none: say it as '10% a day', or as '10% a day, 3 days' if nothing "
-            "is left after the third."
+            "--late needs a policy. Give --late-per-day PERCENT, --late-max-days N, or both: with "
+            "--late-per-day 10 --late-max-days 3, each day costs 10 %, and after day 3 no points are left."
         )
-    return LatePolicy(float(found["percent"]), float(found["days"] or math.inf))
+    if not table and (per_day is not None or max_days is not None):
+        raise GradingError("A late policy needs the table of late days: give it with --late TABLE.")
+    if per_day is not None and not 0 <= per_day <= 100:
+        raise GradingError(f"--late-per-day {per_day:g} is not a percentage: give a number from 0 to 100.")
+    if max_days is not None and not 0 <= max_days < math.inf:
+        raise GradingError(f"--late-max-days {max_days:g} is not a number of days: give 0 or more.")
+    return LatePolicy(per_day or 0.0, math.inf if max_days is None else max_days)
 
 
 @dataclass(frozen=True)
 class LateTable:
-    """Days late, by (student, chapter); the chapter "" stands for all that a student has no other row for."""
+    """Days late, by (student, chapter); the chapter "" stands for all chapters without a row of their own."""
 
     rows: Mapping[tuple[str, str], float]
 
     def days(self, student: str, chapter: str) -> float:
-        """Return the days that this submission came late."""
+        """Return the number of days late of this submission."""
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with their lateness."""
+        """Return the submissions with their days late."""
         return [replace(each, late=self.days(each.student, each.chapter)) for each in submissions]
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return how many students of the table handed nothing in: a slip in a name shows here."""
+        """Return how many students of the table handed in nothing: this number shows misspelt names."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 
@@ -86,15 +91,13 @@ def late_table(path: Path) -> LateTable:
             where = f"{path.name}, line {number}"
             key, days = _row(where, dict(zip(head, values, strict=False)), len(values) == len(head))
             if key in rows:
-                raise GradingError(
-                    f"{where}: this student and chapter stand there twice; keep one of the two."
-                )
+                raise GradingError(f"{where}: this student and chapter are in the table twice; keep one row.")
             rows[key] = days
     return LateTable(rows)
 
 
 def _lines(path: Path) -> list[list[str]]:
-    """Return the rows, whichever of the three usual characters stands between the columns."""
+    """Return the rows; the columns may be separated by any of the three usual characters."""
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
@@ -111,12 +114,12 @@ def _lines(path: Path) -> list[list[str]]:
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
-    """Return the key and the days of a row; a message quotes nothing, for a name may stand anywhere."""
+    """Return the key and the days of a row; a message quotes nothing, because any column may hold a name."""
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
         raise GradingError(f"{where}: each row needs a student and a number of days, and nothing more.")
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
-        raise GradingError(f"{where}: this is no chapter; write two digits, such as 05.")
+        raise GradingError(f"{where}: this is not a chapter; write two digits, such as 05.")
     return (clean.identity(student), chapter.zfill(2) if chapter else ""), _days(where, values["days"])
 
 
@@ -126,5 +129,5 @@ def _days(where: str, written: str) -> float:
     except ValueError:
         days = math.nan
     if not 0 <= days < 10_000:
-        raise GradingError(f"{where}: this is no number of days; write 0 or more, such as 1.5.")
+        raise GradingError(f"{where}: this is not a number of days; write 0 or more, such as 1.5.")
     return days

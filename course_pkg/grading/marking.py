@@ -1,64 +1,115 @@
-"""From a submission to its grade: rebuilt, run part by part behind walls, worth what the judge recorded."""
+"""Grade a submission: rebuild the notebook, run each part, and read the runner's records."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
-from course_pkg.errors import WardFailed
-from course_pkg.examiner.report import Report, Verdict
-from course_pkg.grading.context import needed
+from course_pkg.checking.parts import Part
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.errors import WorkerFailed
 from course_pkg.grading.extras import Extras
-from course_pkg.grading.grade import Grade, Submission
+from course_pkg.grading.grade import Grade, Package, Submission
 from course_pkg.grading.plan import PartPlan, Plan, course_digest
-from course_pkg.grading.rebuild import Rebuilt
-from course_pkg.grading.ward.job import PartJob, PartOutcome
+from course_pkg.grading.rebuild.context import needed
+from course_pkg.grading.rebuild.rebuilder import Rebuilt
+from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
-Run = Callable[[PartJob], PartOutcome]
-TRIES = 2  # of a part whose place to run in was lost: that is never the answer's doing alone
+Run = Callable[[PartJob], PartResult]
+TRIES = 2  # runs of a part whose sandbox worker failed: an answer cannot cause this failure
 
 
-def key_of(submission: Submission, extras: Extras, validate: str, *, walls: bool) -> str:
-    """Return the name that this grade is kept under: of all that it depends on, and of nothing else."""
+@dataclass(frozen=True)
+class Answers:
+    """What a student handed in for a chapter: packages and the rebuilt notebook, checked separately.
+
+    A package takes the place of the student's src/PACKAGE. A part whose files are in the package is examined
+    there, and the notebook's cells are not run, because the student may have continued in an editor. If a
+    file is not in the package, the cell that writes this file is used. `problem` says why there is no
+    notebook.
+    """
+
+    packages: tuple[Package, ...]
+    notebook: Rebuilt | None
+    problem: str = ""
+
+    def in_packages(self, part: Part) -> bool:
+        """Return whether all that `part` needs is in the packages."""
+        asked = part.package_files
+        here = all(self._has(name, paths) for name, paths in asked.items())
+        return here and len(part.needs) == sum(map(len, asked.values())) > 0
+
+    def files(self, part: Part) -> tuple[WorkFile, ...]:
+        """Return the files of the packages that `part` names, below src as in a workspace."""
+        named = [each for each in self.packages if each.name in part.package_files]
+        return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
+
+    def lacking(self, part: Part) -> list[str]:
+        """Return a sentence for each package that has no file that `part` needs."""
+        named = {each.name for each in self.packages}
+        return [
+            f"The package {name} that was handed in has no {' and no '.join(paths)}."
+            for name, paths in part.package_files.items()
+            if name in named and not self._has(name, paths)
+        ]
+
+    def _has(self, name: str, paths: Sequence[str]) -> bool:
+        return any(each.name == name and each.has(paths) for each in self.packages)
+
+
+def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: bool) -> str:
+    """Return the key under which this grade is kept: a digest of everything that it depends on."""
     digest = hashlib.sha256(submission.content)
     for text in (
         submission.chapter,
         submission.problem,
         course_digest(),
         extras.digest,
-        str(walls),
+        str(sandboxed),
         validate,
     ):
         digest.update(b"\0" + text.encode())
+    for package in submission.packages:
+        for file in package.files:
+            digest.update(repr((package.name, file)).encode("utf-8", "surrogatepass"))
     return digest.hexdigest()[:32]
 
 
 def mark(
-    submission: Submission, plan: Plan, extras: Extras, run: Run, secret: str, key: str, *, walls: bool
+    submission: Submission, plan: Plan, extras: Extras, run: Run, secret: str, key: str, *, sandboxed: bool
 ) -> Grade:
-    """Return the grade of one submission. `secret` makes inputs that nobody knows, the same if run again."""
+    """Return the grade of one submission.
+
+    `secret` seeds the inputs of the checks: students do not know them, and they are the same in each run.
+    """
     grade = Grade(
         submission.student,
         submission.chapter,
         (),
         late=submission.late,
-        walls=walls,
+        sandboxed=sandboxed,
         key=key,
         origin=submission.origin,
         private=tuple(each.part.check for each in plan.parts if each.private),
     )
-    if submission.problem:
-        return _nothing(grade, plan, extras, submission.problem)
-    rebuilt = plan.rebuilder.rebuild(submission.content)
-    if rebuilt.problem:
-        return _nothing(grade, plan, extras, rebuilt.problem)
+    rebuilt = None if submission.problem else plan.rebuilder.rebuild(submission.content)
+    problem = rebuilt.problem if rebuilt else submission.problem
+    if problem and not submission.packages:
+        return _nothing(grade, plan, extras, problem)
+    answers = Answers(submission.packages, None if problem else rebuilt, problem)
     reports = [
-        extras.weighed(_examined(each, rebuilt, run, _seed(secret, key, each.part.check)))
+        extras.weighed(_examined(each, answers, run, _seed(secret, key, each.part.check)))
         for each in plan.parts
     ]
-    return replace(grade, reports=tuple(reports), notes=rebuilt.notes)
+    return replace(grade, reports=tuple(reports), notes=tuple(_notes(plan, answers)))
+
+
+def _notes(plan: Plan, answers: Answers) -> Iterator[str]:
+    if packaged := [each.part.check for each in plan.parts if answers.in_packages(each.part)]:
+        yield f"Examined in the packages, not in the cells of the notebook: {', '.join(packaged)}."
+    yield from answers.notebook.notes if answers.notebook else [answers.problem]
 
 
 def _nothing(grade: Grade, plan: Plan, extras: Extras, problem: str) -> Grade:
@@ -71,35 +122,38 @@ def _not_attempted(planned: PartPlan, note: str) -> Report:
     return Report(part.check, Verdict.NOT_ATTEMPTED, part.goal, 0, part.points, note=note)
 
 
-def _examined(planned: PartPlan, rebuilt: Rebuilt, run: Run, seed: int) -> Report:
-    exercise = planned.exercise
-    if exercise in rebuilt.missing:
-        return _not_attempted(planned, rebuilt.missing[exercise])
-    if exercise in rebuilt.untouched:
-        return _not_attempted(planned, "The cell is as it was handed out.")
-    answer = rebuilt.answers[exercise]
-    above = needed(answer, planned.before, _above(rebuilt.notebook, exercise))
-    job = PartJob(
-        planned.part.check, planned.before, (*above, answer), planned.after, seed, planned.part.deadline
-    )
+def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Report:
+    part, exercise, notebook = planned.part, planned.exercise, answers.notebook
+    files = answers.files(part)
+    cells: tuple[str, ...] = ()
+    if not answers.in_packages(part):
+        if notebook is None:
+            return _not_attempted(planned, " ".join([answers.problem, *answers.lacking(part)]))
+        if exercise in notebook.missing:
+            return _not_attempted(planned, " ".join([notebook.missing[exercise], *answers.lacking(part)]))
+        if exercise in notebook.untouched:
+            return _not_attempted(planned, " ".join(["The cell was not changed.", *answers.lacking(part)]))
+        answer = notebook.answers[exercise]
+        cells = (*needed(answer, planned.before, _above(notebook.notebook, exercise)), answer)
+    job = PartJob(part.check, planned.before, cells, planned.after, seed, part.deadline, files=files)
     return _reported(planned, _run(job, run))
 
 
-def _run(job: PartJob, run: Run) -> PartOutcome:
-    """Run a part, once more where the first run came to nothing; an answer that hangs would hang again."""
+def _run(job: PartJob, run: Run) -> PartResult:
+    """Run a part; run it again if there was no verdict, unless the answer did not end."""
     for _ in range(TRIES):
         try:
-            outcome = run(job)
-        except WardFailed as error:
-            outcome = PartOutcome(None, str(error), lost=True)
-        decided = outcome.report is not None and outcome.report.verdict is not Verdict.UNDECIDED
-        if decided or outcome.took > job.limit / 2:
+            result = run(job)
+        except WorkerFailed as error:
+            result = PartResult(None, str(error), lost=True)
+        decided = result.report is not None and result.report.verdict is not Verdict.UNDECIDED
+        if decided or result.took > job.limit / 2:
             break
-    return outcome
+    return result
 
 
 def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
-    """Return the sources of the code cells above an exercise, its own not among them."""
+    """Return the sources of the code cells above an exercise."""
     sources = []
     for cell in code_cells(notebook):
         if exercise_of(cell) == exercise:
@@ -108,19 +162,17 @@ def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
     return sources
 
 
-def _reported(planned: PartPlan, outcome: PartOutcome) -> Report:
-    """Return the judge's report, with what the student's cell said for itself where it did not pass."""
-    part, report = planned.part, outcome.report
+def _reported(planned: PartPlan, result: PartResult) -> Report:
+    """Return the check runner's report; if the part did not pass, add the error of the student's cell."""
+    part, report = planned.part, result.report
     if report is None:
-        verdict = Verdict.UNDECIDED if outcome.lost else Verdict.FAILED
-        note = f"Nothing earned: {outcome.ending}."
+        verdict = Verdict.UNDECIDED if result.lost else Verdict.FAILED
+        note = f"No points: {result.ending}."
         return Report(part.check, verdict, part.goal, 0, part.points, note=note)
     if report.verdict is Verdict.PASSED:
         return report
-    said = [
-        str(each.get("error", "")) for each in outcome.said if str(each.get("cell", "")).startswith("answer")
-    ]
-    note = " ".join(filter(None, [report.note, *(f"The cell raised {words}" for words in said[-1:])]))
+    errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]
+    note = " ".join(filter(None, [report.note, *(f"The cell raised {error}" for error in errors[-1:])]))
     return replace(report, note=note)
 
 

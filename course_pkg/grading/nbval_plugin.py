@@ -1,7 +1,7 @@
-"""A plug-in of pytest that says, after nbval has run a notebook of the course, how each part went.
+"""A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
 
-It is feedback, made from what the notebook shows: a kernel can show anything. Where the variable
-COURSE_NBVAL_RECORD names a file, every cell's outcome is appended to it, a JSON object a line.
+This is only feedback: it uses the outputs of the notebook, and a kernel can show anything. If the variable
+COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one JSON object per line.
 """
 
 from __future__ import annotations
@@ -9,11 +9,10 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Generator
-from typing import Any
 
 import pytest
 
-from course_pkg.authoring.cells import check_of
+from course_pkg.authoring.cells import Cell, check_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # characters of a failure
@@ -22,17 +21,17 @@ LINES = pytest.StashKey[list[str]]()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Note how a cell went; what is no cell is let through."""
+    """Note the result of a cell; ignore reports that are not about a cell."""
     report = yield
-    cell = getattr(item, "cell", None)
-    if isinstance(cell, dict) and (report.when == "call" or report.outcome != "passed"):
+    cell: Cell | None = getattr(item, "cell", None)
+    if cell is not None and (report.when == "call" or report.outcome != "passed"):
         if check_of(cell):
             report.user_properties.append(("part", _headline(item, cell)))
         _record(cell, report)
     return report
 
 
-def pytest_terminal_summary(terminalreporter: Any) -> None:  # noqa: ANN401 -- pytest gives it no public type
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Show a line for each part."""
     reports = [each for group in terminalreporter.stats.values() for each in group]
     properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
@@ -43,7 +42,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:  # noqa: ANN401 -- p
             terminalreporter.write_line(line)
 
 
-def _headline(item: pytest.Item, cell: dict[str, Any]) -> str:
+def _headline(item: pytest.Item, cell: Cell) -> str:
     """Return the first line of what the check showed."""
     for output in getattr(item, "test_outputs", None) or []:
         text = str(output.get("data", {}).get("text/plain", ""))
@@ -52,7 +51,7 @@ def _headline(item: pytest.Item, cell: dict[str, Any]) -> str:
     return f"{check_of(cell)} not examined"
 
 
-def _record(cell: dict[str, Any], report: pytest.TestReport) -> None:
+def _record(cell: Cell, report: pytest.TestReport) -> None:
     if path := os.environ.get(RECORD):
         words = {"cell": cell.get("id", ""), "outcome": report.outcome, "words": report.longreprtext[:WORDS]}
         with open(path, "a", encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""What is examined in a chapter, and with what around it: worked out once, for every submission."""
+"""The parts of a chapter and the cells that each of them needs, computed once for all submissions."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from functools import cache
 from pathlib import Path
 
 import course_pkg
-from course_pkg.authoring.shelf import Shelf, read
-from course_pkg.examiner.answers import around
-from course_pkg.examiner.parts import Part, exercise_of, parts_of
-from course_pkg.grading.rebuild import Rebuilder
-from course_pkg.provision import CATKIN_FOLDERS
-from course_pkg.provision.stamps import digest
+from course_pkg.authoring.notebook_store import NotebookStore, read
+from course_pkg.checking.fixtures import around
+from course_pkg.checking.parts import Part, exercise_of, parts_of
+from course_pkg.grading.rebuild.rebuilder import Rebuilder
+from course_pkg.setup import CATKIN_FOLDERS
+from course_pkg.setup.stamps import digest
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class PartPlan:
 
 @dataclass(frozen=True)
 class Plan:
-    """A chapter: what places answers into its reference notebook, and its parts, in order."""
+    """A chapter: the object that places answers into its reference notebook, and its parts in order."""
 
     chapter: str
     rebuilder: Rebuilder
@@ -45,7 +45,7 @@ class Plan:
 
 def plan(chapter: str) -> Plan:
     """Return the plan of a chapter, such as "05"."""
-    rebuilder = Rebuilder(read(Shelf().solutions([chapter])[0]))
+    rebuilder = Rebuilder(read(NotebookStore().solutions([chapter])[0]))
     return Plan(chapter, rebuilder, tuple(map(_planned, parts_of(chapter))))
 
 
@@ -56,7 +56,7 @@ def _planned(part: Part) -> PartPlan:
 
 @cache
 def course_digest() -> str:
-    """Return what changes with any file that a grade depends on: code, checks, types, solutions."""
+    """Return a digest of all files on which a grade depends: code, checks, types, solutions."""
     root = Path(course_pkg.__file__).parent
     folders = [root, *(root.parent / name for name in ("solutions", *CATKIN_FOLDERS))]
     paths = sorted(path for folder in folders for path in folder.rglob("*") if _counts(path))
@@ -64,7 +64,7 @@ def course_digest() -> str:
 
 
 def _counts(path: Path) -> bool:
-    apart = {"site", "lab"} & set(path.parts)  # no grade depends on those
+    apart = {"site", "lab"} & set(path.parts)  # grades do not depend on these
     return (
         path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
     )

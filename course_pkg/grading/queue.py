@@ -1,7 +1,7 @@
-"""Many submissions, a few at a time: by threads of this machine, or by the workers of a dask cluster.
+"""Grade many submissions, a few at the same time, in threads of this machine or in workers of a dask cluster.
 
-The code is the same for both: what is handed on is a `Task`, plain data, to something with the interface of
-concurrent.futures.Executor, and what comes back is a grade as plain data.
+The code is the same for both: a `Task` (plain data) is submitted to an object with the interface of
+concurrent.futures.Executor, and the result is a grade as plain data.
 """
 
 from __future__ import annotations
@@ -17,42 +17,44 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from course_pkg.checking.parts import chapters
 from course_pkg.errors import GradingError
-from course_pkg.examiner.parts import chapters
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import Plan, plan
-from course_pkg.grading.rebuild import Rebuilder
+from course_pkg.grading.rebuild.rebuilder import Rebuilder
 from course_pkg.grading.validation import validated, wanted
-from course_pkg.grading.wards import Ward
+from course_pkg.sandbox.worker_client import SandboxWorker
 
-AHEAD = 2  # tasks handed on for each that is under way: the memory does not grow with their number
+AHEAD = 2  # submitted tasks for each running task: so the memory does not grow with the number of tasks
 
 
 @dataclass(frozen=True)
 class Task:
-    """One submission, and how it is to be graded."""
+    """One submission, and the options for its grade."""
 
     submission: Submission
     secret: str
     key: str
-    walls: bool
+    sandboxed: bool
     private: str = ""  # the folder of an instructor's extras
-    validate: str = "none"  # whose notebooks nbval runs: "all", "missing" points, "none"
+    validate: str = "none"  # the students whose notebooks nbval runs: "all", "missing" points, "none"
 
     def grade(self) -> dict[str, Any]:
-        """Grade it in this process, in the ward of this thread."""
-        tools = _tools(os.getpid(), threading.get_ident(), self.walls, self.private)
+        """Grade it in this process, in the sandbox worker of this thread."""
+        tools = _tools(os.getpid(), threading.get_ident(), self.sandboxed, self.private)
         planned, extras = _plan(self.submission.chapter), _extras(os.getpid(), self.private)
-        grade = mark(self.submission, planned, extras, tools.run, self.secret, self.key, walls=self.walls)
-        if wanted(grade, self.validate):
+        grade = mark(
+            self.submission, planned, extras, tools.run, self.secret, self.key, sandboxed=self.sandboxed
+        )
+        if self.submission.content and wanted(grade, self.validate):
             grade = validated(grade, self.submission, planned)
         return grade.as_dict()
 
 
 def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterator[Grade]:
-    """Yield the grades of `tasks` as they come, at most `workers` at work and few more handed on."""
+    """Yield the grades of `tasks` when they are ready; `workers` tasks run, and few more are submitted."""
     todo, under_way = deque(tasks), set[Future[dict[str, Any]]]()
     while todo or under_way:
         while todo and len(under_way) < workers * AHEAD:
@@ -63,7 +65,7 @@ def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterat
 
 @contextmanager
 def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
-    """Yield what runs tasks, and how many at once: threads here, or the cluster of `scheduler`."""
+    """Yield an executor and its number of workers: threads here, or the cluster of `scheduler`."""
     if not scheduler:
         with ThreadPoolExecutor(jobs, thread_name_prefix="grading") as pool:
             yield pool, jobs
@@ -84,9 +86,9 @@ def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
 
 
 @cache
-def _tools(_pid: int, _thread: int, walls: bool, private: str) -> Ward:
-    """Return the ward of one thread of one process; it ends with that thread."""
-    return Ward(walls=walls, private=private)
+def _tools(_pid: int, _thread: int, sandboxed: bool, private: str) -> SandboxWorker:
+    """Return the sandbox worker of one thread of one process; it ends with that thread."""
+    return SandboxWorker(sandboxed=sandboxed, private=private)
 
 
 @cache
@@ -98,4 +100,4 @@ def _extras(_pid: int, private: str) -> Extras:
 def _plan(chapter: str) -> Plan:
     return (
         plan(chapter) if chapter in chapters() else Plan(chapter, Rebuilder({"cells": []}), ())
-    )  # a problem, and nothing to examine
+    )  # there is a problem, so there is nothing to examine

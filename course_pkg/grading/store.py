@@ -1,4 +1,4 @@
-"""What a grading run keeps in its folder, so that it can be killed at any moment and continued."""
+"""The files that a grading run keeps in its folder, so that a killed run can be continued."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import secrets
 from dataclasses import replace
 from pathlib import Path
 
+from course_pkg.checking.report import Verdict
 from course_pkg.errors import GradingError
-from course_pkg.examiner.report import Verdict
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.state import write_json
 
@@ -18,7 +18,7 @@ NOBODY = ""
 
 
 def handed_in(grade: Grade, submission: Submission) -> Grade:
-    """Return the grade of a notebook as that of who handed it in, and how."""
+    """Return the grade of a notebook for this submission: its student, and how it was handed in."""
     return replace(
         grade,
         student=submission.student,
@@ -29,9 +29,9 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 
 
 class Store:
-    """The grades that are done, by their keys: whole or not at all, and without names.
+    """The finished grades, by their keys. Each file is complete, and none contains a name.
 
-    The folder belongs to the instructor alone: the secret in it tells every input that a check draws.
+    Only the instructor may read the folder: the secret in it determines all random inputs of the checks.
     """
 
     def __init__(self, out: Path) -> None:
@@ -45,7 +45,7 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is kept under `key`, as one of this submission; None where there is none."""
+        """Return the grade that is kept under `key` for this submission, or None if there is none."""
         try:
             grade = grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
@@ -53,7 +53,7 @@ class Store:
         return handed_in(grade, submission)
 
     def keep(self, grade: Grade) -> None:
-        """Keep `grade` under its key, unless a part could not be examined: another run may do better."""
+        """Keep `grade` under its key, unless a part could not be examined: the next run tries again."""
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             return
         nameless = replace(grade, student=NOBODY, origin=NOBODY, late=0.0)
@@ -61,8 +61,9 @@ class Store:
             write_json(self._folder / f"{grade.key}.json", nameless.as_dict())
         except OSError as error:
             raise GradingError(
-                f"The grades cannot be written ({error.strerror}). Make room, and type the same command "
-                "again: it goes on where it stopped."
+                f"The grades cannot be written ({error.strerror}). Free some disk space, and type the same "
+                f"command "
+                "again: it continues where it stopped."
             ) from error
 
     def forget(self) -> None:
@@ -72,7 +73,7 @@ class Store:
 
 
 def _secret(path: Path) -> str:
-    """Return the secret of this folder, made by whoever comes first."""
+    """Return the secret of this folder; the first caller creates it."""
     draft = path.with_name(f".{path.name}.{os.getpid()}")
     if not path.exists():
         draft.touch(mode=0o600)

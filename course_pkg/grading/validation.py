@@ -1,4 +1,7 @@
-"""nbval's run of a rebuilt notebook: which of its cells show what the reference shows; feedback alone."""
+"""nbval's run of a rebuilt notebook: it finds the cells with the same output as the reference.
+
+It earns no points.
+"""
 
 from __future__ import annotations
 
@@ -10,38 +13,38 @@ from dataclasses import replace
 from course_pkg.authoring.cells import Notebook
 from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
-from course_pkg.grading.walls import enclosed
+from course_pkg.sandbox.bubblewrap import sandbox_command
 
-CELL = 60  # s; a kernel that has ended is noticed after that, by nbval
-LIMIT = 600.0  # s for a notebook; the longest chapter takes 100
-OUTPUT = 8 << 20  # bytes of what comes back
+CELL = 60  # s; only after this time does nbval notice that a kernel has ended
+LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
+OUTPUT = 8 << 20  # bytes of the output
 
 
 def wanted(grade: Grade, whose: str) -> bool:
-    """Return whether a notebook is run: of `whose`, "all", "none", or of those with points "missing"."""
+    """Return whether nbval runs a notebook; `whose` is "all", "none", or "missing" (points)."""
     if not grade.reports or grade.problem or whose == "none":
         return False
     return whose == "all" or any(report.points < report.possible for report in grade.reports)
 
 
 def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
-    """Return `grade` with the outcomes of the rebuilt notebook's cells; a note where nbval came to no end."""
-    if not grade.walls:
+    """Return `grade` with the outcomes of the notebook's cells, or with a note that gives the reason."""
+    if not grade.sandboxed:
         return replace(
-            grade, notes=(*grade.notes, "nbval runs notebooks behind walls only, and there are none.")
+            grade, notes=(*grade.notes, "nbval runs notebooks only in a sandbox, but this run had none.")
         )
     cells = outcomes_of(plan.rebuilder.rebuild(submission.content).notebook)
     if not cells:
-        return replace(grade, notes=(*grade.notes, f"nbval came to no end within {LIMIT:g} s."))
+        return replace(grade, notes=(*grade.notes, f"nbval did not finish within {LIMIT:g} s."))
     return replace(grade, cells=cells)
 
 
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
-    """Run nbval on `notebook`, at most `cell` s a cell, the kernel behind walls of its own.
+    """Run nbval on `notebook` in a sandbox, with at most `cell` s for each cell.
 
-    Returns nothing if the whole takes more than `timeout` s.
+    Returns an empty tuple if the whole takes more than `timeout` s.
     """
-    command = enclosed([sys.executable, "-m", "course_pkg.grading.ward.validating", str(cell)])
+    command = sandbox_command([sys.executable, "-m", "course_pkg.grading.nbval_process", str(cell)])
     with subprocess.Popen(
         command, env={}, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
     ) as process:

@@ -1,1 +1,1 @@
-"""JupyterLab with a ROS master: `course lab`; and `course run`, for any other command with a master."""
+"""JupyterLab with a ROS master (`course lab`), and any other command with a master (`course run`)."""

@@ -1,8 +1,8 @@
-"""The node `polled_camera`: takes one picture of the shop when it is asked to.
+"""The node `polled_camera`: returns one picture of the shop for each call.
 
-It serves `request_image` (course_pkg/PolledImage). Who is in the picture it knows from `counter`, where
-`shop_camera` publishes; while nobody does, it looks into a shop of its own, where customers come and go.
-With `~stream` above 0 it also publishes as many pictures a second on `image` (sensor_msgs/Image).
+It serves `request_image` (course_pkg/PolledImage). It subscribes to `counter`, where `shop_camera` publishes
+who is in the shop. While nothing is published there, it shows a random number of customers instead.
+With `~stream` above 0 it also publishes that many pictures per second on `image` (sensor_msgs/Image).
 """
 
 from __future__ import annotations
@@ -10,48 +10,46 @@ from __future__ import annotations
 import math
 import random
 import time
-from typing import Any
 
 import rospy
 from sensor_msgs.msg import Image
 from std_msgs.msg import UInt32MultiArray
 
 from course_pkg.errors import FieldError
-from course_pkg.graph.program import undisturbed
-from course_pkg.graph.stepping import number_parameter, step_onto_graph, wait_until
-from course_pkg.shop.drawing import shop_picture
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed, wait_until
+from course_pkg.shop.pictures import shop_picture
 from course_pkg.shop.watch import Watch
-from course_pkg.srv import PolledImage, PolledImageResponse
+from course_pkg.srv import PolledImage, PolledImageRequest, PolledImageResponse
 
-WIDTH, HEIGHT = 320, 240  # points, where the caller leaves it to the camera
-LEAST, MOST = 16, 1280  # points
+WIDTH, HEIGHT = 320, 240  # pixels, where the request has 0
+LEAST, MOST = 16, 1280  # pixels
 SILENCE = 1.0  # s after which `counter` counts as silent
-MOOD = 4.0  # s for which the own shop stays as it is
+UNCHANGED = 4.0  # s for which the random number of customers stays the same
 
 
 class PolledCamera:
-    """Takes pictures."""
+    """Draws pictures of the shop."""
 
     def __init__(self) -> None:
         self._watch = Watch()
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
 
-    def looks_at_the_shop(self) -> bool:
-        """Whether shop_camera tells who is there."""
+    def knows_the_shop(self) -> bool:
+        """Return whether shop_camera publishes who is there."""
         return self._watch.silent_for < SILENCE
 
-    def handle_request(self, request: Any) -> PolledImageResponse:  # noqa: ANN401 -- a class that catkin generates
-        """Take a picture of the size asked for."""
+    def handle_request(self, request: PolledImageRequest) -> PolledImageResponse:
+        """Return a picture of the requested size; raise ServiceException for an impossible size."""
         try:
             width = _side("width", request.width or WIDTH)
             height = _side("height", request.height or HEIGHT)
         except FieldError as error:
             raise rospy.ServiceException(str(error)) from error
         customers = self._customers()
-        return PolledImageResponse(picture(width, height, customers), customers)  # type: ignore[no-untyped-call]
+        return PolledImageResponse(picture(width, height, customers), customers)
 
     def stream(self, rate: float) -> None:
-        """Publish `rate` pictures a second until the node is shut down."""
+        """Publish `rate` pictures per second until the node is shut down."""
         publisher = rospy.Publisher("image", Image, queue_size=2)
         clock = rospy.Rate(rate)
         while not rospy.is_shutdown():
@@ -59,14 +57,14 @@ class PolledCamera:
             clock.sleep()
 
     def _customers(self) -> int:
-        if self.looks_at_the_shop():
+        if self.knows_the_shop():
             return self._watch.count
-        return random.Random(math.floor(time.time() / MOOD)).randint(0, 4)  # noqa: S311 -- no secret
+        return random.Random(math.floor(time.time() / UNCHANGED)).randint(0, 4)  # noqa: S311 -- no secret
 
 
 def picture(width: int, height: int, customers: int) -> Image:
-    """Return a picture of the shop with so many customers, taken now."""
-    image = Image(height=height, width=width, encoding="rgb8", step=3 * width)  # type: ignore[no-untyped-call]
+    """Return a picture of the shop with this number of customers; its stamp is the present time."""
+    image = Image(height=height, width=width, encoding="rgb8", step=3 * width)
     image.header.stamp = rospy.Time.now()
     image.header.frame_id = "camera"
     image.data = shop_picture(width, height, customers)
@@ -80,13 +78,13 @@ def _side(name: str, points: int) -> int:
 
 
 def main() -> None:
-    """Take pictures until the node is shut down."""
-    if not step_onto_graph("polled_camera"):
+    """Serve, and publish, until the node is shut down."""
+    if not start_node("polled_camera"):
         return
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    wait_until(camera.looks_at_the_shop, SILENCE / 2)  # or the first picture is of the wrong shop
+    wait_until(camera.knows_the_shop, SILENCE / 2)  # otherwise the first picture shows random customers
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)
     rospy.loginfo("Ready to take pictures")

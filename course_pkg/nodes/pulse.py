@@ -1,4 +1,4 @@
-"""The node `pulse`: counts aloud on the topic `pulse`, whether or not anybody listens."""
+"""The node `pulse`: publishes 0, 1, 2, … on the topic `pulse`, with and without subscribers."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from itertools import count
 import rospy
 from std_msgs.msg import UInt32
 
-from course_pkg.graph.program import undisturbed
-from course_pkg.graph.stepping import step_onto_graph
+from course_pkg.ros.node.program import start_node, undisturbed
 
 
 def main() -> None:
-    """Publish 0, 1, 2, … until the node is shut down, `~rate` (default 2) of them a second."""
-    if not step_onto_graph("pulse"):
+    """Publish `~rate` (default 2) numbers per second until the node is shut down."""
+    if not start_node("pulse"):
         return
     with undisturbed():
         publisher = rospy.Publisher("pulse", UInt32, queue_size=1)

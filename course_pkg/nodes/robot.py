@@ -1,4 +1,4 @@
-"""The node `robot`: an arm in motion, which says on the topic `joint_states` how its joints stand."""
+"""The node `robot`: an arm in motion, which publishes its joint states on the topic `joint_states`."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from typing import NamedTuple
 import rospy
 from sensor_msgs.msg import JointState
 
-from course_pkg.graph.program import undisturbed
-from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
 RATE = 20.0  # Hz
 
 
 class Joint(NamedTuple):
-    """A joint that swings: `reach` in rad to either side of `middle`, there and back in `period` s."""
+    """A joint that swings by `reach` rad to both sides of `middle` rad, once in `period` s."""
 
     name: str
     middle: float
@@ -24,7 +23,7 @@ class Joint(NamedTuple):
     period: float
 
     def position(self, at: float) -> float:
-        """Return its angle in rad, `at` s after it began to swing."""
+        """Return its angle in rad, `at` s after the start of the motion."""
         return self.middle + self.reach * math.sin(math.tau * at / self.period)
 
     def velocity(self, at: float) -> float:
@@ -41,15 +40,15 @@ ARM = (
 
 
 def main() -> None:
-    """Say where the joints are, `~rate` (default 20) times a second, until the node is shut down."""
-    if not step_onto_graph("robot"):
+    """Publish the joint state `~rate` (default 20) times per second until the node is shut down."""
+    if not start_node("robot"):
         return
     rate = rospy.Rate(number_parameter("~rate", RATE, 0.1, 1000.0))
     with undisturbed():
         publisher = rospy.Publisher("joint_states", JointState, queue_size=10, tcp_nodelay=True)
     started = time.monotonic()
     while not rospy.is_shutdown():
-        message = stance(time.monotonic() - started)
+        message = joint_state(time.monotonic() - started)
         message.header.stamp = rospy.Time.now()
         publisher.publish(message)
         try:
@@ -58,9 +57,9 @@ def main() -> None:
             return
 
 
-def stance(at: float) -> JointState:
-    """Return where the joints are and how fast they move, `at` s after they began."""
-    return JointState(  # type: ignore[no-untyped-call]
+def joint_state(at: float) -> JointState:
+    """Return positions (rad) and velocities (rad/s) of the joints, `at` s after the start of the motion."""
+    return JointState(
         name=[joint.name for joint in ARM],
         position=[joint.position(at) for joint in ARM],
         velocity=[joint.velocity(at) for joint in ARM],

@@ -1,20 +1,18 @@
-"""The node `SERVER_NODE`: measures boxes, as the service `getGeometry`."""
+"""The node `SERVER_NODE`: returns area and volume of a box, as the service `getGeometry`."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import rospy
 
-from course_pkg.graph.program import undisturbed
-from course_pkg.graph.stepping import step_onto_graph
-from course_pkg.srv import geometry, geometryResponse
+from course_pkg.ros.node.program import start_node, undisturbed
+from course_pkg.srv import geometry, geometryRequest, geometryResponse
 
 
 def main() -> None:
     """Serve until the node is shut down."""
-    if not step_onto_graph("SERVER_NODE"):
+    if not start_node("SERVER_NODE"):
         return
     with undisturbed():
         service = rospy.Service("getGeometry", geometry, measure)
@@ -22,15 +20,18 @@ def main() -> None:
     rospy.spin()
 
 
-def measure(request: Any) -> geometryResponse:  # noqa: ANN401 -- a class that catkin generates
-    """Return area = width x length and volume = area x height; a side that no box has is refused."""
+def measure(request: geometryRequest) -> geometryResponse:
+    """Return area = width x length (m²) and volume = area x height (m³).
+
+    Raises ServiceException for a side that is negative or not finite.
+    """
     for side in ("length", "width", "height"):
         value = getattr(request, side)
         if value < 0 or not math.isfinite(value):
             rospy.logwarn("Refused: %s is %g", side, value)
             raise rospy.ServiceException(f"{side} is {value:g}, and a side is finite and not negative")
     area = request.width * request.length
-    response = geometryResponse(area=area, volume=area * request.height)  # type: ignore[no-untyped-call]
+    response = geometryResponse(area=area, volume=area * request.height)
     sides = (request.length, request.width, request.height)
     rospy.loginfo("%g x %g x %g: area %g, volume %g", *sides, response.area, response.volume)
     return response

@@ -1,7 +1,7 @@
-"""The node `simulator`: shows the robot as in a looking glass, while it is busy with its own pictures.
+"""The node `simulator`: publishes the mirror image of the robot, while it draws pictures.
 
-What it hears on `joint_states` it shows at once on `mirrored_joints`. Beside that, at a pace of its own, it
-draws, and `~pictures` says how many pictures are done.
+It publishes the mirror image of each message of `joint_states` at once on `mirrored_joints`. It also draws
+pictures, and publishes on `~pictures` how many are finished.
 """
 
 from __future__ import annotations
@@ -14,15 +14,14 @@ import rospy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import UInt32
 
-from course_pkg.graph.program import undisturbed
-from course_pkg.graph.stepping import number_parameter, step_onto_graph
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
-DRAWING = 0.4  # s that it spends on a picture
+DRAWING = 0.4  # s for one picture
 QUIET = 5.0  # s between two warnings
 
 
 class Simulator:
-    """What it shows, and how many pictures it has drawn."""
+    """Publishes mirrored joint states and the number of pictures."""
 
     def __init__(self) -> None:
         self._shown = rospy.Publisher("mirrored_joints", JointState, queue_size=10, tcp_nodelay=True)
@@ -32,14 +31,14 @@ class Simulator:
         self._robot = rospy.Subscriber("joint_states", JointState, self.show, tcp_nodelay=True)
 
     def show(self, message: JointState) -> None:
-        """Show one message; rospy calls this on a thread of its own. One that is no stance is left out."""
+        """Publish the mirror image of a valid joint state; rospy calls this on its own thread."""
         try:
             self._shown.publish(mirrored(message))
         except ValueError as error:
             rospy.logwarn_throttle(QUIET, "Not shown: %s", error)
 
     def draw(self, seconds: float) -> None:
-        """Draw one picture after the other, `seconds` each, until the node is shut down."""
+        """Draw pictures, one in `seconds` s, until the node is shut down."""
         done = 0
         while not self._over.wait(seconds):
             done += 1
@@ -47,8 +46,8 @@ class Simulator:
 
 
 def main() -> None:
-    """Mirror what the robot says, and draw, `~drawing` (default 0.4) s a picture."""
-    if not step_onto_graph("simulator"):
+    """Mirror the robot, and draw a picture each `~drawing` (default 0.4) s."""
+    if not start_node("simulator"):
         return
     seconds = number_parameter("~drawing", DRAWING, 0.01, 60.0)
     with undisturbed():
@@ -57,22 +56,22 @@ def main() -> None:
 
 
 def mirrored(message: JointState) -> JointState:
-    """Return the stance that a looking glass shows: every angle and every velocity with its sign turned.
+    """Return the mirror image of a joint state: each position and each velocity with the opposite sign.
 
-    The header stays, and with it the time at which the robot stood so. Raises ValueError for a message that
-    is no stance: numbers that are not finite, or not as many as there are joints.
+    The header, and with it the time, stays the same. Raises ValueError for an invalid joint state: numbers
+    that are not finite, or more or fewer numbers than joints.
     """
     count = len(message.name)
-    return JointState(  # type: ignore[no-untyped-call]
+    return JointState(
         header=message.header,
         name=message.name,
-        position=_turned("positions", message.position, count),
-        velocity=_turned("velocities", message.velocity, count) if message.velocity else [],
+        position=_negated("positions", message.position, count),
+        velocity=_negated("velocities", message.velocity, count) if message.velocity else [],
         effort=message.effort,
     )
 
 
-def _turned(what: str, values: Sequence[float], count: int) -> list[float]:
+def _negated(what: str, values: Sequence[float], count: int) -> list[float]:
     if len(values) != count:
         raise ValueError(f"{len(values)} {what} for {count} joints")
     if not all(map(math.isfinite, values)):

@@ -12,12 +12,10 @@ if TYPE_CHECKING:
     from course_pkg.panels.choices.view import choose
     from course_pkg.panels.graph.picture import graph_text
     from course_pkg.panels.graph.view import GraphPanel
-    from course_pkg.panels.image.view import show_image
-    from course_pkg.panels.plot.view import Plot
-    from course_pkg.panels.prediction.view import predict, predictions
+    from course_pkg.panels.prediction.view import predict
     from course_pkg.panels.service.view import ServicePanel
-    from course_pkg.panels.timeline.text import timeline_text
     from course_pkg.panels.timeline.view import Timeline
+    from course_pkg.panels.timeline.waits import timeline_text
     from course_pkg.panels.topic.view import TopicPanel
     from course_pkg.panels.turtles.view import TurtlePanel
     from course_pkg.panels.types.view import TypeBrowser
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
 __all__ = [
     "BreakIt",
     "GraphPanel",
-    "Plot",
     "ServicePanel",
     "Timeline",
     "TopicPanel",
@@ -36,8 +33,6 @@ __all__ = [
     "choose",
     "graph_text",
     "predict",
-    "predictions",
-    "show_image",
     "timeline_text",
 ]
 
@@ -48,11 +43,9 @@ __getattr__ = lazily(
         "choices.view": "choose",
         "graph.picture": "graph_text",
         "graph.view": "GraphPanel",
-        "image.view": "show_image",
-        "plot.view": "Plot",
-        "prediction.view": "predict predictions",
+        "prediction.view": "predict",
         "service.view": "ServicePanel",
-        "timeline.text": "timeline_text",
+        "timeline.waits": "timeline_text",
         "timeline.view": "Timeline",
         "topic.view": "TopicPanel",
         "turtles.view": "TurtlePanel",

@@ -55,6 +55,19 @@ export function prose(text) {
   return text.split("`").map((part, index) => (index % 2 ? h("code", { text: part }) : part));
 }
 
+/** A number as one reads it aloud: up to `digits` significant digits, no exponent between 0.0001 and a million.
+ * @param {number} value @param {number} [digits] @returns {string} */
+export function numeral(value, digits = 4) {
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return power(value, digits - 1);
+  return String(size >= 10 ** digits ? Math.round(value) : Number(value.toPrecision(digits)));
+}
+
+/** 2.5e-7. @param {number} value @param {number} decimals @returns {string} */
+export function power(value, decimals) {
+  return value === 0 ? "0" : value.toExponential(decimals).replace(/\.?0*e\+?/, "e");
+}
+
 /** @param {any} one @param {any} other @returns {boolean} */
 export function same(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);

@@ -1,38 +1,45 @@
-"""What every panel of the course has in common: a widget of one ES module that never hurts the kernel."""
+"""What all panels have in common: a widget with one ES module, whose errors never stop the kernel."""
 
 from __future__ import annotations
 
 import threading
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import anywidget
 from traitlets import Dict, Unicode
+from traitlets.utils.bunch import Bunch
 
-from course_pkg.graph.explanations import explain
 from course_pkg.panels.assets import module, sheet
+from course_pkg.ros.explain import explain
 
 HERE = Path(__file__).parent
 
+# A message from the page, or to it: JSON, of which ipywidgets says no more.
+PageMessage: TypeAlias = dict[str, Any]
+
 
 class Panel(anywidget.AnyWidget):
-    """A widget that may be told things from any thread, and knows whether a page shows it.
+    """A widget that any thread may update, and that knows whether a page shows it.
 
-    A subclass names its ES module in `front_end` and its sheet in `style_sheet`, answers the page's
-    messages in `received`, and begins and ends in `shown` and `hidden` what it does only on a page.
+    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`, answers the page's
+    messages in `received`, and overrides `shown` and `hidden` if it does something only while a page shows
+    it.
     """
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
-    errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")  # traits that hold the words of an error
-    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # of the parts that it has in common with other panels
+    errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")  # traits that hold an error message
+    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # style sheets that other panels use, too
 
-    notice = Unicode(help="what went wrong inside the panel itself, in one line").tag(sync=True)
-    explained = Dict(help="what that means, where the course knows it").tag(sync=True)
+    notice = Unicode(help="an error inside the panel itself, in one line").tag(sync=True)
+    explained = Dict(help="the explanation of the error that the panel shows, if the course has one").tag(
+        sync=True
+    )
 
     def __init__(self) -> None:
-        # Messages from the page and updates from threads take turns: ipywidgets swaps methods on the instance
-        # while it takes a message in, and a change made on another thread just then can be lost.
+        # Held while a message from the page is handled, and while a thread changes a trait. ipywidgets swaps
+        # methods on the instance while it handles a message, and would lose a change that is made meanwhile.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()
@@ -47,18 +54,18 @@ class Panel(anywidget.AnyWidget):
     def _css(self) -> str:
         return sheet(HERE / "look.css", HERE / "explained.css", *self.shared_sheets, self.style_sheet)
 
-    def error_words(self) -> str:
-        """Return the words of the error that the panel shows, "" for none; the first of `errors` counts."""
-        words = (getattr(self, name, "") for name in self.errors)
-        return next((each for each in words if each and isinstance(each, str)), "")
+    def error_message(self) -> str:
+        """Return the error message that the panel shows, "" for none; the first trait of `errors` counts."""
+        messages = (getattr(self, name, "") for name in self.errors)
+        return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Begin what the panel does only while a page shows it; told again for each further view."""
+        """Begin what the panel does only while a page shows it; called again for each further view."""
 
     def hidden(self) -> None:
-        """End it."""
+        """End what shown() began; called when the last view is gone."""
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a message of the page."""
 
     def publish(self, **traits: object) -> None:
@@ -74,24 +81,24 @@ class Panel(anywidget.AnyWidget):
     def close(self) -> None:
         """Take the panel off every page and end what it runs."""
         if not hasattr(self, "turn"):
-            return  # its constructor refused what it was given, and ipywidgets closes what is thrown away
+            return  # the constructor raised an error, and ipywidgets closes the unfinished widget
         with self.turn:
             if self._views:
                 self._views.clear()
                 self.hidden()
             super().close()
 
-    def _explain(self, _change: object) -> None:
-        """Offer an explanation of what the panel shows as an error, if there is one."""
-        words = self.error_words()
-        meaning = explain(words) if words else None
+    def _explain(self, _change: Bunch) -> None:
+        """Offer an explanation of the error that the panel shows, if there is one."""
+        message = self.error_message()
+        meaning = explain(message) if message else None
         self.explained = meaning.as_dict() if meaning and meaning.known else {}
 
-    def _handle_msg(self, msg: dict[str, Any]) -> None:
+    def _handle_msg(self, msg: PageMessage) -> None:
         with self.turn:
             super()._handle_msg(msg)
 
-    def _dispatch(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
+    def _dispatch(self, _widget: Panel, content: PageMessage, _buffers: list[bytes]) -> None:
         kind = content.get("kind", "")
         try:
             if kind == "hello":
@@ -104,5 +111,5 @@ class Panel(anywidget.AnyWidget):
                     self.hidden()
             elif kind != "here":
                 self.received(kind, content)
-        except Exception as error:  # noqa: BLE001 - an error in a click must show in the panel, not in some cell
+        except Exception as error:  # noqa: BLE001 - the panel shows it, and no cell
             self.complain(error)

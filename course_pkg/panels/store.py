@@ -1,53 +1,76 @@
-"""What a student committed to, on disk: one JSON file a kind, written whole or not at all."""
+"""The student's predictions, choices and answers on disk: one JSON file for each kind."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from collections.abc import Iterable
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Any, ClassVar, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, Protocol, TypeVar
 
-from course_pkg.errors import PredictionsBroken
-from course_pkg.state import state_folder, write_json
+from course_pkg.errors import InvalidPredictions
+from course_pkg.state import locked, state_folder, write_json
+
+if TYPE_CHECKING:
+    from dataclasses import Field
 
 
 class Keyed(Protocol):
     """A dataclass with a key such as "05.reply_none"."""
 
-    __dataclass_fields__: ClassVar[dict[str, Any]]
+    __dataclass_fields__: ClassVar[dict[str, Field[object]]]
 
     @property
     def key(self) -> str:
-        """The chapter and the name of the question."""
+        """The chapter and the name of the prediction."""
 
 
-Row = TypeVar("Row", bound=Keyed)
+Record = TypeVar("Record", bound=Keyed)
 
 
-class Store(Generic[Row]):
+class Store(Generic[Record]):
     """The records of one kind, by key, in a file of the course's state or at `path`."""
 
-    row: type[Row]
+    record: type[Record]
     file: ClassVar[str]
     what: ClassVar[str]
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or state_folder() / self.file
 
-    def read(self) -> dict[str, Row]:
-        """All records; none when there is no file yet. Raises PredictionsBroken."""
+    def read(self) -> dict[str, Record]:
+        """Return all records; none if there is no file yet. Raises InvalidPredictions."""
         try:
-            rows = json.loads(self.path.read_text(encoding="utf-8"))
-            return {key: self.row(**row) for key, row in rows.items()}
+            records = json.loads(self.path.read_text(encoding="utf-8"))
+            return {key: self._checked(self.record(**record)) for key, record in records.items()}
         except FileNotFoundError:
             return {}
         except (OSError, ValueError, TypeError, AttributeError) as error:
-            raise PredictionsBroken(
+            raise InvalidPredictions(
                 f"{self.path} does not hold {self.what} as the course writes them ({error}). "
                 "Move the file away to start afresh."
             ) from error
 
-    def write(self, record: Row) -> None:
-        """Keep a record in place of the one with its key."""
-        records = {**self.read(), record.key: record}
-        write_json(self.path, {key: asdict(each) for key, each in records.items()})
+    def _checked(self, record: Record) -> Record:
+        """Return a record whose fields have the declared types. Raises TypeError for another one."""
+        for each in fields(record):
+            if type(getattr(record, each.name)).__name__ != str(each.type).partition("[")[0]:
+                raise TypeError(f"{each.name} of {record.key} is not of the type {each.type}")
+        return record
+
+    def write(self, record: Record) -> Record:
+        """Write a record in place of the one with the same key, and return it. The file is replaced whole.
+
+        Another kernel may write another record at the same time: both stay. Raises what `read` does, and
+        OSError if the file cannot be written.
+        """
+        with locked(self.path.parent):
+            records = {**self.read(), record.key: record}
+            write_json(self.path, {key: asdict(each) for key, each in records.items()})
+        return record
+
+
+def of_chapter(records: Iterable[Record], chapter: str) -> list[Record]:
+    """Return the records of a chapter (`05` has `05.reply_none`), or all for "", sorted by key."""
+    chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
+    return sorted(chosen, key=lambda each: each.key)

@@ -1,4 +1,4 @@
-"""The counter of a shop: who comes when, who goes when, and who is there now. No ROS."""
+"""The counter of a shop: when each customer comes and leaves, and who is there now. It needs no ROS."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ class Visit:
 
 
 class Counter:
-    """Knows the visits that go on and those to come; `number` is what the next customer gets."""
+    """The present and future visits; `number` is the number of the next customer."""
 
     def __init__(self, number: int = 1) -> None:
         self.number = number
         self._visits: list[Visit] = []
 
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
-        """Have a customer come `after` s from `now`, for each, and stay for `stay` s; return their visits.
+        """Return a planned visit of `stay` s for each element of `after`, a time in s from `now`.
 
-        Those who were still to come do not come then. Raises FieldError, and changes nothing.
+        Earlier plans for the future are dropped. Raises FieldError for impossible times, and changes nothing.
         """
         if len(after) > MOST:
             raise FieldError(
                 "after", after, f"at most {MOST} customers", f"{len(after)} customers are too many"
             )
-        for place, delay in enumerate(after):
-            _require_seconds(f"after[{place}]", delay)
+        for index, delay in enumerate(after):
+            _require_seconds(f"after[{index}]", delay)
         _require_seconds("stay", stay)
         starts = sorted(now + delay for delay in after)
         visits = [Visit(number, start, start + stay) for number, start in enumerate(starts, self.number)]
@@ -47,15 +47,15 @@ class Counter:
         return visits
 
     def there(self, now: float) -> tuple[int, ...]:
-        """Return the numbers of those who are at the counter, in the order in which they came."""
+        """Return the numbers of the customers at the counter, in the order in which they came."""
         return tuple(visit.number for visit in self._visits if visit.comes <= now < visit.goes)
 
     def next_change(self, now: float) -> float:
-        """Return when the next customer comes or goes; infinity when nobody will."""
+        """Return when the next customer comes or leaves; infinity if there is none."""
         times = (time for visit in self._visits for time in (visit.comes, visit.goes) if time > now)
         return min(times, default=math.inf)
 
 
 def _require_seconds(field: str, value: float) -> None:
-    if not 0.0 <= value <= LONGEST:  # which a NaN is not
+    if not 0.0 <= value <= LONGEST:  # false for NaN
         raise FieldError(field, value, f"seconds, from 0 to {LONGEST:g}", f"{value:g} s cannot be waited for")

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
-    from course_pkg.site.command import run_site
+    from course_pkg.site.commands import run_site
 
 __all__ = ["run_site"]
 
-__getattr__ = lazily(__name__, {"command": "run_site"})
+__getattr__ = lazily(__name__, {"commands": "run_site"})

@@ -15,12 +15,11 @@ from markupsafe import Markup
 from course_pkg.errors import SiteError
 from course_pkg.site.chapters import Chapter, hours
 from course_pkg.site.exporter import Body
-from course_pkg.site.front import drawing
 from course_pkg.site.glossary import Glossary
-from course_pkg.site.pages import COURSE, Page, Press
+from course_pkg.site.pages import COURSE, Page, Renderer, drawing
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-PATIENCE = 180  # s
+TIMEOUT = 180  # s
 OPTIONS = (
     "--headless",
     "--disable-gpu",
@@ -36,19 +35,19 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 
 
 def prefix(chapter: Chapter) -> str:
-    """Return what the anchors of a chapter begin with in the book, where all stand on one page."""
+    """Return the prefix of a chapter's anchors in the book, which has all chapters on one page."""
     return f"c{chapter.number}-"
 
 
-def book(press: Press, bodies: Sequence[tuple[Chapter, Body]], glossary: Glossary) -> Page:
+def book(renderer: Renderer, bodies: Sequence[tuple[Chapter, Body]], glossary: Glossary) -> Page:
     """Return the page that holds all chapters; the anchors of each body begin with its `prefix`."""
     first = {chapter.number: body.headings[0][1] for chapter, body in bodies if body.headings}
-    html = press.part(
+    html = renderer.part(
         "book.html.j2",
         bodies=[(chapter, body.headings, Markup(body.html)) for chapter, body in bodies],  # noqa: S704 -- cleaned
         hours=hours([chapter for chapter, _ in bodies]),
         drawing=drawing(),
-        glossary=glossary.text(press),
+        glossary=glossary.text(renderer),
     )
     linked = LINK.sub(lambda link: f'href="#{_place(link, first)}"', html)
     return Page("book.html", "book", COURSE, "The whole course.", Markup(linked), panels=True)  # noqa: S704
@@ -73,9 +72,9 @@ def print_book(folder: Path) -> Path:
 
 def _run(command: Sequence[str]) -> str:
     try:
-        result = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
     except subprocess.TimeoutExpired as error:
-        raise SiteError(f"Chromium did not print the book within {PATIENCE} s.") from error
+        raise SiteError(f"Chromium did not print the book within {TIMEOUT} s.") from error
     return result.stderr
 
 

@@ -2,40 +2,40 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from types import TracebackType
 from typing import NamedTuple
 from urllib.parse import quote
 
 from markupsafe import Markup
 
 from course_pkg.authoring.cells import Notebook
-from course_pkg.authoring.shelf import Shelf, read
-from course_pkg.errors import AuthoringError
-from course_pkg.provision.stamps import digest
+from course_pkg.authoring.notebook_store import NotebookStore, read
+from course_pkg.errors import SiteError
+from course_pkg.setup.stamps import digest
 from course_pkg.site.book import book, prefix
 from course_pkg.site.chapters import Chapter, chapter_of
 from course_pkg.site.exporter import Body, Exporter
-from course_pkg.site.folder import Folder
-from course_pkg.site.front import landing
 from course_pkg.site.glossary import Glossary
-from course_pkg.site.pages import Page, Press
+from course_pkg.site.pages import Page, Renderer, landing
 from course_pkg.site.prose import words
 from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
-from course_pkg.site.settings import Settings
-from course_pkg.site.texts import Section, script, sections
+from course_pkg.site.search_index import Section, script, sections
 
+LIST = ".course-site"  # in the folder: the files that the site consists of
 ASSETS = Path(__file__).with_name("assets")
 FOOTER = (
     "These pages fetch nothing and send nothing. What they load lies beside them, with "
     '<a href="assets/LICENSES.txt">its licences</a>.'
 )
 NOT_RUN = "Its panels are missing, since the chapter has not run yet."
-PANEL = 'class="panel"'
+PANEL_CLASS = 'class="panel"'
 
 
-class Manuscript(NamedTuple):
+class PageSource(NamedTuple):
     """One chapter on its way to a page; `trouble` says why it is not shown as it runs now."""
 
     chapter: Chapter
@@ -45,57 +45,49 @@ class Manuscript(NamedTuple):
     trouble: str
 
 
-def write_site(settings: Settings, shelf: Shelf | None = None, runs: Runs | None = None) -> list[str]:
+def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
     """Write the site, and return which chapters' runs failed: their pages show what was stored."""
     exporter = Exporter()
-    books = list(_books(settings, shelf or Shelf(), runs or Runs(), exporter))
+    books = list(_books(settings, store or NotebookStore(), runs or Runs(), exporter))
     chapters = [each.chapter for each in books]
     glossary = Glossary.of([(each.chapter, each.notebook, each.body.headings) for each in books])
     assets = {path.name: path.read_text("utf-8") for path in sorted(ASSETS.iterdir())}
     assets |= {"panels.js": panels_script(), "panels.css": panels_sheet()}
-    press = Press(chapters, digest(assets.values()), FOOTER)
+    renderer = Renderer(chapters, digest(assets.values()), FOOTER)
     with Folder(settings.out) as folder:
         for name, text in assets.items():
             folder.write(f"assets/{name}", text)
         folder.write("assets/texts.js", script([*_sections(books), *glossary.sections()]))
-        for page in (landing(press, chapters), glossary.page(press), *_pages(press, books, settings)):
-            folder.write(page.file, press.page(page))
+        pages = landing(renderer, chapters), glossary.page(renderer), *_pages(renderer, books, settings)
+        for page in pages:
+            folder.write(page.file, renderer.page(page))
         if settings.book:
-            folder.write("book.html", press.page(book(press, _bodies(books, exporter), glossary)))
+            folder.write("book.html", renderer.page(book(renderer, _bodies(books, exporter), glossary)))
         for each in books:
             folder.copy(each.source, f"notebooks/{each.source.name}")
     return [f"{each.chapter.name}: {each.trouble}" for each in books if each.trouble not in ("", NOT_RUN)]
 
 
-def _books(settings: Settings, shelf: Shelf, runs: Runs, exporter: Exporter) -> Iterator[Manuscript]:
-    chosen = shelf.solutions(settings.chapters)
-    for solution in shelf.solutions():
-        source = shelf.root / "notebooks" / solution.name if settings.student else solution
-        notebook, trouble = _shown(source, runs, execute=settings.execute and solution in chosen)
+def _books(settings: Settings, store: NotebookStore, runs: Runs, exporter: Exporter) -> Iterator[PageSource]:
+    solutions, chosen = store.solutions(), store.solutions(settings.chapters)
+    folder = store.root / ("notebooks" if settings.student else "solutions")
+    errors = runs.update([folder / path.name for path in chosen]) if settings.execute else {}
+    for source in (folder / path.name for path in solutions):
+        trouble = f"The run failed: {errors[source]}" if source in errors else ""
+        notebook = runs.latest(source)
+        if notebook is None:
+            notebook, trouble = read(source), trouble or NOT_RUN
         chapter = chapter_of(source.stem, notebook)
-        yield Manuscript(chapter, source, notebook, exporter.body(notebook), trouble)
+        yield PageSource(chapter, source, notebook, exporter.body(notebook, folder=folder), trouble)
 
 
-def _shown(source: Path, runs: Runs, *, execute: bool) -> tuple[Notebook, str]:
-    """Return the notebook as it ran, or as it is stored, and what went wrong."""
-    trouble = ""
-    try:
-        if execute:
-            return runs.of(source), ""
-    except AuthoringError as error:
-        trouble = f"The run failed: {error}"
-    if notebook := runs.latest(source):
-        return notebook, trouble
-    return read(source), trouble or NOT_RUN
-
-
-def _pages(press: Press, books: Sequence[Manuscript], settings: Settings) -> Iterator[Page]:
+def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) -> Iterator[Page]:
     for number, each in enumerate(books):
-        html = press.part(
+        html = renderer.part(
             "chapter.html.j2",
             body=Markup(each.body.html),  # noqa: S704 -- the exporter escapes or cleans all of it
             trouble=each.trouble,
-            panels=PANEL in each.body.html,
+            panels=PANEL_CLASS in each.body.html,
             links=_links(each, settings),
         )
         yield Page(
@@ -105,14 +97,14 @@ def _pages(press: Press, books: Sequence[Manuscript], settings: Settings) -> Ite
             words(each.chapter.will) or each.chapter.title,
             html,
             contents=[heading for heading in each.body.headings if heading[0] in (2, 3)],
-            panels=PANEL in each.body.html,
+            panels=PANEL_CLASS in each.body.html,
             chapter=each.chapter,
             before=books[number - 1].chapter if number else None,
             after=books[number + 1].chapter if number + 1 < len(books) else None,
         )
 
 
-def _links(each: Manuscript, settings: Settings) -> list[tuple[str, str, bool]]:
+def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
     """Return the ways into the notebook itself: (label, address, whether it is a file of the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
@@ -121,11 +113,79 @@ def _links(each: Manuscript, settings: Settings) -> list[tuple[str, str, bool]]:
     return links
 
 
-def _sections(books: Sequence[Manuscript]) -> Iterator[Section]:
+def _sections(books: Sequence[PageSource]) -> Iterator[Section]:
     for each in books:
         yield from sections(each.chapter.full_title, each.chapter.page, each.notebook, each.body.headings)
 
 
-def _bodies(books: Sequence[Manuscript], exporter: Exporter) -> list[tuple[Chapter, Body]]:
-    """Return the chapters as they stand in the book, with anchors of their own."""
-    return [(each.chapter, exporter.body(each.notebook, prefix(each.chapter))) for each in books]
+def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapter, Body]]:
+    """Return the chapters for the book, with separate anchors."""
+    return [
+        (each.chapter, exporter.body(each.notebook, prefix(each.chapter), each.source.parent))
+        for each in books
+    ]
+
+
+class Settings(NamedTuple):
+    """What `course site` was told.
+
+    `out` is the folder to write to. With `student`, the pages show the notebooks that students get, otherwise
+    the solutions. `chapters` are those to be run if need be; the others are shown as they ran last, and so
+    are all with `execute` off. `binder` is the address that opens the repository, without the query. With
+    `book`, all chapters stand in one page, too.
+    """
+
+    out: Path
+    student: bool = False
+    chapters: tuple[str, ...] = ()
+    execute: bool = True
+    binder: str = ""
+    book: bool = False
+
+
+class Folder:
+    """A site being written: when the block ends well, files of an earlier site that are not in it go."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._list = path / LIST
+        self._written: set[str] = set()
+
+    def __enter__(self) -> Folder:
+        """Take hold of the folder. Raises SiteError where it holds something else than a site."""
+        try:
+            self._path.mkdir(parents=True, exist_ok=True)
+            foreign = not self._list.exists() and any(self._path.iterdir())
+        except OSError as error:
+            raise SiteError(
+                f"{self._path} cannot be used: {error.strerror}. Name another with --out."
+            ) from error
+        if foreign:
+            raise SiteError(
+                f"{self._path} holds files that are no site. Name an empty or a new folder with --out."
+            )
+        self._list.touch()
+        self._before = set(self._list.read_text("utf-8").split("\n"))
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, _error: object, _trace: TracebackType | None
+    ) -> None:
+        gone = set() if kind else self._before - self._written
+        for name in filter(None, gone):
+            (self._path / name).unlink(missing_ok=True)
+        self._list.write_text("\n".join(sorted((self._before | self._written) - gone)), "utf-8")
+
+    def write(self, name: str, text: str) -> None:
+        """Write a file of the site."""
+        self._place(name).write_text(text, "utf-8")
+
+    def copy(self, source: Path, name: str) -> None:
+        """Copy a file into the site."""
+        shutil.copyfile(source, self._place(name))
+
+    def _place(self, name: str) -> Path:
+        self._written.add(name)
+        place = self._path / name
+        place.parent.mkdir(exist_ok=True)
+        return place

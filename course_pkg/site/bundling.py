@@ -1,6 +1,6 @@
 """Builds the files that every page loads from the npm registry: `python -m course_pkg.site.bundling`.
 
-Only whoever changes them needs Node: the built files lie in `assets/`, and a test builds them again.
+Node is needed only to change them: the built files are in `assets/`, and a test builds them again.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ASSETS = HERE / "assets"
 BUILT = ("early.js", "fonts.css", "site.js", "LICENSES.txt")
 AXE = "axe.min.js"  # no page loads it: the tests look the pages over with it
 TESTS = Path(__file__).parents[2] / "tests" / "site"
-PATIENCE = 300  # s for the registry
+TIMEOUT = 300  # s for the registry
 
 
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
@@ -42,11 +42,11 @@ def _npm(folder: Path, *words: str) -> None:
         raise SiteError("npm is not on this machine; it comes with Node 20 and newer.")
     try:
         result = subprocess.run(
-            [npm, *words], cwd=folder, capture_output=True, text=True, timeout=PATIENCE, check=False
+            [npm, *words], cwd=folder, capture_output=True, text=True, timeout=TIMEOUT, check=False
         )
     except subprocess.TimeoutExpired as error:
         raise SiteError(
-            f"npm {words[0]} did not end within {PATIENCE} s. Can its registry be reached?"
+            f"npm {words[0]} did not end within {TIMEOUT} s. Can its registry be reached?"
         ) from error
     if result.returncode:
         raise SiteError(f"npm {words[0]} failed:\n{result.stderr or result.stdout}")

@@ -3,27 +3,72 @@
 from __future__ import annotations
 
 import base64
+import html
 import json
 import re
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import count
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import nbformat
+from bleach import Cleaner
+from bleach.css_sanitizer import CSSSanitizer
 from nbconvert.exporters.html import HTMLExporter
 from nbconvert.filters import ansi2html
 from traitlets.config import Config
 
-from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
-from course_pkg.site.clean import Purifier
+from course_pkg.authoring.cells import Notebook, Output, exercise_of
 from course_pkg.site.code import Highlighter
-from course_pkg.site.exhibits import EXHIBIT
+from course_pkg.site.figures import figure
 from course_pkg.site.prose import Prose, attribute
+from course_pkg.site.recordings import PANEL
+from course_pkg.types.fields import Plain
 
+TAGS = frozenset(
+    (
+        *(
+            "abbr",
+            "b",
+            "code",
+            "del",
+            "em",
+            "i",
+            "ins",
+            "kbd",
+            "q",
+            "s",
+            "samp",
+            "small",
+            "span",
+            "strong",
+            "sub",
+        ),
+        *("sup", "u", "var", "a", "br", "img"),
+        *("blockquote", "details", "div", "figcaption", "figure", "h3", "h4", "h5", "h6", "hr", "p", "pre"),
+        *("section", "summary", "dd", "dl", "dt", "li", "ol", "ul"),
+        *("caption", "table", "tbody", "td", "tfoot", "th", "thead", "tr"),
+    )
+)
+ANYWHERE = frozenset({"class", "title", "role", "lang", "dir", "aria-label", "aria-hidden"})
+SOMEWHERE = {
+    "a": {"href"},
+    "img": {"src", "alt", "width", "height"},
+    "details": {"open"},
+    "ol": {"start"},
+    "td": {"colspan", "rowspan"},
+    "th": {"colspan", "rowspan", "scope"},
+}
+VERDICT = ["border-left"]  # the property by which a report shows how it went
+PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style that calls nothing
+PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/=\s]*")
 HERE = Path(__file__).parent
 PARTS = {"include_code": True, "include_input": True, "include_output": True, "include_markdown": True}
-SHOWN = [EXHIBIT, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
+SHOWN = [PANEL, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
+TITLE = re.compile(r"\s*<svg\b[^>]*>\s*<title>([^<]+)</title>")
+TEXT = re.compile(r"<text\b[^>]*>([^<]+)</text>")
+NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # at the ticks of an axis
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
 
 
@@ -45,10 +90,10 @@ class Exporter(HTMLExporter):
         self.highlight = Highlighter()
         self._prose = Prose(self.highlight.block)
 
-    def default_filters(self) -> Iterator[tuple[str, Callable[..., Any]]]:
+    def default_filters(self) -> Iterator[tuple[str, Callable[..., object]]]:
         """Yield nbconvert's filters and what our template needs besides."""
         yield from super().default_filters()  # type: ignore[no-untyped-call]
-        yield "clean", Purifier()
+        yield "clean", Sanitizer()
         yield "code", self.highlight.cell
         yield "exercise", exercise_of
         yield "packed", packed
@@ -64,43 +109,93 @@ class Exporter(HTMLExporter):
         inherited.merge(own)
         return inherited
 
-    def body(self, notebook: Notebook, prefix: str = "") -> Body:
-        """Return the cells of `notebook` as HTML; anchors begin with `prefix`."""
-        self._prose = Prose(self.highlight.block, prefix)
+    def body(self, notebook: Notebook, prefix: str = "", folder: Path = Path()) -> Body:
+        """Return the cells of `notebook` as HTML; anchors begin with `prefix`.
+
+        `folder` is the one that the notebook is in: from there it names its figures. Raises SiteError for a
+        figure that is missing.
+        """
+        numbers = count(1)
+
+        def shown(url: str, alt: str) -> str:
+            return figure(folder, url, alt, f"{prefix}f{next(numbers)}-")
+
+        self._prose = Prose(self.highlight.block, prefix, shown)
         resources = {"global_content_filter": PARTS, "prefix": prefix, "states": []}
         # from_notebook_node copies a notebook three times, for preprocessors, and parses the page once more.
-        html = self.template.render(nb=_showable(notebook), resources=resources)
-        return Body(html.strip(), self._prose.headings)
+        text = self.template.render(nb=_showable(notebook), resources=resources)
+        return Body(text.strip(), self._prose.headings)
 
 
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
     """Return a copy of `notebook` without the outputs that no page can show; nbconvert would warn of them."""
-    copy: nbformat.NotebookNode = nbformat.from_dict(notebook)
-    for cell in code_cells(copy):
+    node: nbformat.NotebookNode = nbformat.from_dict(notebook)
+    for cell in (cell for cell in node["cells"] if cell["cell_type"] == "code"):
         cell["outputs"] = [each for each in cell["outputs"] if _has_a_form(each)]
-    return copy
+    return node
 
 
-def _has_a_form(output: dict[str, Any]) -> bool:
+def _has_a_form(output: Output) -> bool:
     return "data" not in output or not set(SHOWN).isdisjoint(output["data"])
 
 
-def packed(states: Sequence[dict[str, Any]]) -> str:
+def packed(states: Sequence[Mapping[str, Plain]]) -> str:
     """Return the states of a page's panels, in their order, as JSON in zlib's format in base64."""
     text = json.dumps(states, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
-def picture(data: str, kind: str, metadata: dict[str, Any]) -> str:
+def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> str:
     """Return a picture that the page carries in itself; as <img>, no script in an SVG can run."""
     code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
     about = metadata.get(kind, {})
     size = "".join(f' {name}="{int(about[name])}"' for name in ("width", "height") if name in about)
-    alt = f' alt="{attribute(about["alt"])}"' if about.get("alt") else ""
+    words = about.get("alt") or (description(data) if kind == "image/svg+xml" else "")
+    alt = f' alt="{attribute(words)}"' if words else ""
     return f'<img src="data:{kind};base64,{code}"{alt}{size}>'
+
+
+def description(svg: str) -> str:
+    """Return the title of a panel's picture, or the labels of a plot, for a reader who cannot see it.
+
+    The labels of a plot are those of its axes, its title and its legend; no numbers.
+    """
+    if title := TITLE.match(svg):
+        return html.unescape(title[1]).strip()
+    texts = [html.unescape(each).strip() for each in TEXT.findall(svg)]
+    labels = [each for each in texts if not NUMBER.fullmatch(each)]
+    return f"Figure: {', '.join(labels)}" if labels else ""
 
 
 def terminal(text: str) -> str:
     """Return what a terminal printed: its colours kept, its other controls carried out or dropped."""
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")
+
+
+class Sanitizer:
+    """Lets through text, its structure, pictures that it carries along, and links that lead somewhere."""
+
+    def __init__(self) -> None:
+        self._cleaner = Cleaner(
+            tags=TAGS,
+            attributes=_may_have,
+            protocols=["http", "https", "mailto", "data"],
+            css_sanitizer=CSSSanitizer(allowed_css_properties=VERDICT),
+            strip=True,
+            strip_comments=True,
+        )
+
+    def __call__(self, html: str) -> str:
+        """Return `html` without whatever could run, fetch or look like a part of the page."""
+        return str(self._cleaner.clean(html))
+
+
+def _may_have(tag: str, name: str, value: str) -> bool:
+    if name == "src":
+        return tag == "img" and bool(PICTURE.fullmatch(value))
+    if name == "style":
+        return tag == "section" and bool(PLAIN.fullmatch(value))
+    if name == "href":
+        return tag == "a" and not value.strip().lower().startswith("data:")
+    return name in ANYWHERE or name in SOMEWHERE.get(tag, ())

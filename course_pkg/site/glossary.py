@@ -1,4 +1,4 @@
-"""The glossary: the words of the course, each with a link to where it is first explained."""
+"""The glossary: the terms of the course, each with a link to its first explanation."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from markupsafe import Markup
 
 from course_pkg.authoring.cells import Notebook
 from course_pkg.site.chapters import Chapter
-from course_pkg.site.pages import Page, Press
-from course_pkg.site.texts import Heading, Section
+from course_pkg.site.pages import Page, Renderer
+from course_pkg.site.search_index import Heading, Section
 
 HERE = Path(__file__).parent
 
@@ -40,13 +40,13 @@ class Glossary:
         written: dict[str, str] = json.loads((HERE / "glossary.json").read_text("utf-8"))
         return cls([_entry(term, meaning, texts) for term, meaning in written.items()])
 
-    def page(self, press: Press) -> Page:
+    def page(self, renderer: Renderer) -> Page:
         """Return the glossary as a page."""
-        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", self.text(press))
+        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", self.text(renderer))
 
-    def text(self, press: Press) -> Markup:
-        """Return what stands on the page of the glossary."""
-        return press.part("glossary.html.j2", entries=self.entries)
+    def text(self, renderer: Renderer) -> Markup:
+        """Return the page of the glossary."""
+        return renderer.part("glossary.html.j2", entries=self.entries)
 
     def sections(self) -> Iterator[Section]:
         """Yield what the search looks through."""
@@ -63,7 +63,7 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the section in which `term` first stands in bold or in italics."""
+    """Return the heading of the section in which `term` is first in bold or in italics."""
     coming = iter(headings)
     current = None
     marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)

@@ -1,21 +1,23 @@
-"""Pages put together: what stands around a text, the same on every page."""
+"""Complete pages: the frame around a text, which is the same on every page."""
 
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from course_pkg.provision.stamps import digest
-from course_pkg.site.chapters import Chapter
+from course_pkg.setup.stamps import digest
+from course_pkg.site.chapters import Chapter, hours
 from course_pkg.site.prose import Prose
-from course_pkg.site.texts import Heading
+from course_pkg.site.search_index import Heading
 
 HERE = Path(__file__).parent
+PATHS = HERE.parent / "chapters" / "paths.json"
 COURSE = "Who waits for whom?"
 # Nothing loads but what carries the page's own mark, and nothing connects anywhere. Attributes may
 # hold styles: the panels and their drawings use them.
@@ -27,7 +29,7 @@ POLICY = (
 
 
 class Page(NamedTuple):
-    """What differs from page to page; `html` is what stands between header and footer."""
+    """What differs from page to page; `html` is the part between header and footer."""
 
     file: str
     kind: str  # chapter, landing or glossary
@@ -41,7 +43,23 @@ class Page(NamedTuple):
     after: Chapter | None = None
 
 
-class Press:
+class Choice(NamedTuple):
+    """The chapters of a path in their order, and their total time as text."""
+
+    chapters: Sequence[Chapter]
+    hours: str
+
+
+class LearningPath(NamedTuple):
+    """A selection of chapters that needs no other chapter; it may offer a choice of how it ends."""
+
+    name: str
+    about: str
+    afterwards: str
+    choices: Sequence[Choice]
+
+
+class Renderer:
     """Prints pages, all from the same templates and with the same list of chapters."""
 
     def __init__(self, chapters: Sequence[Chapter], assets: str, footer: str) -> None:
@@ -64,13 +82,13 @@ class Press:
         }
         self._assets = assets
 
-    def part(self, template: str, **values: Any) -> Markup:  # noqa: ANN401 -- whatever a template wants
+    def part(self, template: str, **values: object) -> Markup:
         """Return a template filled in; texts are escaped, Markup is not."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
         """Return the whole page."""
-        # Nobody who writes an output can know a mark that is made of the very page.
+        # The author of an output cannot know a nonce that is computed from the whole page.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
         return str(self.part("frame.html.j2", page=page, nonce=nonce, policy=policy))
@@ -80,3 +98,43 @@ def _inline(html: str) -> Markup:
     """Take the paragraph off a text of one."""
     one = html.count("<p>") == 1
     return Markup(html.removeprefix("<p>").removesuffix("</p>") if one else html)  # noqa: S704 -- Prose escapes
+
+
+def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
+    """Return the page that a reader opens first."""
+    systems = json.loads((HERE / "systems.json").read_text("utf-8"))
+    by_number = {chapter.number: chapter for chapter in chapters}
+    for system in systems:
+        system["chapters"] = [by_number[number] for number in system["chapters"] if number in by_number]
+    html = renderer.part(
+        "landing.html.j2",
+        systems=[system for system in systems if system["chapters"]],
+        paths=learning_paths(chapters),
+        hours=hours(chapters),
+        exercises=sum(len(chapter.points) for chapter in chapters),
+        drawing=drawing(),
+    )
+    return Page("index.html", "landing", COURSE, "A course on ROS 1 services.", html)
+
+
+def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
+    """Return the paths through these chapters; a path without numbers takes all of them."""
+    by_number = {chapter.number: chapter for chapter in chapters}
+    found = []
+    for path in json.loads(PATHS.read_text("utf-8")):
+        numbers = [[*path["chapters"], *end] for end in path["ends"] or [[]]]
+        choices = [[by_number[one] for one in each or by_number if one in by_number] for each in numbers]
+        found.append(
+            LearningPath(
+                path["name"],
+                path["about"],
+                path["afterwards"],
+                tuple(Choice(each, hours(each)) for each in choices),
+            )
+        )
+    return found
+
+
+def drawing() -> Markup:
+    """Return the drawing of the two ways to talk."""
+    return Markup((HERE / "template" / "waiting.svg").read_text("utf-8"))  # noqa: S704 -- a file of ours

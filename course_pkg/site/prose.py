@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from html import escape, unescape
-from typing import Any, Literal
+from typing import Literal
 
 from mistune import HTMLRenderer, create_markdown
 
@@ -17,10 +17,19 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 
 
 class Prose:
-    """Renders the Markdown of one page; its headings get anchors of their own."""
+    """Renders the Markdown of one page; its headings get anchors of their own.
 
-    def __init__(self, highlight: Callable[[str, str], str], prefix: str = "") -> None:
+    `highlight` returns code of a language as HTML, and `figure` a figure, by its address and description.
+    """
+
+    def __init__(
+        self,
+        highlight: Callable[[str, str], str],
+        prefix: str = "",
+        figure: Callable[[str, str], str] | None = None,
+    ) -> None:
         self.headings: list[tuple[int, str, str]] = []  # level, anchor, text
+        self.figure = figure or _no_figure
         self._render = create_markdown(renderer=_Renderer(self, highlight), plugins=PLUGINS)
         self._taken: set[str] = set()
         self._prefix = prefix
@@ -44,7 +53,7 @@ class _Renderer(HTMLRenderer):
         super().__init__(escape=True, allow_harmful_protocols=False)
         self._page, self._highlight = page, highlight
 
-    def heading(self, text: str, level: int, **_attrs: Any) -> str:  # noqa: ANN401 -- mistune's
+    def heading(self, text: str, level: int, **_attrs: object) -> str:
         return f'<h{level} id="{self._page.heading(text, level)}">{text}</h{level}>\n'
 
     def block_code(self, code: str, info: str | None = None) -> str:
@@ -64,8 +73,20 @@ class _Renderer(HTMLRenderer):
     def block_math(self, text: str) -> str:
         return f'<div class="wide">{mathml(text, "block")}</div>\n'
 
+    def image(self, text: str, url: str, title: str | None = None) -> str:  # noqa: ARG002
+        return self._page.figure(url, words(text))
+
+    def paragraph(self, text: str) -> str:
+        if text.startswith("<svg") and text.endswith("</svg>"):
+            return f'<figure class="wide">{text}</figure>\n'
+        return super().paragraph(text)
+
     def link(self, text: str, url: str, title: str | None = None) -> str:
         return super().link(text, page_of(url), title)
+
+
+def _no_figure(url: str, _alt: str) -> str:
+    raise SiteError(f"The figure {url} is named where a page shows none.")
 
 
 def page_of(url: str) -> str:
@@ -90,7 +111,7 @@ def words(html: str) -> str:
 
 
 def attribute(text: str) -> str:
-    """Return `text` as it stands between the quotes of an attribute."""
+    """Return `text` escaped for the quotes of an attribute."""
     return escape(text, quote=True)
 
 

@@ -7,22 +7,29 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
-from course_pkg.authoring.cells import Notebook, code_cells
-from course_pkg.authoring.shelf import read
-from course_pkg.provision import CATKIN_FOLDERS, Places
-from course_pkg.provision.stamps import digest, replace_text
-from course_pkg.site.exhibits import set_out
-from course_pkg.site.rehearsal import plans, rehearsed, without_rehearsal
+from course_pkg.authoring.cells import Cell, Notebook, Output, code_cells
+from course_pkg.authoring.notebook_store import read
+from course_pkg.checking.parts import folders_for
+from course_pkg.errors import AuthoringError
+from course_pkg.files import write_atomically
+from course_pkg.setup import CATKIN_FOLDERS, Places
+from course_pkg.setup.stamps import digest
+from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
 # What no notebook runs: a change there is no reason to run one again.
-IDLE = ("site", "grading", "lab", "authoring", "provision")
-RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/provision/locks/course.txt")
+IDLE = ("chapters", "site", "grading", "lab", "authoring", "setup")
+RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/setup/locks/course.txt")
 
-Shown = list[dict[str, Any]]  # for each code cell its outputs and its number
+
+class Shown(TypedDict):
+    """What a code cell showed, and the number of its run."""
+
+    outputs: list[Output]
+    execution_count: int | None
 
 
 class Runs:
@@ -32,18 +39,28 @@ class Runs:
         self._places = places or Places.of()
         self._shared = digest(self._package())
 
-    def of(self, path: Path) -> Notebook:
-        """Return the notebook at `path` with what it shows; run it if its code, or what that needs, is new.
+    def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
+        """Run those notebooks whose code, or what that needs, is new, several at once; keep what they show.
 
-        Raises AuthoringError where the run fails.
+        Returns the errors of those that could not be run to their end.
         """
-        notebook, key = read(path), self._key(path)
-        shown = self._kept(path, "key", key)
-        if shown is None:
-            shown = self._run(path)
-            record = {"key": key, "code": _code(notebook), "shown": shown}
-            replace_text(self._file(path), json.dumps(record, ensure_ascii=False))
-        return _with(notebook, shown)
+        from course_pkg.authoring.execute import run_all  # with nbclient, which nothing else here needs
+        from course_pkg.authoring.normalise import tidy
+
+        new = {path.stem: path for path in paths if self._kept(path, "key", self._key(path)) is None}
+        keys = {name: self._key(path) for name, path in new.items()}
+
+        def keep(name: str, executed: Notebook) -> None:
+            notebook = without_recordings(executed)
+            embed_states(notebook)
+            tidy(notebook)
+            shown = [_shown(cell) for cell in code_cells(notebook)]
+            record = {"key": keys[name], "code": _code(notebook), "shown": shown}
+            write_atomically(self._file(new[name]), json.dumps(record, ensure_ascii=False))
+
+        notebooks = {name: with_recordings(name, read(path)) for name, path in new.items()}
+        errors = run_all(notebooks, keep) if notebooks else {}
+        return {new[name]: error for name, error in errors.items()}
 
     def latest(self, path: Path) -> Notebook | None:
         """Return the notebook as it ran last, even with another package; None if its code never ran."""
@@ -51,33 +68,19 @@ class Runs:
         shown = self._kept(path, "code", _code(notebook))
         return _with(notebook, shown) if shown is not None else None
 
-    def _kept(self, path: Path, name: str, value: str) -> Shown | None:
+    def _kept(self, path: Path, name: str, value: str) -> list[Shown] | None:
         try:
             record = json.loads(self._file(path).read_text("utf-8"))
         except (OSError, ValueError):
             return None
-        shown: Shown = record["shown"]
+        shown: list[Shown] = record["shown"]
         return shown if record[name] == value else None
-
-    def _run(self, path: Path) -> Shown:
-        from course_pkg.authoring.execute import run  # with nbclient, which nothing else here needs
-        from course_pkg.authoring.tidy import strip, tidy
-
-        sys.stderr.write(f"{path.stem} or what it needs is new: it runs\n")
-        notebook = rehearsed(path.stem, read(path))
-        strip(notebook)
-        run(path.stem, notebook)
-        notebook = without_rehearsal(notebook)
-        set_out(notebook)
-        tidy(notebook)
-        return [_shown(cell) for cell in code_cells(notebook)]
 
     def _file(self, path: Path) -> Path:
         return self._places.cache / "site" / path.parent.name / f"{path.stem}.json"
 
     def _key(self, path: Path) -> str:
-        checks = self._places.checkout / "course_pkg" / "examiner" / "checks"
-        own = (file for file in checks.rglob("*") if f"chapter_{path.name[:2]}" in str(file))
+        own = (file for folder in folders_for(path.name[:2]) for file in folder.rglob("*"))
         planned = json.dumps(plans(path.stem), sort_keys=True)
         return digest([self._shared, _code(read(path)), planned, *_contents(own)])
 
@@ -103,11 +106,11 @@ def _code(notebook: Notebook) -> str:
     return digest(cell["source"] for cell in code_cells(notebook))
 
 
-def _shown(cell: dict[str, Any]) -> dict[str, Any]:
+def _shown(cell: Cell) -> Shown:
     return {"outputs": cell["outputs"], "execution_count": cell["execution_count"]}
 
 
-def _with(notebook: Notebook, shown: Shown) -> Notebook:
+def _with(notebook: Notebook, shown: Sequence[Shown]) -> Notebook:
     for cell, each in zip(code_cells(notebook), shown, strict=True):
-        cell.update(each)
+        cell["outputs"], cell["execution_count"] = each["outputs"], each["execution_count"]
     return notebook

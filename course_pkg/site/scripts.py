@@ -18,7 +18,7 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 def panels_script(folder: Path = PANELS) -> str:
     """Return a script that sets `coursePanels`: for each panel's name its front end, `{ render }`.
 
-    Every module of the panels becomes a function's scope, and stands there once, after those it imports.
+    Every module of the panels becomes a function's scope, once, after the modules that it imports.
     """
     modules = _Modules(folder)
     found = _fronts(folder)

@@ -1,4 +1,4 @@
-"""The node `teleop_turtle`: turtle1 obeys the arrow keys of a terminal."""
+"""The node `teleop_turtle`: drives turtle1 with the arrow keys of a terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from contextlib import contextmanager
 import rospy
 from geometry_msgs.msg import Twist
 
-from course_pkg.graph import prepare_node
+from course_pkg.ros import prepare_node
 
 HELP = """\
 Drive turtle1 with the arrow keys of this terminal.
@@ -22,7 +22,7 @@ Drive turtle1 with the arrow keys of this terminal.
   q            quit
 """
 STEP = 2.0  # m/s and rad/s, unless ~scale_linear and ~scale_angular say otherwise
-PATIENCE = 0.2  # s between looks at whether the node has been shut down
+POLL = 0.2  # s between checks whether the node has been shut down
 KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter of an arrow's escape code
 
 
@@ -38,35 +38,35 @@ def main() -> None:
     scales = rospy.get_param("~scale_linear", STEP), rospy.get_param("~scale_angular", STEP)
     sys.stdout.write(HELP)
     with _single_keys(sys.stdin.fileno()):
-        for forward, turn in orders(sys.stdin.fileno()):
-            order = Twist()
-            order.linear.x, order.angular.z = forward * scales[0], turn * scales[1]
-            publisher.publish(order)
+        for forward, turn in commands(sys.stdin.fileno()):
+            command = Twist()
+            command.linear.x, command.angular.z = forward * scales[0], turn * scales[1]
+            publisher.publish(command)
 
 
-def orders(file: int) -> Iterator[tuple[int, int]]:
-    """Yield for each arrow key how to go, forward and turn from -1 to 1."""
+def commands(file: int) -> Iterator[tuple[int, int]]:
+    """Yield the direction of each arrow key: forward and turn, -1, 0 or 1."""
     typed = ""
     while not rospy.is_shutdown():
-        if not select.select([file], [], [], PATIENCE)[0]:
+        if not select.select([file], [], [], POLL)[0]:
             continue
         read = os.read(file, 64).decode(errors="replace")
         keys, quits, _ = (typed + read).partition("q")
         *complete, typed = keys.split("\x1b")
         for code in (*complete, typed):
-            yield from _order(code)
+            yield from _command(code)
         if quits or not read:
             return
         typed = f"\x1b{typed}" if "\x1b" in keys and len(typed) < 2 else ""
 
 
-def _order(code: str) -> list[tuple[int, int]]:
+def _command(code: str) -> list[tuple[int, int]]:
     return [KEYS[code[1]]] if len(code) >= 2 and code[0] in "[O" and code[1] in KEYS else []
 
 
 @contextmanager
 def _single_keys(terminal: int) -> Iterator[None]:
-    """Have each key reach the program at once and unseen, and give the terminal back as it was."""
+    """Have the terminal send each key at once and without echo, and restore its settings afterwards."""
     before = termios.tcgetattr(terminal)
     try:
         tty.setcbreak(terminal)

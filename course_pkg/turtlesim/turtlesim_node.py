@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import rospy
 
-from course_pkg.graph import prepare_node
-from course_pkg.turtlesim.answering import word_refusals
+from course_pkg.ros import prepare_node
+from course_pkg.turtlesim.roscpp_services import refuse_like_roscpp
 from course_pkg.turtlesim.simulator import Simulator
 
 
@@ -13,6 +13,6 @@ def main() -> None:
     """Simulate until the node is shut down."""
     rospy.init_node("turtlesim")
     prepare_node()
-    word_refusals()
+    refuse_like_roscpp()
     rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
     Simulator().run()

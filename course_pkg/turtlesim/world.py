@@ -1,4 +1,4 @@
-"""The turtles' world: where they are, how they move, what their pens draw. No ROS.
+"""The turtles' world: where they are, how they move, what their pens draw. It needs no ROS.
 
 Lengths are metres, of which the world is 11.088889 wide and high, the origin at the bottom left. Angles are
 radians, counter-clockwise from the x-axis. One tick is 16 ms.
@@ -10,18 +10,18 @@ import math
 from dataclasses import dataclass, field, replace
 from itertools import count
 
-from course_pkg.turtlesim.paper import SIDE, Colour, Paper, Point
+from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # s
-PIXELS = 45.0  # px for a metre: the height of the picture of a turtle
+PIXELS = 45.0  # px per metre: the height of a turtle's picture
 WIDTH = (SIDE - 1) / PIXELS  # m
 HOME = WIDTH / 2
-OBEDIENCE = 1.0  # s that a velocity holds
+COMMAND_TIMEOUT = 1.0  # s that a velocity command holds
 BACKGROUND: Colour = (69, 86, 255)
 
 
 class NameTaken(Exception):
-    """A turtle of this name is there already."""
+    """There is a turtle of this name."""
 
 
 class UnknownTurtle(Exception):
@@ -39,7 +39,7 @@ class Pen:
 
 @dataclass(frozen=True)
 class Velocity:
-    """What a turtle was told: m/s forwards and sideways, rad/s; `since` is when (s, any clock)."""
+    """A velocity command: m/s forwards and sideways, rad/s; `since` is when it came (s, any clock)."""
 
     forward: float = 0.0
     sideways: float = 0.0
@@ -49,7 +49,7 @@ class Velocity:
 
 @dataclass
 class Turtle:
-    """One turtle; `velocity` may be set from any thread, all else by the world's own."""
+    """One turtle. Any thread may set `velocity`; only the world's thread sets the rest."""
 
     name: str
     x: float = HOME
@@ -57,45 +57,45 @@ class Turtle:
     theta: float = 0.0
     pen: Pen = field(default_factory=Pen)
     velocity: Velocity = field(default_factory=Velocity)
-    colour: Colour = BACKGROUND  # of the paper under it
+    colour: Colour = BACKGROUND  # of the canvas under it
 
     @property
     def speed(self) -> float:
-        """How fast it goes, whichever way (m/s)."""
+        """Its speed in any direction (m/s)."""
         return math.hypot(self.velocity.forward, self.velocity.sideways)
 
     @property
     def point(self) -> Point:
-        """Where it is on the paper (px)."""
+        """Where it is on the canvas (px)."""
         return self.x * PIXELS, (WIDTH - self.y) * PIXELS
 
-    def teleport(self, paper: Paper, x: float, y: float, theta: float) -> None:
-        """Go there at once, drawing a line as the pen says; a y above the world is its upper edge."""
+    def teleport(self, canvas: Canvas, x: float, y: float, theta: float) -> None:
+        """Move there at once and draw a line as the pen says; a y above the world becomes its upper edge."""
         before = self.point
         self.x, self.y, self.theta = x, min(y, WIDTH), theta
-        self._draw(paper, before)
+        self._draw(canvas, before)
 
-    def leap(self, paper: Paper, distance: float, angle: float) -> None:
-        """Turn by `angle`, then go `distance` at once."""
+    def teleport_relative(self, canvas: Canvas, distance: float, angle: float) -> None:
+        """Turn by `angle` (rad), then move `distance` (m) forward at once."""
         before = self.point
         self.theta += angle
         self.x += math.cos(self.theta) * distance
         self.y += math.sin(self.theta) * distance
-        self._draw(paper, before)
+        self._draw(canvas, before)
 
-    def tick(self, paper: Paper, now: float) -> str:
-        """Move for 16 ms; return what there is to warn of, or ""."""
-        if now - self.velocity.since > OBEDIENCE:
+    def tick(self, canvas: Canvas, now: float) -> str:
+        """Move for 16 ms; return a warning, or ""."""
+        if now - self.velocity.since > COMMAND_TIMEOUT:
             self.velocity = replace(self.velocity, forward=0.0, sideways=0.0, turn=0.0)
         before, velocity = self.point, self.velocity
-        self.theta = wrapped(self.theta + velocity.turn * TICK)
+        self.theta = normalized(self.theta + velocity.turn * TICK)
         ahead, aside = velocity.forward * TICK, velocity.sideways * TICK
         self.x += math.cos(self.theta) * ahead - math.sin(self.theta) * aside
         self.y += math.sin(self.theta) * ahead + math.cos(self.theta) * aside
         warning = self._stay_inside()
-        self.colour = paper.colour_at(self.point)
+        self.colour = canvas.colour_at(self.point)
         if self.point != before:
-            self._draw(paper, before)
+            self._draw(canvas, before)
         return warning
 
     def _stay_inside(self) -> str:
@@ -105,16 +105,16 @@ class Turtle:
             return ""
         return f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])"
 
-    def _draw(self, paper: Paper, before: Point) -> None:
+    def _draw(self, canvas: Canvas, before: Point) -> None:
         if self.pen.down:
-            paper.line(_on_paper(self.point), _on_paper(before), self.pen.colour, self.pen.width)
+            canvas.line(_near_canvas(self.point), _near_canvas(before), self.pen.colour, self.pen.width)
 
 
 class World:
-    """All turtles and the paper they draw on. It begins with `turtle1` in the middle."""
+    """All turtles and the canvas that they draw on. It begins with `turtle1` in the middle."""
 
     def __init__(self, background: Colour = BACKGROUND) -> None:
-        self.paper = Paper(background)
+        self.canvas = Canvas(background)
         self.turtles: dict[str, Turtle] = {}
         self._numbers = count(1)
         self.spawn(HOME, HOME, 0.0)
@@ -124,37 +124,37 @@ class World:
         return self.add(self.make(x, y, theta, name))
 
     def make(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Return a turtle that is to be added, with a name that is free."""
+        """Return a turtle that is not in the world yet. Raises NameTaken."""
         name = name or self._free_name()
         if name in self.turtles:
             raise NameTaken(f"A turtled named [{name}] already exists")
         return Turtle(name, x, y, theta)
 
     def add(self, turtle: Turtle) -> Turtle:
-        """Have a turtle in the world, from now on."""
+        """Add a turtle to the world."""
         self.turtles[turtle.name] = turtle
         return turtle
 
     def kill(self, name: str) -> Turtle:
-        """Take a turtle out of the world; what it drew stays."""
+        """Remove a turtle from the world; its lines stay. Raises UnknownTurtle."""
         if name not in self.turtles:
             raise UnknownTurtle(f"Tried to kill turtle [{name}], which does not exist")
         return self.turtles.pop(name)
 
     def clear(self, background: Colour) -> None:
-        """Take new paper."""
-        self.paper.fill(background)
+        """Erase all lines."""
+        self.canvas.fill(background)
 
     def reset(self, background: Colour) -> None:
-        """Begin anew, with new paper and one turtle."""
+        """Begin again with one turtle and an empty canvas."""
         self.turtles.clear()
         self._numbers = count(1)
         self.spawn(HOME, HOME, 0.0)
         self.clear(background)
 
     def tick(self, now: float) -> list[str]:
-        """Move every turtle for 16 ms; return what there is to warn of."""
-        warnings = [self.turtles[name].tick(self.paper, now) for name in sorted(self.turtles)]
+        """Move every turtle for 16 ms; return warnings."""
+        warnings = [self.turtles[name].tick(self.canvas, now) for name in sorted(self.turtles)]
         return [warning for warning in warnings if warning]
 
     def _free_name(self) -> str:
@@ -163,17 +163,17 @@ class World:
         )
 
 
-def sound(*numbers: float) -> bool:
-    """Whether all of them are numbers that a turtle can be at or move by."""
+def all_finite(*numbers: float) -> bool:
+    """Return whether all numbers are finite, as a turtle's position and velocity have to be."""
     return all(map(math.isfinite, numbers))
 
 
-def wrapped(angle: float) -> float:
-    """Return the same direction from -π (included) to π."""
+def normalized(angle: float) -> float:
+    """Return the same direction as an angle from -π (included) to π."""
     return angle - 2 * math.pi * math.floor((angle + math.pi) / (2 * math.pi))
 
 
-def _on_paper(point: Point) -> Point:
-    """Return the point, or the nearest not far off the paper: a line to the moon takes no time to draw."""
+def _near_canvas(point: Point) -> Point:
+    """Return a distant point as one near the canvas, so that drawing takes a bounded time."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

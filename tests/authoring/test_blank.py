@@ -1,4 +1,4 @@
-"""The three rules by which an answer is taken out, and nothing but the answer."""
+"""The three rules by which an answer, and only the answer, is removed."""
 
 # ruff: noqa: E501 -- sources and what becomes of them stand one above the other
 
@@ -80,24 +80,24 @@ CASES = {
 
 @pytest.mark.parametrize(("source", "expected"), CASES.values(), ids=CASES)
 def test_rules(source: str, expected: str) -> None:
-    """The answer is gone; what stands around it is the same, byte for byte."""
+    """The answer is removed; the text around it keeps every byte."""
     assert blank(source) == expected
 
 
 @pytest.mark.parametrize("source", [source for source, _ in CASES.values()], ids=CASES)
 def test_blanking_twice_changes_nothing_more(source: str) -> None:
-    """What is blank stays as it is, so a derived notebook can be derived again."""
+    """A blank exercise does not change, so a derived notebook can be derived again."""
     assert blank(blank(source)) == blank(source)
 
 
 @pytest.mark.parametrize("name", [name for name, (source, _) in CASES.items() if "%" not in source])
 def test_what_is_left_is_python(name: str) -> None:
-    """A student who runs an exercise untouched meets no syntax error."""
+    """A student who runs an unchanged exercise gets no syntax error."""
     ast.parse(blank(CASES[name][0]))
 
 
 @pytest.mark.parametrize("source", ["def f(:\n    return", "%%bash\nls", "%%script true\nx = 1"])
 def test_what_has_no_rule_is_refused(source: str) -> None:
-    """Broken Python, and a magic that nothing can stand in for."""
+    """Invalid Python is refused, and so is a magic whose body cannot be left blank."""
     with pytest.raises(AuthoringError):
         blank(source)

@@ -1,56 +1,69 @@
-"""Grading against nbgrader: `course run python tests/bench/grading.py [SUBMISSIONS] [plain] [many[:COUNT]]`.
+"""Grading: its speed, the effect of a kill, the reference solutions, and answers from elsewhere.
 
-The notebook of chapter 05, handed in by SUBMISSIONS students (30), a third of them with a wrong answer each,
-is graded by `course grade` without nbval's run, by `course grade --validate all`, and by `nbgrader autograde`
-of a notebook of the same cells, in one run; the ratio is that of the times a notebook. With `many`, 1,000
-submissions (or COUNT) are graded besides, and the memory of all the grader's processes is watched; with
-`plain`, only points are compared.
-
-nbgrader is installed into a folder of its own under the cache, the version of the comparison pinned below.
-What remains of the time, and in what: the table says.
+usage: ./course run python tests/bench/grading.py speed|kill|reference|answers [OPTION …]
 """
 
 from __future__ import annotations
 
 import json
 import os
+import random
+import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from commands import run_command
+
 from course_pkg.authoring.cells import check_of, code_cells, exercise_of
-from course_pkg.authoring.shelf import Shelf, read
-from course_pkg.graph.leashed import descendants
-from course_pkg.provision import Places
+from course_pkg.authoring.notebook_store import NotebookStore, read
+from course_pkg.checking.fixtures import around, percent_cells
+from course_pkg.checking.parts import every_part
+from course_pkg.checking.report import Verdict
+from course_pkg.ros.process.supervisor import descendants
+from course_pkg.sandbox.job import PartJob
+from course_pkg.setup import Places
+from tests.checking.workers import WorkerPool
+from tests.grading.submitted import WRONG, hand_in
+
+# speed: the course's grader beside nbgrader, with the arguments `[SUBMISSIONS] [plain] [many[:COUNT]]`.
+# SUBMISSIONS students (30) hand in the notebook of chapter 05; a third of them have one wrong answer each. In
+# one run, `course grade` without nbval, `course grade --validate all`, and `nbgrader autograde` on a notebook
+# with the same cells grade them; the ratio is that of the times for a notebook. `many` also grades 1,000
+# submissions (or COUNT) and measures the memory of all processes of the grader; `plain` compares only points.
+# nbgrader is installed into a folder of the cache, in the version below. The table lists the parts of the
+# time.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
 RIGHT = "area = request.width * request.length"
-WRONG = "area = request.width + request.length"
+SPEED_WRONG = "area = request.width + request.length"
 BAR, MANY_BAR = 10.0, 0.9
 
 
-def main() -> None:
+def speed_main() -> None:
     """Measure, and print the table."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 30
     words = sys.argv[2:]
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         here = Path(folder)
         handed_in(here / "submissions", count)
-        ours = timed(lambda: grade(here / "submissions", here / "out", "none")) / count
+        ours = timed(lambda: speed_grade(here / "submissions", here / "out", "none")) / count
         report("course grade, points alone", ours)
         for word in words:
             if word.startswith("many"):
                 many(here, ours, int(word.partition(":")[2] or 1000))
         if "plain" not in words:
-            whole = timed(lambda: grade(here / "submissions", here / "whole", "all")) / count
+            whole = timed(lambda: speed_grade(here / "submissions", here / "whole", "all")) / count
             report("course grade --validate all", whole)
             theirs = nbgrader(here, min(count, 4))
             report("nbgrader autograde", theirs)
@@ -63,38 +76,38 @@ def report(what: str, seconds: float) -> None:
 
 
 def timed(work: Callable[[], object]) -> float:
-    """Return how long `work` takes, in s."""
+    """Return the duration of `work`, in s."""
     began = time.monotonic()
     work()
     return time.monotonic() - began
 
 
 def handed_in(folder: Path, count: int) -> None:
-    """Write `count` submissions, all of them different, every third with a wrong answer."""
-    solution = read(Shelf().solutions([CHAPTER])[0])
+    """Write `count` different submissions, every third with a wrong answer."""
+    solution = read(NotebookStore().solutions([CHAPTER])[0])
     for number in range(count):
         notebook = json.loads(json.dumps(solution))
         for cell in code_cells(notebook):
             if exercise_of(cell):
                 wrong = number % 3 == 2 and exercise_of(cell) == "05.1"
-                text = cell["source"].replace(RIGHT, WRONG) if wrong else cell["source"]
+                text = cell["source"].replace(RIGHT, SPEED_WRONG) if wrong else cell["source"]
                 cell["source"] = f"{text}\n# {number}"
         path = folder / f"student{number:04}" / f"{CHAPTER}_write_a_server.ipynb"
         path.parent.mkdir(parents=True)
         path.write_text(json.dumps(notebook), "utf-8")
 
 
-def grade(submissions: Path, out: Path, validate: str) -> None:
-    """Grade by the command that an instructor types."""
+def speed_grade(submissions: Path, out: Path, validate: str) -> None:
+    """Grade with the command that an instructor types."""
     command = [Places.of().checkout / "course", "grade", submissions, "--out", out, "--validate", validate]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def many(here: Path, few: float, count: int) -> None:
-    """Grade `count`, and say how the time for each and the memory compare with few."""
+    """Grade `count` submissions, and compare the time for each and the memory with a small number."""
     handed_in(here / "many", count)
     with watched() as seen:
-        each = timed(lambda: grade(here / "many", here / "many-out", "none")) / count
+        each = timed(lambda: speed_grade(here / "many", here / "many-out", "none")) / count
     report(f"course grade, {count} submissions", each)
     early, late = statistics.median(seen[10:40]), statistics.median(seen[-40:-10])
     print(
@@ -104,7 +117,7 @@ def many(here: Path, few: float, count: int) -> None:
 
 @contextmanager
 def watched() -> Iterator[list[float]]:
-    """Yield the memory (MiB) of all processes below this one, a number a second."""
+    """Yield the memory (MiB) of all processes below this one, once per second."""
     seen: list[float] = []
     over = threading.Event()
 
@@ -155,8 +168,8 @@ def nbgrader(here: Path, count: int) -> float:
 
 
 def as_assignment() -> dict[str, object]:
-    """Return the notebook with nbgrader's marks: exercises are answers, check cells are tests."""
-    notebook = json.loads(json.dumps(read(Shelf().solutions([CHAPTER])[0])))
+    """Return the notebook with nbgrader's metadata: exercises are answers, check cells are tests."""
+    notebook = json.loads(json.dumps(read(NotebookStore().solutions([CHAPTER])[0])))
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
         part = exercise_of(cell) or check_of(cell)
@@ -176,7 +189,7 @@ def as_assignment() -> dict[str, object]:
 
 
 def nbgrader_python() -> Path:
-    """Return the interpreter of an environment that has nbgrader, made once."""
+    """Return the interpreter of an environment with nbgrader, which is created once."""
     places = Places.of()
     folder = places.cache.parent / "bench-nbgrader"
     python = folder / "bin" / "python"
@@ -190,5 +203,167 @@ def nbgrader_python() -> Path:
     return python
 
 
+# kill: SIGKILL of the grader at random moments, with the arguments `[TIMES]`. Six submissions are graded once
+# without a kill. Then, TIMES times (20), a run is killed after a random time and continued. Its grades must
+# be the same, and no process may be left.
+
+COURSE = Places.of().checkout / "course"
+
+
+def kill_main() -> None:
+    """Kill and continue runs, and print how often the grades were right."""
+    times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
+        here = Path(folder)
+        for number in range(6):
+            answers = {"05.1": WRONG} if number % 2 else {"05.2": f"# {number}"}
+            hand_in(here / "in", f"s{number:02}", answers=answers)
+        began = time.monotonic()
+        grade_without_nbval(here / "in", here / "undisturbed")
+        whole = time.monotonic() - began
+        expected = (here / "undisturbed" / "grades.csv").read_bytes()
+        right = sum(continued(here / "in", here / f"killed{n}", whole, expected) for n in range(times))
+    print(f"{right} of {times} runs were continued to the same grades, with no process left (bar: all)")
+    sys.exit(right != times)
+
+
+def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
+    """Kill a run, continue it, and return whether the result equals that of an undisturbed run."""
+    moment = random.uniform(0.2, whole)  # noqa: S311 -- a moment, no secret
+    process = start(submissions, out)
+    time.sleep(moment)
+    family = descendants(process.pid)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    left = still_there(family)
+    kept = len(list((out / ".grading").glob("*.json"))) if out.exists() else 0
+    grade_without_nbval(submissions, out)
+    same = (out / "grades.csv").read_bytes() == expected
+    words = f"killed after {moment:5.1f} s: {kept} kept, {len(left)} processes left"
+    print(f"{words}, grades {'the same' if same else 'OTHERS'}", flush=True)
+    return same and not left
+
+
+def still_there(pids: list[int]) -> list[int]:
+    """Return those of `pids` that still run after 10 s."""
+    deadline = time.monotonic() + 10.0
+    while time.monotonic() < deadline:
+        pids = [pid for pid in pids if alive(pid)]
+        if not pids:
+            break
+        time.sleep(0.1)
+    return pids
+
+
+def alive(pid: int) -> bool:
+    """Return whether a process runs and is no zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def start(submissions: Path, out: Path) -> subprocess.Popen[bytes]:
+    """Start the command that an instructor types."""
+    command = [COURSE, "grade", submissions, "--out", out, "--validate", "none"]
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ})
+
+
+def grade_without_nbval(submissions: Path, out: Path) -> None:
+    """Grade all submissions."""
+    if start(submissions, out).wait():
+        sys.exit("grading failed")
+
+
+# reference: grades the solutions, with the arguments `[RUNS]`. The solution of each chapter is handed in RUNS
+# times (20) and graded like other submissions, several at the same time. Each part must pass each time,
+# because a check that sometimes refuses a right answer takes points from students.
+
+
+def reference_main() -> None:
+    """Grade, and print the lost points."""
+    runs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    lost: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
+        here = Path(folder)
+        for number in range(runs):
+            for path in NotebookStore().solutions():
+                target = hand_in(here / "in", f"s{number:02}", path.name[:2])
+                notebook = json.loads(target.read_text("utf-8"))
+                notebook["cells"][0]["source"] += f"\n{number}"  # or all would be one, and graded once
+                target.write_text(json.dumps(notebook), "utf-8")
+        grade_without_nbval(here / "in", here / "out")
+        graded = 0
+        for record in sorted((here / "out" / "results").rglob("*.json")):
+            for report in json.loads(record.read_text("utf-8"))["reports"]:
+                graded += 1
+                if report["verdict"] != "passed":
+                    lost[report["check"]] += 1
+                    print(
+                        record.parent.name,
+                        report["check"],
+                        report["verdict"],
+                        report["note"],
+                        [r for r in report["assertions"] if not r["holds"]],
+                    )
+    print(f"{graded - sum(lost.values())} of {graded} parts passed (bar: all); lost: {dict(lost)}")
+    sys.exit(bool(lost))
+
+
+# answers: examines answers that were written from the goals alone, with the arguments `FOLDER [PART …]`. Each
+# file NN.k.py holds the answers to one part, in percent format; a line `# --- next cell` separates cells:
+#
+#     # %% 05.1 right: TITLE
+#     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
+#
+# It prints the report of each answer that is not judged as its header says, and the first line of each hint.
+
+WRITTEN = re.compile(
+    r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
+)
+
+
+def answers_main() -> int:
+    """Examine the answers, and print what was judged otherwise; return the number of these."""
+    folder, *wanted = sys.argv[1:]
+    paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
+    written = [answer for path in paths for answer in _written(path)]
+    deadlines = {part.check: part.deadline for part in every_part()}
+    count: Counter[tuple[str, str]] = Counter()
+    with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
+        jobs = [(answer, _job_of(answer, source, deadlines)) for answer, source in written]
+        pool.submit(job for _, job in jobs)
+        for answer, job in jobs:
+            outcome = pool.result(job)
+            verdict = outcome.report.verdict if outcome.report else None
+            judged = {Verdict.PASSED: "right", Verdict.FAILED: "wrong"}.get(
+                verdict, f"not judged ({outcome.ending})"
+            )
+            count[answer["kind"], judged] += 1
+            print(f"{answer['check']} {answer['kind']}: {answer['title']}")
+            if judged != answer["kind"]:
+                print(f"  JUDGED {judged}: {outcome.report}", *outcome.messages, sep="\n    ")
+            elif judged == "wrong":
+                print(f"  why: {answer['why']}\n  report: {outcome.report}", sep="\n    ")
+    for (kind, judged), number in sorted(count.items()):
+        print(f"{kind}, judged {judged}: {number}")
+    return sum(number for (kind, judged), number in count.items() if kind != judged)
+
+
+def _written(path: Path) -> Iterator[tuple[dict[str, str], str]]:
+    for header, source, line in percent_cells(path.read_text("utf-8")):
+        found = WRITTEN.match(header)
+        if not found:
+            raise SystemExit(f"{path}, line {line}: {header!r} is not a header of an answer")
+        yield found.groupdict(default=""), source
+
+
+def _job_of(answer: dict[str, str], source: str, deadlines: dict[str, float]) -> PartJob:
+    before, after = around(answer["check"])
+    cells = tuple(cell.strip("\n") + "\n" for cell in source.split("# --- next cell\n"))
+    return PartJob(answer["check"], before, cells, after, random.getrandbits(32), deadlines[answer["check"]])
+
+
 if __name__ == "__main__":
-    main()
+    commands = {"speed": speed_main, "kill": kill_main, "reference": reference_main, "answers": answers_main}
+    run_command(commands)

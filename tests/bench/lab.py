@@ -1,13 +1,18 @@
-"""Prints how long a warm `./course lab` takes, from the command to a page whose kernel is idle.
+"""Measures `./course lab` beside the stock `jupyter lab` of the same environment.
 
-usage: ./course run python tests/bench/lab.py [RUNS [NOTEBOOK]]
-`./course test` installs the browser that it needs.
+usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
+       ./course run python tests/bench/lab.py click [CLICKS]
+       ./course run python tests/bench/lab.py kill [TIMES]
+
+`start` prints the time from the command to a page with a rendered notebook and an idle kernel, `click` the
+time from a click to Python and back to the page. Both alternate between the two servers, so that a slow
+minute of the machine affects both. `kill` kills `course lab`, its master and its kernel by SIGKILL, and
+prints which processes were left. `./course test` installs the browser.
 """
 
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import signal
 import statistics
@@ -15,98 +20,217 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from pathlib import Path
+from urllib.parse import urlsplit
 
+import nbformat
 from playwright.sync_api import BrowserContext, Page, sync_playwright
 
-ROOT = Path(__file__).parents[2]
-NOTEBOOK = sys.argv[2:]  # the first chapter unless given
-KEPT = 6.0  # s after which a start has kept what it keeps for the next
-USABLE = 3  # the step that counts
-BAR = 3.0  # s from the command to a usable page
-ADDRESS = re.compile(rb"http://\S+token=\S+")
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-]
-SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # other tabs may be restored from the last time
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from course_pkg.lab.jupyterlab import free_port
+from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
+from tests.support import eventually
+
+START_RATIO, START_BAR = 0.75, 3.0  # of stock; s
+CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # of stock; ms
+WARM_UP = 10  # clicks
+TIMEOUT = 20.0  # s until a process that still runs counts as left behind
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
+FLAGS += ["--disable-background-networking"]
+SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # stock restores the tabs of its previous start
 IDLE = f"() => document.querySelector('{SHOWN} .jp-Notebook-ExecutionIndicator[data-status=idle]')"
+STEPS = ("address known", "page received", "notebook rendered", "kernel idle")
+CELL = """
+import ipywidgets
+button, label = ipywidgets.Button(description="click"), ipywidgets.Label("0")
+button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
+ipywidgets.VBox([button, label])
+"""
+# After this pause the kernel is idle again, as it is between the clicks of a person.
+CLICK = """async () => {
+    await new Promise(done => setTimeout(done, 60))
+    const label = document.querySelector(".widget-label")
+    const button = document.querySelector(".jupyter-button")
+    const changed = new Promise(done => new MutationObserver((_, it) => { it.disconnect(); done() })
+        .observe(label, {childList: true, characterData: true, subtree: true}))
+    const start = performance.now()
+    button.click()
+    await changed
+    return performance.now() - start
+}"""
+Server = Callable[[Path, Path], AbstractContextManager[str]]  # of a notebook, and of a folder for its state
 
 
-def main(runs: int) -> int:
-    """Measure with an empty browser cache, then as often as asked with the cache of the run before.
-
-    Warm means that `./course lab` has run before: what it keeps for its next start is there.
-    """
-    with lab(*NOTEBOOK):
-        time.sleep(KEPT)
-    names = ("address printed", "page received", "notebook rendered", "kernel idle", "page at work")
-    with tempfile.TemporaryDirectory() as profile, sync_playwright() as playwright:
-        rows = []
+def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -> bool:
+    """Measure each server once with an empty browser cache, and then several times with a filled one."""
+    rows: dict[str, list[list[float]]] = {name: [] for name in SERVERS}
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         for _ in range(runs + 1):
-            context = playwright.chromium.launch_persistent_context(
-                profile, executable_path=shutil.which("chromium"), args=FLAGS, headless=True
-            )
-            rows.append(measure(context))
-            context.close()
-    print("s after the command       ", *(f"{name:>18}" for name in names))
-    print("empty browser cache       ", *(f"{value:18.2f}" for value in rows[0]))
-    medians = [statistics.median(column) for column in zip(*rows[1:], strict=True)]
-    print(f"median of {runs:2}             ", *(f"{value:18.2f}" for value in medians))
-    print(
-        f"bar {BAR} s: {'met' if medians[USABLE] <= BAR else 'MISSED'};",
-        f"all: {[round(row[USABLE], 2) for row in rows[1:]]}",
-    )
-    page = medians[USABLE] - medians[0]
-    print(f"Of the {page:.2f} s from the address on, the page's one thread worked {medians[-1]:.2f} s.")
-    return 0
+            for name, server in SERVERS.items():
+                state = Path(folder, name)
+                context = playwright.chromium.launch_persistent_context(
+                    state / "profile", executable_path=shutil.which("chromium"), args=FLAGS, headless=True
+                )
+                rows[name].append(times_of_start(context, server, (ROOT / notebook).resolve(), state))
+                context.close()
+    print(f"{'s after the command':26}", *(f"{name:>18}" for name in STEPS))
+    for name, (first, *_) in rows.items():
+        print(f"{name + ', empty browser cache':26}", *(f"{value:18.2f}" for value in first))
+    medians = {}
+    for name, (_, *later) in rows.items():
+        columns = list(zip(*later, strict=True))
+        medians[name] = statistics.median(columns[-1])
+        print(f"{f'{name}, median of {runs}':26}", *(f"{statistics.median(each):18.2f}" for each in columns))
+        print(f"{'':26} all: {[round(value, 2) for value in columns[-1]]}")
+    return reported(medians, START_RATIO, START_BAR, "s")
 
 
-def measure(context: BrowserContext) -> list[float]:
-    """Return the seconds from the command to each step on the way to a usable page, and the page's own."""
-    page = context.new_page()
-    session = context.new_cdp_session(page)
-    session.send("Performance.enable")
-    with lab(*NOTEBOOK) as (address, started):
+def times_of_start(context: BrowserContext, server: Server, notebook: Path, state: Path) -> list[float]:
+    """Return the seconds from the command to each of STEPS."""
+    began = time.perf_counter()
+    with server(notebook, state) as address:
         marks = [time.perf_counter()]
+        page = context.new_page()
         page.goto(address, wait_until="commit")
         marks.append(time.perf_counter())
         marks += until_usable(page)
-        metrics = {item["name"]: item["value"] for item in session.send("Performance.getMetrics")["metrics"]}
-    return [*(mark - started for mark in marks), float(metrics["TaskDuration"])]
+    return [mark - began for mark in marks]
 
 
 def until_usable(page: Page) -> list[float]:
-    """Wait for the notebook and its kernel; return the times at which they were there."""
+    """Wait for the notebook and its kernel; return the times at which each was ready."""
     page.wait_for_selector(f"{SHOWN} .jp-RenderedMarkdown h1")
     rendered = time.perf_counter()
     page.wait_for_function(IDLE)
     return [rendered, time.perf_counter()]
 
 
+def click(clicks: int = 100) -> bool:
+    """Measure both servers in turn, twice."""
+    notebook = ROOT / "tests" / "bench" / f"click-{os.getpid()}.ipynb"
+    cells = [nbformat.v4.new_markdown_cell("# Click"), nbformat.v4.new_code_cell(CELL)]
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel}), notebook)
+    times: dict[str, list[float]] = {name: [] for name in SERVERS}
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(2):
+                for name, server in SERVERS.items():
+                    times[name] += times_of_clicks(server(notebook, Path(folder, name)), clicks)
+    finally:
+        notebook.unlink()
+    medians = {name: statistics.median(values) for name, values in times.items()}
+    for name, values in times.items():
+        p95 = statistics.quantiles(values, n=20)[-1]
+        print(f"{name:8} median {medians[name]:6.1f} ms   p95 {p95:6.1f} ms   ({len(values)} clicks)")
+    return reported(medians, CLICK_RATIO, CLICK_BAR, "ms")
+
+
+def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[float]:
+    """Return the milliseconds of each click on a separate page."""
+    with server as address, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=FLAGS, headless=True
+        )
+        page = browser.new_page()
+        page.goto(address)
+        until_usable(page)
+        page.get_by_role("menuitem", name="Run", exact=True).click()
+        page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+        page.wait_for_selector(".jupyter-button")
+        page.wait_for_timeout(1000)
+        times = [float(page.evaluate(CLICK)) for _ in range(WARM_UP + clicks)]
+        browser.close()
+    return times[WARM_UP:]
+
+
+def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str) -> bool:
+    """Print the ratio of the medians, and return whether it and the absolute time meet their bars."""
+    ratio = medians["course"] / medians["stock"]
+    print(f"course lab / stock: {ratio:.2f} (bar {ratio_bar}): {'met' if ratio <= ratio_bar else 'MISSED'}")
+    met = medians["course"] <= bar
+    print(f"course lab: {medians['course']:.2f} {unit} (bar {bar:g}): {'met' if met else 'MISSED'}")
+    return ratio <= ratio_bar
+
+
 @contextmanager
-def lab(*arguments: str) -> Iterator[tuple[str, float]]:
-    """Run `./course lab`; yield its address, and when the command was given."""
-    env = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
-    started = time.perf_counter()
-    with subprocess.Popen(
-        [ROOT / "course", "lab", "--no-browser", *arguments], stdout=subprocess.PIPE, env=env
-    ) as process:
+def course(notebook: Path, _state: Path) -> Iterator[str]:
+    """Run `./course lab`; yield the notebook's address."""
+    command = [ROOT / "course", "lab", "--no-browser", notebook]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=user_environment(), text=True) as process:
+        assert process.stdout
         try:
-            assert process.stdout
-            for line in process.stdout:
-                if found := ADDRESS.search(line):
-                    yield found[0].decode(), started
-                    break
+            yield next(found[0] for line in process.stdout if (found := ADDRESS.search(line)))
         finally:
             process.send_signal(signal.SIGINT)
             process.stdout.read()
 
 
+@contextmanager
+def stock(notebook: Path, state: Path) -> Iterator[str]:
+    """Run the stock JupyterLab with settings in `state`; yield the notebook's address."""
+    port = free_port()
+    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
+    command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]
+    folders = {f"JUPYTER_{name}_DIR": str(state / name) for name in ("CONFIG", "DATA", "RUNTIME")}
+    env = {**os.environ, **folders}
+    with subprocess.Popen(command, stderr=subprocess.DEVNULL, env=env) as process:
+        try:
+            eventually(lambda: can_connect(port), timeout=60)
+            yield f"http://127.0.0.1:{port}/lab/tree/{notebook.relative_to(ROOT)}?token=t"
+        finally:
+            process.terminate()
+
+
+SERVERS: dict[str, Server] = {"stock": stock, "course": course}
+
+
+def kill(times: int = 20) -> bool:
+    """Kill each of the three several times."""
+    victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
+    left = 0
+    for name, pattern in victims.items():
+        port = free_port()  # the same for each start: a port that is still in use makes the next start fail
+        seconds, leftovers = zip(*(killed(port, pattern) for _ in range(times)), strict=True)
+        count, slowest = sum(leftovers), max(seconds)
+        print(f"SIGKILL of {name}, {times} times: {count} processes or ports left; slowest {slowest:.1f} s")
+        left += count
+    return left == 0
+
+
+def killed(port: int, pattern: bytes) -> tuple[float, int]:
+    """Kill the process whose command line contains `pattern`, or the command itself, and end the rest.
+
+    Return the seconds until all processes and the port were gone, and how many were left.
+    """
+    with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
+        assert urlsplit(address).port == port
+        family = eventually(partial(complete_family, process))
+        if pattern:
+            # The last one is the process itself; its supervisor has the same command line.
+            os.kill(having(pattern, family)[-1], signal.SIGKILL)
+            family += below(process)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=TIMEOUT)
+        else:
+            process.kill()
+        began = time.monotonic()
+        while (left := sum(map(alive, family)) + can_connect(port)) and time.monotonic() - began < TIMEOUT:
+            time.sleep(0.02)
+        return time.monotonic() - began, left
+
+
+def complete_family(process: subprocess.Popen[str]) -> list[int]:
+    """Return the processes below `process` once a master and a kernel are among them, else an empty list."""
+    family = below(process)
+    return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []
+
+
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if sys.argv[1:] else 5))
+    measure = {"start": start, "click": click, "kill": kill}[sys.argv[1]]
+    count = [int(number) for number in sys.argv[2:3]]
+    sys.exit(not measure(*count, *sys.argv[3:]))

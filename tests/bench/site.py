@@ -1,27 +1,40 @@
-"""The site: how fast it is built, what its pages weigh, how soon the first panel is there.
+"""The site and its notebooks: pages, accessibility, and the validation of the solutions.
 
-`./course site` must have run every chapter before. The speed is held against `jupyter nbconvert --to html`
-of the same 14 executed notebooks, in turns; where the course has fewer chapters, some are built twice.
+usage: ./course run python tests/bench/site.py pages|axe|nbval|listeners [OPTION …]
 """
 
 from __future__ import annotations
 
 import json
+import os
+import resource
 import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from gzip import compress
-from itertools import cycle, islice
+from itertools import cycle, islice, product
 from pathlib import Path
 
+from commands import alternate, run_command
 from playwright.sync_api import sync_playwright
 
-from course_pkg.authoring.shelf import Shelf, text_of
+from course_pkg.authoring.execute import surroundings, workers_here
+from course_pkg.authoring.notebook_store import NotebookStore, text_of
+from course_pkg.authoring.validate import validate
+from course_pkg.ros.process.supervisor import descendants
+from course_pkg.setup import Places
 from course_pkg.site.runs import Runs
+from tests.browser.chromium import chromium
+from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
+
+# pages: the site: how fast it is built, what its pages weigh, how soon the first panel is there.
+# `./course site` must have run every chapter before. The speed is held against `jupyter nbconvert --to
+# html` of the same 14 executed notebooks, in turns; where the course has fewer chapters, some are built
+# twice.
 
 PAGES = 14
 ROUNDS = 5
@@ -29,12 +42,9 @@ LOADS = 5
 BUILD = """
 import sys
 from pathlib import Path
-from course_pkg.site.command import without_slow_import
-with without_slow_import():
-    from course_pkg.authoring.shelf import Shelf
-    from course_pkg.site.build import write_site
-    from course_pkg.site.settings import Settings
-    write_site(Settings(Path(sys.argv[2]), execute=False), Shelf(Path(sys.argv[1])))
+from course_pkg.authoring.notebook_store import NotebookStore
+from course_pkg.site.build import Settings, write_site
+write_site(Settings(Path(sys.argv[2]), execute=False), NotebookStore(Path(sys.argv[1])))
 """
 FIRST_PANEL = """
 window.firstPanel = new Promise((resolve) => new MutationObserver((_changes, observer) => {
@@ -45,7 +55,7 @@ window.firstPanel = new Promise((resolve) => new MutationObserver((_changes, obs
 """
 
 
-def main() -> None:
+def pages_main() -> None:
     """Measure, and print."""
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         root = Path(folder)
@@ -57,7 +67,7 @@ def main() -> None:
 
 def write_notebooks(root: Path) -> None:
     """Write 14 executed notebooks: the chapters as they ran last, the first ones twice."""
-    runs, solutions = Runs(), Shelf().solutions()
+    runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):
         notebook = runs.latest(path)
@@ -82,20 +92,10 @@ def speed(root: Path) -> None:
         "--output-dir",
         str(root / "html"),
     ]
-    took = turns({"course site": lambda: run(ours), "nbconvert": lambda: run([*theirs, *notebooks])})
-    site, peer = took["course site"], took["nbconvert"]
+    contestants = {"course site": lambda: run(ours), "nbconvert": lambda: run([*theirs, *notebooks])}
+    took = alternate(contestants, ROUNDS)
+    site, peer = took["course site"] / 1000, took["nbconvert"] / 1000
     print(f"build: {site:.2f} s; jupyter nbconvert --to html: {peer:.2f} s; ratio {peer / site:.1f}")
-
-
-def turns(contestants: dict[str, Callable[[], None]]) -> dict[str, float]:
-    """Return the median time (s) of each over the rounds, in which they take turns."""
-    took: dict[str, list[float]] = {name: [] for name in contestants}
-    for _ in range(ROUNDS):
-        for name, contestant in contestants.items():
-            began = time.perf_counter()
-            contestant()
-            took[name].append(time.perf_counter() - began)
-    return {name: statistics.median(times) for name, times in took.items()}
 
 
 def run(command: Sequence[str]) -> None:
@@ -133,5 +133,133 @@ def first_panels(site: Path) -> None:
     print(f"first panel: median {middle:.0f} ms, slowest {last:.0f} ms, {len(times)} loads")
 
 
+# axe: accessibility of a whole site, every rule of axe-core, with the arguments `[SITE]`.
+# SITE is the folder of a site, by default the last that `./course site` wrote. Each page is looked at wide
+# and narrow, light and dark, with and without the search open; the suite spares itself what cannot differ.
+
+
+def axe_main() -> None:
+    """Print each violation, and how many there are on how many pages."""
+    site = Path(sys.argv[1]) if len(sys.argv) > 1 else Places.of().cache / "site" / "pages"
+    count = 0
+    with chromium() as browser:
+        for width, colours in product(WIDTHS, COLOURS):
+            with reader(browser, width, colours) as page:
+                for name in pages(site):
+                    open_page(page, site, name)
+                    page.evaluate(AXE)
+                    found = violations(page)
+                    look_for(page, "service")
+                    found += violations(page)
+                    count += len(found)
+                    for each in found:
+                        print(f"{name} {width} {colours}: {each}")
+    print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
+
+
+# nbval: prints how long nbval takes over all solutions: one after the other, and several at once.
+# The default is the number of workers that `course` itself takes on this machine.
+
+SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
+BAR = 0.45  # of the serial run
+LIMIT = 3600.0  # s
+
+
+def nbval_main() -> int:
+    """Run serially, then with each number of workers, and print the ratios."""
+    counts = [int(count) for count in sys.argv[1:]] or [workers_here(len(SOLUTIONS))]
+    print(
+        f"{len(SOLUTIONS)} solutions, {os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start"
+    )
+    serial, busy = measure(1)
+    print(f"serial: {serial:.1f} s, of which the processor works {busy:.1f} s")
+    for count in counts:
+        seconds, busy = measure(count)
+        ratio = seconds / serial
+        print(
+            f"{count} at once: {seconds:.1f} s, processor {busy:.1f} s; ratio {ratio:.2f}, "
+            f"bar {BAR}: {'met' if ratio <= BAR else 'MISSED'}"
+        )
+    return 0
+
+
+def measure(workers: int) -> tuple[float, float]:
+    """Return the seconds of one run, and those that its processes spent on a core."""
+    before, started = _spent(), time.perf_counter()
+    outcome = validate(SOLUTIONS, workers=workers, timeout=LIMIT)
+    seconds = time.perf_counter() - started
+    if outcome.returncode:
+        print(outcome.stdout[-3000:])
+        sys.exit(f"A solution does not show what it stored, with {workers} at once: no figure counts.")
+    return seconds, _spent() - before
+
+
+def _spent() -> float:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+# listeners: which sockets listen, and at which addresses, while each chapter runs.
+
+LISTEN = "0A"
+LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")
+
+
+def listeners_main() -> None:
+    """Run each chapter from the top, and look all the while."""
+    away: set[str] = set()
+    for path in SOLUTIONS:
+        seen = listeners_during(path)
+        foreign = {address for address in seen if address.partition(":")[0] not in LOOPBACK}
+        away |= foreign
+        print(f"{path.stem}: {len(seen)} sockets listened, {len(foreign)} of them off 127.0.0.1")
+    sys.exit(bool(away))
+
+
+def listeners_during(path: Path) -> set[str]:
+    """Return the addresses at which the processes of a chapter listened, as /proc/net/tcp has them."""
+    convert = [
+        sys.executable,
+        "-m",
+        "jupyter",
+        "execute",
+        str(path),
+        "--output",
+        "/dev/null",
+        "--timeout=120",
+    ]
+    seen: set[str] = set()
+    with surroundings() as (folder, environment):
+        with subprocess.Popen(
+            convert, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        ) as run:
+            while run.poll() is None:
+                seen |= listening([run.pid, *descendants(run.pid)])
+                try:
+                    run.wait(0.05)
+                except subprocess.TimeoutExpired:
+                    continue
+        if run.returncode:
+            raise SystemExit(f"{path.name} did not run to its end")
+    return seen
+
+
+def listening(pids: list[int]) -> set[str]:
+    """Return the addresses at which `pids` listen."""
+    sockets = {inode for pid in pids for inode in inodes(pid)}
+    tables = [Path("/proc/net/tcp"), Path("/proc/net/tcp6")]
+    rows = [line.split() for table in tables if table.exists() for line in table.read_text().splitlines()[1:]]
+    return {row[1] for row in rows if row[3] == LISTEN and row[9] in sockets}
+
+
+def inodes(pid: int) -> set[str]:
+    """Return the inodes of the sockets that `pid` holds."""
+    try:
+        links = [os.readlink(entry) for entry in os.scandir(f"/proc/{pid}/fd")]
+    except OSError:
+        return set()
+    return {link.removeprefix("socket:[").removesuffix("]") for link in links if link.startswith("socket:[")}
+
+
 if __name__ == "__main__":
-    main()
+    run_command({"pages": pages_main, "axe": axe_main, "nbval": nbval_main, "listeners": listeners_main})

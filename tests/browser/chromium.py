@@ -1,4 +1,4 @@
-"""The distribution's Chromium, as the tests start it."""
+"""Debian's Chromium with the options that the tests need."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import Browser, expect, sync_playwright
 
-PATIENCE = 20_000  # ms; what a page shows at once takes seconds while others keep the processor busy
+PATIENCE = 40_000  # ms; on a busy machine a page takes seconds to show its content
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -23,7 +23,7 @@ FLAGS = [
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """Start the distribution's Chromium, or skip the test where there is none."""
+    """Start Chromium, or skip the test if it is not installed."""
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if not program:
         pytest.skip("no Chromium on this machine")

@@ -1,24 +1,50 @@
-"""A page and a JupyterLab for the tests in this folder."""
+"""A page and a JupyterLab for the tests in this folder: one server and one browser for each worker."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize
 
-from tests.browser.jupyter import Lab, new_page, running_lab
+from tests.browser.jupyter import Lab, running_lab
+from tests.browser.pages import new_page, no_errors
+
+SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
+
+
+@pytest.fixture(scope="session")
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    """Return a context with one cache, so that JupyterLab is loaded once; pages may use the clipboard."""
+    context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
+    yield context
+    context.close()
 
 
 @pytest.fixture
-def page(browser: Browser) -> Iterator[Page]:
-    """Open a page of its own for a test."""
-    with new_page(browser) as page:
+def page(context: BrowserContext) -> Iterator[Page]:
+    """Open a page for one test."""
+    with new_page(context) as page:
         yield page
 
 
 @pytest.fixture(scope="session")
+def _lab_page(context: BrowserContext) -> Iterator[Page]:
+    page = context.new_page()
+    yield page
+    page.close()
+
+
+@pytest.fixture
+def lab_page(_lab_page: Page) -> Iterator[Page]:
+    """Return the page in which JupyterLab is open for all tests of a worker, with its usual window size."""
+    _lab_page.set_viewport_size(SIZE)
+    with no_errors(_lab_page):
+        yield _lab_page
+
+
+@pytest.fixture(scope="session")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start a JupyterLab, once for all tests of a worker."""
+    """Start a JupyterLab for all tests of a worker; each test opens its own notebook in it."""
     with running_lab(tmp_path_factory.mktemp("lab")) as lab:
         yield lab

@@ -1,4 +1,4 @@
-"""A real JupyterLab with a ROS master of its own, and what a test does in it as a person would."""
+"""A real JupyterLab with its own ROS master, and the actions of a student in it."""
 
 from __future__ import annotations
 
@@ -15,15 +15,26 @@ from pathlib import Path
 from urllib.error import URLError
 
 import nbformat
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Page, expect
 
 import course_pkg.lab
-from course_pkg.graph import PrivateMaster
-from course_pkg.graph.leash import Leash
+from course_pkg.ros import PrivateMaster
+from course_pkg.ros.process.supervised import SupervisedProcess
+from tests.browser.pages import READY
 from tests.support import eventually
 
-READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
+# Functions of the page. The first closes all notebooks without a dialog, and opens one with its kernel.
+OPEN = """async (path) => {
+  const { commands, shell } = window.jupyterapp;
+  for (const open of [...shell.widgets("main")]) open.dispose();
+  const how = { path, factory: "Notebook", kernel: { name: "python3" } };
+  const shown = await commands.execute("docmanager:open", how);
+  await shown.context.ready;
+  await shown.sessionContext.ready;
+}"""
+THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's own
+BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # of the course's terminals
 
 
 @dataclass(frozen=True)
@@ -35,13 +46,13 @@ class Lab:
 
 
 @contextmanager
-def running_lab(folder: Path, theme: str = "Light") -> Iterator[Lab]:
+def running_lab(folder: Path) -> Iterator[Lab]:
     """Start JupyterLab on a free port with a private master; both end with the block or with this process."""
     port = _free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
     with PrivateMaster() as master:
-        server = Leash(_command(port, root), env=_environment(folder, master.uri, theme))
+        server = SupervisedProcess(_command(port, root), env=_environment(folder, master.uri), cwd=root)
         try:
             url = f"http://127.0.0.1:{port}"
             eventually(lambda: _answers(f"{url}/api/status"), timeout=60)
@@ -51,27 +62,22 @@ def running_lab(folder: Path, theme: str = "Light") -> Iterator[Lab]:
 
 
 @contextmanager
-def new_page(browser: Browser) -> Iterator[Page]:
-    """Open a page that may use the clipboard; an error of a script on it fails the test."""
-    permissions = ["clipboard-read", "clipboard-write"]
-    context = browser.new_context(viewport={"width": 1280, "height": 1000}, permissions=permissions)
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    yield page
-    context.close()
-    assert errors == []
+def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = "Light") -> Iterator[None]:
+    """Open a notebook with these code cells and run them; its kernel and node end with the block.
 
-
-@contextmanager
-def running_notebook(page: Page, lab: Lab, name: str, *cells: str) -> Iterator[None]:
-    """Open a notebook with these code cells and run them; its kernel and node end with the block."""
+    If the page has loaded JupyterLab before, the notebook opens without loading it again.
+    """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     nbformat.write(notebook, lab.folder / f"{name}.ipynb")
-    page.goto(f"{lab.url}/lab/workspaces/{name}/tree/{name}.ipynb?reset")
+    if not page.url.startswith(lab.url):
+        page.goto(f"{lab.url}/lab/workspaces/{name}?reset")
+        page.wait_for_function("window.jupyterapp", timeout=READY)
+        page.evaluate("window.jupyterapp.restored")
     try:
-        # Run All before that opens a dialog that asks for a kernel.
+        page.evaluate(THEME, f"JupyterLab {theme}")
+        page.evaluate(OPEN, f"{name}.ipynb")
+        # Without this, Run All opens a dialog that asks for a kernel.
         expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
         run_all(page)
         yield
@@ -80,27 +86,13 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str) -> Iterator[N
 
 
 def run_all(page: Page) -> None:
-    """Run every cell and wait for the last to end."""
+    """Run all cells and wait until the last one has ended."""
     last = page.locator(".jp-CodeCell .jp-InputPrompt").last
     before = last.inner_text()
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
     expect(last).not_to_have_text(before, timeout=READY)
     expect(last).to_have_text(re.compile(r"\[\d+\]:"), timeout=READY)
-
-
-def panel(page: Page, label: str = "Service panel") -> Locator:
-    """Find a panel by its name."""
-    found = page.get_by_role("region", name=label, exact=True)
-    expect(found).to_be_visible(timeout=READY)
-    return found
-
-
-def picture(target: Page | Locator, name: str) -> None:
-    """Keep a screenshot among the artefacts of the run."""
-    folder = Path(os.environ.get("COURSE_ARTIFACTS") or Path(__file__).parents[1] / "artifacts")
-    folder.mkdir(parents=True, exist_ok=True)
-    target.screenshot(path=folder / f"{name}.png")
 
 
 def _end_kernel(lab: Lab, path: str) -> None:
@@ -121,15 +113,16 @@ def _command(port: int, root: Path) -> list[str]:
         "ServerApp.allow_root": True,
         "ServerApp.disable_check_xsrf": True,
         "IdentityProvider.token": "",
+        "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(BASHRC)]},
         "LabApp.news_url": "",
+        "LabApp.expose_app_in_browser": True,
     }
     return [sys.executable, "-m", "jupyterlab", *(f"--{name}={value}" for name, value in options.items())]
 
 
-def _environment(folder: Path, master: str, theme: str) -> Mapping[str, str]:
-    """Give the server settings, state and kernels' files of its own, so that runs in parallel do not meet."""
-    themes = {"@jupyterlab/apputils-extension:themes": {"theme": f"JupyterLab {theme}"}}
-    for place, values in (json.loads(OVERRIDES.read_text("utf-8")) | themes).items():
+def _environment(folder: Path, master: str) -> Mapping[str, str]:
+    """Give the server its own settings, state and runtime files, so that parallel runs are independent."""
+    for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
         settings = folder / "settings" / extension
         settings.mkdir(parents=True, exist_ok=True)
@@ -141,6 +134,7 @@ def _environment(folder: Path, master: str, theme: str) -> Mapping[str, str]:
         "JUPYTER_RUNTIME_DIR": folder / "runtime",
         "IPYTHONDIR": folder / "ipython",
         "COURSE_STATE": folder / "state",
+        "COURSE_WORKSPACE": folder / "workspace",  # beside the notebooks
         "ROS_MASTER_URI": master,
     }
     return {**os.environ, **{name: str(value) for name, value in places.items()}}

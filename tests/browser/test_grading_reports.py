@@ -1,4 +1,4 @@
-"""The pages of the grader in a browser: nothing is run, and all can be read on a phone, light and dark."""
+"""The pages of the grader in a browser: no script runs, and a phone can show them, light and dark."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ CONTRAST = (Path(__file__).parent / "contrast.js").read_text()
 
 @pytest.fixture(scope="module")
 def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Reports on a class in which everything happens."""
+    """Write reports on a class with every kind of result."""
     out = tmp_path_factory.mktemp("reports")
     grades = [*class_of(30, ("05", "06")), refused("s31"), refused("s32", ""), nasty()]
-    write_reports([replace(grade, walls=grade.student != "s07") for grade in grades], out)
+    write_reports([replace(grade, sandboxed=grade.student != "s07") for grade in grades], out)
     return out
 
 
 @pytest.fixture(params=["light", "dark"])
 def said(request: pytest.FixtureRequest, browser: Browser) -> Iterator[tuple[Page, list[str]]]:
-    """Open a page 390 px wide, and what its console says: a policy that is broken, a script that runs."""
+    """Open a page that is 390 px wide, and collect the console's messages on policies and scripts."""
     context = browser.new_context(color_scheme=request.param, viewport={"width": 390, "height": 800})
     page, words = context.new_page(), []
     page.on("console", lambda message: words.append(message.text))
@@ -38,7 +38,7 @@ def said(request: pytest.FixtureRequest, browser: Browser) -> Iterator[tuple[Pag
 
 
 def test_every_page_can_be_read(reports: Path, said: tuple[Page, list[str]]) -> None:
-    """Nothing is wider than a phone, every text has its contrast, and the page's own style is let in."""
+    """Nothing is wider than the phone, each text has enough contrast, and the page's style is applied."""
     page, words = said
     paths = [reports / "class.html", *sorted((reports / "feedback").glob("*.html"))[:12]]
     for path in paths:
@@ -51,7 +51,7 @@ def test_every_page_can_be_read(reports: Path, said: tuple[Page, list[str]]) -> 
 
 
 def test_links_lead_to_the_feedback(reports: Path, said: tuple[Page, list[str]]) -> None:
-    """Each of the class page's links has its page, whatever the student is called."""
+    """Each link of the class page leads to a page, for every name of a student."""
     page, _ = said
     page.goto((reports / "class.html").as_uri())
     links = page.eval_on_selector_all("a", "links => links.map(link => decodeURI(link.href))")

@@ -10,22 +10,21 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from course_pkg.graph import (
+from course_pkg.panels import GraphPanel
+from course_pkg.panels.graph.history import History
+from course_pkg.ros import (
     Activity,
-    Carried,
     NodeSeen,
     PrivateMaster,
     ServiceCaller,
     ServiceSeen,
     Snapshot,
     TopicSeen,
+    Traffic,
 )
-from course_pkg.panels import GraphPanel
-from course_pkg.panels.graph.history import History
-from tests.browser.jupyter import Lab, panel, picture, running_notebook
-from tests.browser.test_saved_panels import save
+from tests.browser.jupyter import Lab, running_notebook
+from tests.browser.pages import FAINT, panel, picture, save
 
-FAINT = Path(__file__).with_name("contrast.js").read_text()
 FRAMES = "async (count) => { while (count--) await new Promise(requestAnimationFrame) }"
 NODES, TOPICS = 20, 40
 TALK = """
@@ -45,7 +44,7 @@ LATER = 'node.serve("/later", Trigger, lambda _: (True, "here"))'
 
 
 def large() -> Snapshot:
-    """Make a graph of 20 nodes, 40 topics and 20 services, half of it in namespaces."""
+    """Return a graph of 20 nodes, 40 topics and 20 services; half of them are in namespaces."""
     names = [f"/node_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(
@@ -66,23 +65,23 @@ def large() -> Snapshot:
 
 @pytest.fixture
 def widget(master: PrivateMaster) -> GraphPanel:
-    """A panel that has seen a large graph, with rates and a call."""
+    """Return a panel of a large graph, with rates and a call."""
     assert master.uri
     shown, snapshot = GraphPanel(live=False), large()
     shown._model.see(snapshot)
     callers = {"/node_1/start": (ServiceCaller("/node_5", 12, time.time() - 3, 0),)}
     for turn in (0, 1):
         carried = tuple(
-            Carried(topic.name, topic.publishers[0], name, 1, 20 * turn)
+            Traffic(topic.name, topic.publishers[0], name, 1, 20 * turn)
             for topic in snapshot.topics
             for name in topic.subscribers
         )
-        shown._model.hear(Activity(2.0 * turn, carried, callers=callers))
+        shown._model.count(Activity(2.0 * turn, carried, callers=callers))
     return shown
 
 
 def shape(graph: Locator, key: str) -> Locator:
-    """Find a shape or the title of a frame by its kind and name."""
+    """Return a shape, or the title of a frame, by its kind and name."""
     return graph.locator(f'[role="button"][data-key="{key}"]')
 
 
@@ -91,7 +90,7 @@ def shape(graph: Locator, key: str) -> Locator:
 def test_a_large_graph_can_be_read(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
-    """Names keep a size that can be read, the drawing scrolls within the panel, and nothing sticks out."""
+    """Names stay readable, the drawing scrolls within the panel, and nothing overflows."""
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(widget, tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -110,7 +109,7 @@ def test_a_large_graph_can_be_read(
 
 
 def test_a_saved_namespace_tells_what_is_in_it(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """Without a kernel nothing unfolds, and the details say what is inside."""
+    """Without a kernel nothing can be unfolded, and the details list what is inside."""
     page.goto(save(widget, tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")
@@ -122,13 +121,13 @@ def test_a_saved_namespace_tells_what_is_in_it(widget: GraphPanel, page: Page, t
 
 
 def played(widget: GraphPanel) -> GraphPanel:
-    """Have a panel keep eight seconds: a call that waits, its answer, and a graph without half of it."""
+    """Record eight seconds in a panel: a call, its response, and a graph that loses half its nodes."""
     whole, began = large(), time.time() - 100
     half = Snapshot(whole.master, whole.nodes[:10], whole.topics[:8], whole.services[:10])
 
     def heard(last: float, running: int) -> None:
         caller = ServiceCaller("/node_5", 12, last, running)
-        widget._model.hear(Activity(last, callers={"/node_1/start": (caller,)}))
+        widget._model.count(Activity(last, callers={"/node_1/start": (caller,)}))
 
     steps = [
         lambda: heard(began - 60, 0),
@@ -137,16 +136,16 @@ def played(widget: GraphPanel) -> GraphPanel:
         lambda: widget._model.see(half),
     ]
     history = History()
-    history.start(began, **widget._showing())
+    history.start(began, *widget._showing())
     for number, step in enumerate(steps):
         step()
-        history.note(began + 2 * number, **widget._showing())
+        history.add(began + 2 * number, *widget._showing())
     widget.publish(history=history.state(began + 8), live=True)
     return widget
 
 
 def seek(graph: Locator, seconds: float) -> None:
-    """Drag the handle to a moment."""
+    """Drag the slider to a moment."""
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 
@@ -154,7 +153,7 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_what_was_shown_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """It says so, begins at its end, goes to any moment by handle and keys, and plays to the end."""
+    """The recording is named as one, starts at its end, and is moved by slider and keys, and replayed."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -188,7 +187,7 @@ def test_what_was_shown_is_played_without_a_kernel(
 def test_a_recording_does_not_play_where_nobody_sees_it(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """Out of sight its clock stands; who asked for less motion gets a picture a second."""
+    """A recording out of sight is paused; with reduced motion it shows one picture per second."""
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
@@ -206,7 +205,7 @@ def test_a_recording_does_not_play_where_nobody_sees_it(
     assert all(after - before >= 1 for before, after in itertools.pairwise(times))
     page.evaluate("document.body.style.paddingTop = '5000px'")
     page.wait_for_function("document.querySelector('.ros-graph').getBoundingClientRect().top > innerHeight")
-    page.evaluate(FRAMES, 10)  # until it is told that nobody sees it
+    page.evaluate(FRAMES, 10)  # until the page reports that it is hidden
     stood = page.evaluate("said.length")
     page.evaluate(FRAMES, 150)
     assert page.evaluate("said.length") == stood
@@ -214,7 +213,7 @@ def test_a_recording_does_not_play_where_nobody_sees_it(
 
 
 def test_lines_of_calls_lead_somewhere(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A saved panel is drawn before it stands on a page, where nothing has a size yet."""
+    """A saved panel is drawn before it is attached to a page, where nothing has a size yet."""
     troubles: list[str] = []
     page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -225,7 +224,7 @@ def test_lines_of_calls_lead_somewhere(widget: GraphPanel, page: Page, tmp_path:
 
 
 def test_paper_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """In print a dark panel is black on white, whole, and without controls."""
+    """In print, a dark panel is black on white, complete, and without controls."""
     page.goto(save(widget, tmp_path / "page.html", "dark"))
     page.emulate_media(media="print")
     graph = panel(page, "Graph panel")
@@ -240,7 +239,7 @@ def test_paper_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
 
 
 def test_a_still_picture_stands_alone(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """The file is an image with a name, in colours of its own for light, dark and print."""
+    """The downloaded file is an image with a name and with its own colours for light, dark and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")
     page.goto(file.as_uri())
@@ -257,7 +256,7 @@ def test_a_still_picture_stands_alone(widget: GraphPanel, page: Page, tmp_path: 
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A state that has neither rates nor namespaces is a picture all the same."""
+    """A state without rates and namespaces is drawn, too."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())
@@ -269,12 +268,12 @@ def test_a_panel_saved_by_an_older_release_still_shows(
     expect(graph.locator(".ros-details")).not_to_contain_text("called by")
 
 
-def test_rates_callers_and_folds_follow_the_graph(lab: Lab, page: Page) -> None:
-    """Rates and callers appear by themselves; what is folded by keyboard stays so when the graph changes."""
+def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> None:
+    """Rates and callers appear without a click; what was folded by keyboard stays folded after a change."""
     delayed = f"threading.Timer(8, lambda: exec({LATER!r}, globals())).start()"
-    with running_notebook(page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
-        graph = panel(page, "Graph panel")
-        expect(shape(graph, "topic /robot/said")).to_contain_text("10 Hz", timeout=20_000)
+    with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
+        graph = panel(lab_page, "Graph panel")
+        expect(shape(graph, "topic /robot/said")).to_contain_text("10 Hz")
         expect(shape(graph, "topic /robot/unheard")).to_contain_text("no listener")
         shape(graph, "service /robot/ask").click()
         details = graph.locator(".ros-details")
@@ -283,14 +282,14 @@ def test_rates_callers_and_folds_follow_the_graph(lab: Lab, page: Page) -> None:
         expect(graph.get_by_label("this notebook's node")).to_be_checked()
         picture(graph, "graph-panel-rates")
         shape(graph, "namespace /robot/").focus()
-        page.keyboard.press("Enter")
+        lab_page.keyboard.press("Enter")
         space = shape(graph, "namespace /robot/")
         expect(space).to_have_attribute("aria-expanded", "false")
         expect(space).to_be_focused()
         expect(shape(graph, "topic /robot/said")).not_to_be_attached()
         expect(details).to_contain_text("/robot/said 10 Hz")
-        expect(shape(graph, "service /later")).to_be_visible(timeout=20_000)
+        expect(shape(graph, "service /later")).to_be_visible()
         expect(space).to_have_attribute("aria-expanded", "false")
         picture(graph, "graph-panel-folded")
-        page.keyboard.press("Enter")
+        lab_page.keyboard.press("Enter")
         expect(shape(graph, "topic /robot/said")).to_contain_text("10 Hz")

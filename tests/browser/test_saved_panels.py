@@ -1,54 +1,39 @@
-"""Panels on a page without a kernel: drawn from their saved state, by a host of a few lines."""
+"""Panels on a page without a kernel, drawn from their saved state by a small host page."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import math
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from course_pkg.graph import NodeProcess, PrivateMaster
-from course_pkg.panels import GraphPanel, ServicePanel
-from course_pkg.panels.panel import Panel
-from course_pkg.panels.prediction.store import PredictionStore
-from course_pkg.panels.prediction.view import Prediction
-from tests.browser.jupyter import panel, picture
+from course_pkg.panels import GraphPanel, ServicePanel, TopicPanel
+from course_pkg.panels.choices.model import ChoiceStore
+from course_pkg.panels.choices.view import Choices
+from course_pkg.panels.prediction.model import PredictionStore
+from course_pkg.panels.prediction.view import Question
+from tests.browser.pages import FAINT, panel, picture, save
 
-HOST = Path(__file__).with_name("host.html").read_text()
+pytestmark = pytest.mark.usefixtures("server")
 
+CASES = [
+    ("Joint values on `/joint_states`", "a topic", "A lost one is replaced at once."),
+    ("One picture, on demand", "a service", "Somebody waits for it."),
+]
 
-@pytest.fixture(scope="module", autouse=True)
-def server(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run the course's geometry server on the master."""
-    assert master.uri
-    server = NodeProcess.rosrun("course_pkg", "server")
-    server.wait_for_service("/getGeometry", timeout=20)
-    yield server
-    server.stop()
-
-
-def save(widget: Panel, path: Path, theme: str = "light") -> str:
-    """Write a page with the widget's state, and give its address."""
-    state = {
-        name: value
-        for name, value in widget.get_state().items()
-        if isinstance(value, str | list | dict | bool)
-    }
-    text = json.dumps(state).replace("</", "<\\/")
-    path.write_text(HOST.replace("THEME", theme).replace("CSS", state["_css"]).replace("STATE", text))
-    widget.close()
-    return path.as_uri()
+# Functions of the page.
+OVERLAPS, COLOURS = (Path(__file__).with_name(f"{name}.js").read_text() for name in ("overlaps", "colours"))
 
 
 def answer(form: Locator, name: str) -> Locator:
-    """Find the value of a field of the response."""
+    """Return the value of a field of the response."""
     return form.get_by_role("row", name=name).get_by_role("cell").first
 
 
 def test_a_saved_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
-    """The last answer is there, Call is out of use, and a sentence says why."""
+    """The last response is shown, Call is disabled, and a sentence gives the reason."""
     widget = ServicePanel("/getGeometry")
     widget.call(length=2.0, width=3.0, height=4.0)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -62,7 +47,7 @@ def test_a_saved_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A recorded request is answered however its numbers are typed, any other is said not to be recorded."""
+    """A recorded request is answered in each notation of its numbers; another is reported as not recorded."""
     widget = ServicePanel("/getGeometry")
     widget.record(
         [{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": 4.0, "width": 5.0, "height": 6.0}]
@@ -91,7 +76,7 @@ def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: s
 
 
 def test_a_saved_picture_of_the_graph_can_be_asked(page: Page, tmp_path: Path) -> None:
-    """A click still tells what a shape is, and the page says that the picture is a saved one."""
+    """A click still describes a shape, and the page states that the picture is a saved one."""
     page.goto(save(GraphPanel(), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     expect(graph.get_by_text("this picture was saved")).to_be_visible()
@@ -100,8 +85,108 @@ def test_a_saved_picture_of_the_graph_can_be_asked(page: Page, tmp_path: Path) -
 
 
 def test_a_saved_question_is_out_of_use(page: Page, tmp_path: Path) -> None:
-    """Nothing keeps an answer without a kernel, so none can be given."""
+    """Without a kernel, no prediction can be entered, because it could not be stored."""
     store = PredictionStore(tmp_path / "predictions.json")
-    page.goto(save(Prediction("05.x", "What?", ["this", "that"], store=store), tmp_path / "page.html"))
+    page.goto(save(Question("05.x", "What?", ["this", "that"], store=store), tmp_path / "page.html"))
     expect(page.get_by_text("run the notebook to keep a prediction")).to_be_visible()
     expect(page.get_by_label("this")).to_be_disabled()
+
+
+def test_saved_choices_can_be_read(page: Page, tmp_path: Path) -> None:
+    """The choice and the reasons are shown; nothing can be chosen, and a sentence gives the reason."""
+    widget = Choices(
+        "03.x", "Which fits?", ["a topic", "a service"], CASES, store=ChoiceStore(tmp_path / "c.json")
+    )
+    for number in range(2):
+        widget.received("choose", {"case": number, "option": "a topic"})
+    widget.received("compare", {})
+    page.set_viewport_size({"width": 560, "height": 700})
+    page.goto(save(widget, tmp_path / "page.html", "dark"))
+    choices = panel(page, "Choices")
+    expect(choices.get_by_text("No kernel answers: run the notebook to choose.")).to_be_visible()
+    expect(choices.get_by_text("Does not fit. Better: a service.")).to_be_visible()
+    expect(
+        choices.get_by_role("radiogroup", name="One picture, on demand").get_by_label("a topic")
+    ).to_be_disabled()
+    assert choices.locator("code").first.inner_text() == "/joint_states"
+    assert page.evaluate("document.documentElement.scrollWidth") <= 560
+    assert choices.evaluate(FAINT) == []
+    picture(choices, "choices-saved-dark")
+
+
+def test_a_saved_topic_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
+    """The form and the commands are shown, the buttons are disabled, and a sentence gives the reason."""
+    page.set_viewport_size({"width": 560, "height": 1200})
+    page.goto(save(TopicPanel("/speed", "std_msgs/Float64"), tmp_path / "page.html"))
+    topic = panel(page, "Topic panel")
+    expect(topic.get_by_text("No kernel answers: this is what the panel saw last.")).to_be_visible()
+    expect(topic.get_by_role("button", name="Publish", exact=True)).to_be_disabled()
+    topic.get_by_text("The same by hand").click()
+    once = topic.get_by_label("Command that publishes once")
+    expect(once).to_have_text("rostopic pub --once /speed std_msgs/Float64 0.0")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 560
+    assert topic.evaluate(FAINT) == []
+    picture(topic, "topic-panel-saved")
+
+
+CURVE = {"points": [[0.0, 12.0], [1.0, 14.5], [2.0, -11.0], [3.0, 2.25]], "count": 4, "left_out": 1}
+
+
+def chart(page: Page, folder: Path, curve: dict[str, object], theme: str = "light") -> Locator:
+    """Open a saved topic panel with a plot, and return its chart."""
+    widget = TopicPanel("/speed", "std_msgs/Float64")
+    widget.publish(curve=json.dumps(curve))
+    page.goto(save(widget, folder / "page.html", theme))
+    return panel(page, "Topic panel").get_by_role("region", name="Plot")
+
+
+def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> None:
+    """The arrow keys move from point to point; the pointer selects the nearest point."""
+    drawn = chart(page, tmp_path, CURVE)
+    canvas = drawn.get_by_role("group", name="Plot: the arrow keys read its points")
+    readout = drawn.get_by_role("status").last
+    expect(readout).to_have_text("Point at the plot, or use the arrow keys, to read its values.")
+    expect(drawn.get_by_role("img")).to_have_attribute(
+        "aria-label", "a line of 4 points, data against time since the panel listens (s)"
+    )
+    expect(drawn.get_by_text("1 of 4 values are left out")).to_be_visible()
+    canvas.focus()
+    since = "time since the panel listens"
+    for key, text in {
+        "ArrowRight": f"{since} 0 s, data 12",
+        "End": f"{since} 3 s, data 2.25",
+        "ArrowLeft": f"{since} 2 s, data -11",
+        "PageUp": f"{since} 0 s, data 12",
+    }.items():
+        page.keyboard.press(key)
+        expect(readout).to_have_text(text)
+    page.keyboard.press("Escape")
+    expect(readout).to_contain_text("Point at the plot")
+    box = canvas.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 60, box["y"] + box["height"] / 2)
+    expect(readout).to_contain_text(f"{since} ")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_chart_can_be_read_in_both_themes_and_fits(page: Page, tmp_path: Path, theme: str) -> None:
+    """At 560 px nothing overflows, no marks overlap, and the line has enough contrast."""
+    page.set_viewport_size({"width": 560, "height": 1200})
+    drawn = chart(page, tmp_path, CURVE, theme)
+    expect(drawn.locator("svg text").first).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 560
+    assert drawn.evaluate(FAINT) == []
+    assert drawn.evaluate(OVERLAPS) == []
+    assert page.locator(".ros-panel").evaluate(COLOURS) >= 4.5
+    picture(drawn, f"chart-{theme}")
+
+
+def test_a_long_curve_has_no_markers_and_an_empty_one_says_so(page: Page, tmp_path: Path) -> None:
+    """Every point of a long plot is on its line."""
+    points = [[index / 50, math.sin(index / 20)] for index in range(1000)]
+    drawn = chart(page, tmp_path, {"points": points, "count": 1000, "left_out": 0})
+    line = drawn.locator("polyline")
+    assert len((line.get_attribute("points") or "").split()) == 1000
+    expect(drawn.locator(".ros-chart-marker")).to_have_count(0)
+    drawn = chart(page, tmp_path, {"points": [], "count": 0, "left_out": 0})
+    expect(drawn.get_by_text("Nothing to draw yet.")).to_be_visible()

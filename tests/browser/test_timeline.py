@@ -1,4 +1,4 @@
-"""The timeline on a page: used by pointer and keyboard, read in words and on paper, in JupyterLab."""
+"""The timeline on a page, with pointer and keyboard, as text, in print, and in JupyterLab."""
 
 from __future__ import annotations
 
@@ -8,23 +8,22 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import FloatRect, Locator, Page, expect
 
-from course_pkg.graph import Event, Recording
 from course_pkg.panels import Timeline
-from tests.browser.jupyter import Lab, panel, picture, running_notebook
-from tests.browser.test_saved_panels import save
+from course_pkg.ros import Event, Recording
+from tests.browser.jupyter import Lab, running_notebook
+from tests.browser.pages import FAINT, panel, picture, save
 
-FAINT = Path(__file__).with_name("contrast.js").read_text()
-# The colours that lie on a spot of the drawing: how many differ within 9 x 9 pixels.
+# The colours at a point of the drawing: the number of different ones within 9 x 9 pixels.
 COLOURS = """(canvas, [x, y]) => {
     const data = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-EDGE = 0.02  # of the drawing's time lies before and after the recording
+EDGE = 0.02  # part of the drawing's time before and after the recording
 
 
 def recording(*more: Event, open_end: bool = False) -> Recording:
-    """Make up a call of 0.5 s beside a stream at 20 Hz."""
+    """Return a recording of a call of 0.5 s beside a topic at 20 Hz."""
     key, mine, theirs = "call 1", ("/customer", "/detect"), ("/cashier", "/detect")
     end = None if open_end else 0.7
     events = [
@@ -59,35 +58,35 @@ def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Lo
 
 
 def drawing(timeline: Locator) -> Locator:
-    """Find what is drawn upon."""
+    """Return the drawing."""
     return timeline.locator("canvas.ros-body")
 
 
 def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
-    """Return where on the drawing something of that time (s) stands, on the first row of a lane."""
+    """Return the position of a time (s) in the drawing, on the first row of a node."""
     box = drawing(timeline).bounding_box()
     assert box is not None
     return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click at a time (s) on a lane."""
+    """Click at a time (s) in the row of a node."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 
 
 def ticks(timeline: Locator) -> bytes:
-    """Return a picture of the time axis: it differs when another part of the time is in view."""
+    """Return a picture of the time axis: it changes with the visible part of the time."""
     return timeline.locator("canvas.ros-axis").screenshot()
 
 
 def drawn(page: Page) -> None:
-    """Wait until the drawing shows what was asked for last: it is drawn in the next frame."""
+    """Wait until the drawing shows the last request: it is drawn in the next frame."""
     page.evaluate("new Promise(requestAnimationFrame)")
 
 
 def test_a_click_says_what_it_is(page: Page, tmp_path: Path) -> None:
-    """What is clicked is told in words and milliseconds, and a click beside it takes that back."""
+    """A click on an event describes it as text with milliseconds; a click beside it hides the text."""
     timeline = show(page, tmp_path, recording())
     details = timeline.locator(".ros-details")
     expect(details).to_contain_text("Click anything")
@@ -106,7 +105,7 @@ def test_a_click_says_what_it_is(page: Page, tmp_path: Path) -> None:
 
 
 def test_what_waits_is_hatched(page: Page, tmp_path: Path) -> None:
-    """The blocked caller is drawn in stripes, the handler in one colour, and idle time in none."""
+    """The blocked caller is striped, the handler has one colour, and idle time has none."""
     timeline = show(page, tmp_path, recording())
     colours = {
         lane_and_time: drawing(timeline).evaluate(COLOURS, spot(timeline, *reversed(lane_and_time)))
@@ -122,7 +121,7 @@ def test_what_waits_is_hatched(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_keyboard_does_it_all(page: Page, tmp_path: Path) -> None:
-    """Down and up go through the events in time, Enter zooms in on one, 0 shows all again."""
+    """Down and up move through the events in time, Enter zooms in on one, 0 shows all again."""
     timeline = show(page, tmp_path, recording())
     details, whole = timeline.locator(".ros-details"), ticks(timeline)
     drawing(timeline).focus()
@@ -147,7 +146,7 @@ def test_the_keyboard_does_it_all(page: Page, tmp_path: Path) -> None:
 
 
 def test_look_up_and_connection_open_up(page: Page, tmp_path: Path) -> None:
-    """What is a small mark when all is in view can be chosen, and is a bar of its own when zoomed in on."""
+    """A small mark can be selected, and becomes a bar when the view zooms in on it."""
     timeline = show(page, tmp_path, recording())
     drawing(timeline).focus()
     details = timeline.locator(".ros-details")
@@ -160,7 +159,7 @@ def test_look_up_and_connection_open_up(page: Page, tmp_path: Path) -> None:
     picture(timeline, "timeline-zoomed")
     box: FloatRect | None = drawing(timeline).bounding_box()
     assert box is not None
-    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # zooming left the start of the look-up where it was
+    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # zooming did not move the start of the look-up
     wide = box["width"] / (LENGTH * (1 + 2 * EDGE)) * 2**7 * 0.001
     assert wide > 50
     y = spot(timeline, 0, 2)[1]
@@ -169,7 +168,7 @@ def test_look_up_and_connection_open_up(page: Page, tmp_path: Path) -> None:
 
 
 def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
-    """Ctrl and wheel zoom, a drag moves, and a turn without Ctrl leaves the drawing alone."""
+    """Ctrl and the wheel zoom, a drag moves the view, and the wheel without Ctrl changes nothing."""
     timeline = show(page, tmp_path, recording())
     whole = ticks(timeline)
     drawing(timeline).hover(position={"x": 300, "y": 60})
@@ -194,7 +193,7 @@ def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
-    """All events stand in a table, and who waited, who was idle and who has no record in sentences."""
+    """A table lists all events, and sentences name the nodes that waited, were idle, or have no record."""
     timeline = show(page, tmp_path, recording())
     expect(timeline.get_by_text("/customer waited for /cashier on /detect: 500 ms.")).to_be_visible()
     expect(timeline.get_by_text("/robot published 19 messages on /joints")).to_be_visible()
@@ -207,7 +206,7 @@ def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
 
 
 def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
-    """A caller that was still blocked is said to be, in the drawing's words, the sentences and the table."""
+    """A caller that was still blocked is reported in the drawing, in the sentences and in the table."""
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
     expect(timeline.locator(".ros-details")).to_contain_text("/customer was still waiting for /cashier")
@@ -217,7 +216,7 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
 
 
 def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
-    """An empty recording says so, and offers nothing to zoom."""
+    """An empty recording is described as empty, and cannot be zoomed."""
     timeline = show(page, tmp_path, Recording(nodes=("/idle",), length=0.5))
     expect(timeline.get_by_text("Nothing happened between the nodes")).to_be_visible()
     expect(timeline.get_by_role("button")).to_have_count(0)
@@ -227,7 +226,7 @@ def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 560, 390])
 def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> None:
-    """No text is too faint and nothing wider than the page, light and dark, wide and narrow."""
+    """Each text has enough contrast and nothing is wider than the page, light and dark, wide and narrow."""
     page.set_viewport_size({"width": width, "height": 1000})
     failed = [
         Event("lookup", "/customer", "/nope", 0.8, 0.801, "master", "call 2", "MainThread"),
@@ -242,7 +241,7 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
 
 
 def test_on_paper(page: Page, tmp_path: Path) -> None:
-    """Printed, the drawing is on white whatever the theme."""
+    """In print, the drawing is on white in both themes."""
     timeline = show(page, tmp_path, recording(), "dark")
     ground = "canvas => getComputedStyle(canvas.closest('section')).backgroundColor"
     assert drawing(timeline).evaluate(ground) != "rgb(255, 255, 255)"
@@ -254,28 +253,28 @@ def test_on_paper(page: Page, tmp_path: Path) -> None:
     picture(timeline, "timeline-print")
 
 
-def test_in_jupyterlab(lab: Lab, page: Page) -> None:
-    """A recording of a real call is drawn in a notebook, and the keys stay with the drawing."""
+def test_in_jupyterlab(lab: Lab, lab_page: Page) -> None:
+    """A recording of a real call is drawn in a notebook, and the keys act on the drawing."""
     cells = (
         "from course_pkg import Timeline, join\nfrom std_srvs.srv import Trigger\nnode = join('recorder')",
         "served = node.serve('/answer', Trigger, lambda request: (True, 'here'))",
         "with node.record() as recording:\n    node.call('/answer', Trigger)",
         "Timeline(recording)",
     )
-    with running_notebook(page, lab, "timeline", *cells):
-        timeline = panel(page, "Timeline")
+    with running_notebook(lab_page, lab, "timeline", *cells):
+        timeline = panel(lab_page, "Timeline")
         expect(timeline.get_by_text("/recorder waited for /recorder on /answer")).to_be_visible()
-        before = page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
+        before = lab_page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
             "cells => cells.map(cell => cell.innerText)"
         )
         drawing(timeline).focus()
         for key in ("ArrowDown", "+", "-", "0", "Enter", "d", "d"):
-            page.keyboard.press(key)
+            lab_page.keyboard.press(key)
         expect(timeline.locator(".ros-details")).to_contain_text("/recorder asked the master")
-        expect(page.locator(".jp-CodeCell")).to_have_count(len(cells))
-        after = page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
+        expect(lab_page.locator(".jp-CodeCell")).to_have_count(len(cells))
+        after = lab_page.locator(".jp-Cell.jp-mod-selected").evaluate_all(
             "cells => cells.map(cell => cell.innerText)"
         )
         assert len(before) == len(after)
-        expect(page.locator(".jp-CodeCell .jp-InputPrompt").last).to_have_text(re.compile(r"\[4\]:"))
-        picture(page, "timeline-lab")
+        expect(lab_page.locator(".jp-CodeCell .jp-InputPrompt").last).to_have_text(re.compile(r"\[4\]:"))
+        picture(lab_page, "timeline-lab")

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from course_pkg.panels.turtles.ink import USUAL, Sight
-from course_pkg.panels.turtles.tape import Tape
+from course_pkg.panels.turtles.pen import USUAL, Observation
+from course_pkg.panels.turtles.recording import TurtleRecording
 from course_pkg.panels.turtles.view import TurtlePanel
-from tests.browser.jupyter import Lab, panel, picture, running_notebook
-from tests.browser.test_saved_panels import save
+from tests.browser.jupyter import Lab, running_notebook
+from tests.browser.pages import panel, picture, save
 
 SETUP = """
 from course_pkg import TurtlePanel, join
@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Drag the handle to a part of the recording."""
+    """Drag the slider to a part of the recording."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,
@@ -40,26 +40,26 @@ def seek(turtles: Locator, part: float) -> None:
 
 
 def cells(turtles: Locator, name: str) -> list[str]:
-    """Return what the table says of a turtle."""
+    """Return the table's row of a turtle."""
     return turtles.get_by_role("row", name=name).get_by_role("cell").all_inner_texts()
 
 
-def recorded() -> Tape:
-    """Return five seconds of a turtle that goes round, with a second one for the last two."""
-    tape = Tape()
+def recorded() -> TurtleRecording:
+    """Return five seconds of a turtle that moves in a circle, with a second one for the last two seconds."""
+    recording = TurtleRecording()
     for number in range(100):
         angle = number / 100 * 2 * math.pi
         x, y = 5.5 + 3 * math.cos(angle), 5.5 + 3 * math.sin(angle)
-        tape.see(number * 50, "turtle1", Sight(x, y, angle - math.pi, 1.0, USUAL))
+        recording.see(number * 50, "turtle1", Observation(x, y, angle - math.pi, 1.0, USUAL))
         if number >= 60:
-            tape.see(number * 50, "MyTurtle", Sight(1.0, 1.0, 0.0, 0.0, (69, 86, 255)))
-    return tape
+            recording.see(number * 50, "MyTurtle", Observation(1.0, 1.0, 0.0, 0.0, (69, 86, 255)))
+    return recording
 
 
-def test_turtles_are_seen_as_they_are(lab: Lab, page: Page) -> None:
-    """The table follows what services do: a turtle that is made appears, one that is moved has moved."""
-    with running_notebook(page, lab, "turtles", SETUP, "TurtlePanel()", LATER):
-        turtles = panel(page, "Turtle panel")
+def test_turtles_are_seen_as_they_are(lab: Lab, lab_page: Page) -> None:
+    """The table follows the services: it shows a new turtle, and the new place of a moved one."""
+    with running_notebook(lab_page, lab, "turtles", SETUP, "TurtlePanel()", LATER):
+        turtles = panel(lab_page, "Turtle panel")
         expect(turtles.get_by_role("row", name="MyTurtle")).to_be_visible()
         expect(turtles.get_by_role("row", name="turtle1").get_by_role("cell").first).to_have_text("9.00")
         assert cells(turtles, "MyTurtle") == ["2.00", "3.00", "0.00"]
@@ -73,12 +73,12 @@ def test_turtles_are_seen_as_they_are(lab: Lab, page: Page) -> None:
         expect(turtles.get_by_role("row", name="MyTurtle")).to_be_visible()
 
 
-def test_nobody_there(lab: Lab, page: Page) -> None:
-    """Without a simulator the panel says what to start."""
+def test_nobody_there(lab: Lab, lab_page: Page) -> None:
+    """Without a simulator, the panel names the command that starts one."""
     with running_notebook(
-        page, lab, "no_turtles", SETUP.replace("simulator", "# simulator"), "TurtlePanel()"
+        lab_page, lab, "no_turtles", SETUP.replace("simulator", "# simulator"), "TurtlePanel()"
     ):
-        turtles = panel(page, "Turtle panel")
+        turtles = panel(lab_page, "Turtle panel")
         expect(turtles.get_by_text("No turtle is on the graph. Start turtlesim_node")).to_be_visible()
         expect(turtles.get_by_role("button", name="Play")).to_be_disabled()
         picture(turtles, "turtle-panel-empty")
@@ -86,9 +86,9 @@ def test_nobody_there(lab: Lab, page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """It says that it is one, shows its end, goes to any moment, and plays from the start to the end."""
+    """The recording is named as one, shows its end, moves to any moment, and replays from start to end."""
     widget = TurtlePanel()
-    widget.publish(tape=recorded().state())
+    widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})
     page.goto(save(widget, tmp_path / "page.html", theme))
     turtles = panel(page, "Turtle panel")
@@ -106,9 +106,9 @@ def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, them
 
 
 def test_the_trail_is_on_the_paper(page: Page, tmp_path: Path) -> None:
-    """Where the turtle went there is its ink, and where it has not been there is none."""
+    """There is ink on the turtle's way, and nowhere else."""
     widget = TurtlePanel()
-    widget.publish(tape=recorded().state())
+    widget.publish(recorded=recorded().state())
     page.goto(save(widget, tmp_path / "page.html"))
     turtles = panel(page, "Turtle panel")
     seek(turtles, 0.5)

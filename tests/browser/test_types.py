@@ -1,4 +1,4 @@
-"""The type browser in a real browser: searching, opening, a page without a kernel."""
+"""The type browser in a real browser: searching, opening, and a page without a kernel."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from course_pkg.graph import PrivateMaster
 from course_pkg.panels import TypeBrowser
 from course_pkg.panels.types.model import packages
-from tests.browser.jupyter import Lab, panel, picture, running_notebook
-from tests.browser.test_saved_panels import save
-from tests.interfaces.conftest import package
+from course_pkg.ros import PrivateMaster
+from tests.browser.jupyter import Lab, running_notebook
+from tests.browser.pages import FAINT, panel, picture, save
+from tests.types.conftest import package
 
-FAINT = Path(__file__).with_name("contrast.js").read_text()
 SERVE = """
 from course_pkg import TypeBrowser, join
 from std_srvs.srv import SetBool
@@ -24,25 +23,25 @@ switch = node.serve("/switch", SetBool, lambda request: (True, ""))
 
 
 def options(browser: Locator) -> Locator:
-    """Find the types that the list shows."""
+    """Return the types that the list shows."""
     return browser.get_by_role("option")
 
 
-def test_one_searches_opens_and_copies_by_keyboard(lab: Lab, page: Page) -> None:
-    """Typing narrows the list, arrows and Enter open a type, and what it offers is live."""
-    with running_notebook(page, lab, "types", SERVE, "TypeBrowser()"):
-        browser = panel(page, "Type browser")
+def test_one_searches_opens_and_copies_by_keyboard(lab: Lab, lab_page: Page) -> None:
+    """Typing narrows the list, arrows and Enter open a type, and its buttons work."""
+    with running_notebook(lab_page, lab, "types", SERVE, "TypeBrowser()"):
+        browser = panel(lab_page, "Type browser")
         expect(browser.get_by_text("Pick a type from the list")).to_be_visible()
         browser.get_by_label("Find a type").fill("std_srvs")
         expect(options(browser)).to_have_count(3)
-        page.keyboard.press("ArrowDown")
-        page.keyboard.press("Enter")
+        lab_page.keyboard.press("ArrowDown")
+        lab_page.keyboard.press("Enter")
         about = browser.get_by_role("region", name="The open type")
         expect(about).to_contain_text("std_srvs/SetBool")
         expect(about).to_contain_text("/switch served by /types_test")
         expect(browser.get_by_role("option", name="SetBool")).to_contain_text("in use")
         about.get_by_role("button", name="Copy import, in Python").click()
-        assert page.evaluate("navigator.clipboard.readText()") == "from std_srvs.srv import SetBool"
+        assert lab_page.evaluate("navigator.clipboard.readText()") == "from std_srvs.srv import SetBool"
         picture(browser, "type-browser")
         browser.get_by_label("Find a type").fill("pose")
         expect(browser.get_by_role("status").last).to_contain_text("message types")
@@ -60,7 +59,7 @@ def test_one_searches_opens_and_copies_by_keyboard(lab: Lab, page: Page) -> None
 def test_a_saved_browser_keeps_what_was_open(
     master: PrivateMaster, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
-    """Without a kernel the list can be searched, the open type stays, and it is said why no other opens."""
+    """Without a kernel the list can be searched; a sentence explains why no other type opens."""
     assert master.uri
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(TypeBrowser("sensor_msgs/SetCameraInfo"), tmp_path / "page.html", theme))
@@ -81,7 +80,7 @@ def test_a_saved_browser_keeps_what_was_open(
 def test_a_broken_file_is_shown_with_its_line(
     master: PrivateMaster, page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The error names file and line, and the text stands below it."""
+    """The error names file and line, and the text of the file is below it."""
     assert master.uri
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     package(tmp_path, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
@@ -93,7 +92,7 @@ def test_a_broken_file_is_shown_with_its_line(
 
 
 def test_a_thousand_types_are_searched_at_once(master: PrivateMaster, page: Page, tmp_path: Path) -> None:
-    """A large installation fills the list, and narrowing it down shows just what fits."""
+    """The list of a large installation is complete, and a filter shows exactly what matches."""
     assert master.uri
     widget = TypeBrowser()
     names = tuple(f"package_{number // 20}/Type{number}" for number in range(1000))

@@ -1,7 +1,7 @@
-"""Every row of the table of what goes wrong with ROS 1 services, and how it is held to the code.
+"""The table of common mistakes with ROS 1 services, and the fault or build that shows each of them.
 
-A row is a slip with the stable part of what is seen of it. What can happen at run time names the faults of
-the lab that cause it; what happens while building names a package with that slip, or a command.
+A row is a mistake with the stable part of its symptom. A mistake at run time names the faults of the lab that
+cause it; a mistake of a build names a package with this mistake, or a command.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Shows:
-    """What a fault of the lab shows: words that the visitor prints, or the server; whether the visitor hangs.
+    """The symptom of a fault: text that the client or the server prints, and whether the client hangs.
 
-    `cause` is a stretch of the explanation of what is printed, "" where ROS says nothing to be explained.
+    `cause` is a part of the explanation of the printed text, "" if the text needs no explanation.
     """
 
     fault: str
@@ -25,7 +25,7 @@ class Shows:
 
 @dataclass(frozen=True)
 class Builds:
-    """A slip in building: its name in the tests' table of slips, what is printed, a stretch of the cause."""
+    """A mistake in a build: its name in the tests' table, a part of the output, and a part of the cause."""
 
     slip: str
     said: str
@@ -34,7 +34,7 @@ class Builds:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: the section of the table, the slip, and all that shows it."""
+    """One row: the section of the table, the mistake, and everything that shows it."""
 
     section: str
     slip: str
@@ -51,7 +51,7 @@ BUILDING = (
             Builds(
                 "no message_generation",
                 'Unknown CMake command "add_service_files"',
-                "message_generation brings it",
+                "message_generation defines it",
             ),
         ),
     ),
@@ -74,7 +74,7 @@ BUILDING = (
     Row(
         "Building",
         "generate_messages left commented",
-        (Builds("not generated", "No module named 'my_services'", "Python finds no my_services"),),
+        (Builds("not generated", "No module named 'my_services'", "Python does not find my_services"),),
     ),
     Row(
         "Building",
@@ -84,13 +84,13 @@ BUILDING = (
     Row(
         "Building",
         "- - - for ---",
-        (Builds("blanks in the dashes", "Invalid declaration: - - -", "where three dashes belong"),),
+        (Builds("blanks in the dashes", "Invalid declaration: - - -", "in the place of the three dashes"),),
     ),
     Row(
         "Building",
         "not sourced",
         (
-            Builds("not sourced: Python", "No module named 'my_services'", "Python finds no my_services"),
+            Builds("not sourced: Python", "No module named 'my_services'", "Python does not find my_"),
             Builds("not sourced: rospack", "[rospack] Error: package 'my_services' not found", "No package"),
         ),
     ),
@@ -117,7 +117,7 @@ BUILDING = (
         "script without run bit or shebang",
         (
             Builds("no run bit", "Couldn't find executable named plain.py", "has no program plain.py"),
-            Builds("no shebang", "command not found", "The shell took the Python script"),
+            Builds("no shebang", "command not found", "The shell executed the Python script"),
         ),
     ),
 )
@@ -151,7 +151,7 @@ SERVING = (
             Shows(
                 "returns_number",
                 "handler returned invalid value: Invalid number of arguments",
-                "cannot be made into a response",
+                "cannot become a response",
             ),
         ),
     ),
@@ -182,7 +182,7 @@ SERVING = (
     Row(
         "Serving",
         "wrong arity",
-        (Shows("wrong_arity", "takes 0 positional arguments but 1 was given", "takes the wrong arguments"),),
+        (Shows("wrong_arity", "takes 0 positional arguments but 1 was given", "has the wrong parameters"),),
     ),
     Row(
         "Serving",
@@ -199,7 +199,7 @@ SERVING = (
             Shows(
                 "request_for_type",
                 server="has no attribute '_request_class'",
-                cause="where the type of the service belongs",
+                cause="instead of the type of the service",
             ),
         ),
     ),
@@ -211,7 +211,7 @@ SERVING = (
                 "declared_twice",
                 "not yet written",
                 server="service [/lab/door] already registered",
-                cause="the old handler keeps answering",
+                cause="the old handler still answers",
             ),
         ),
     ),
@@ -231,7 +231,7 @@ CALLING = (
     Row(
         "Calling",
         "no such service",
-        (Shows("no_service", "service [/lab/dor] unavailable", "knows no provider"),),
+        (Shows("no_service", "service [/lab/dor] unavailable", "No node provides"),),
     ),
     Row(
         "Calling",
@@ -240,7 +240,7 @@ CALLING = (
             Shows(
                 "wait_in_vain",
                 "ROSException: timeout exceeded while waiting for service /lab/door",
-                "Nobody has begun to serve",
+                "No node provided this service",
             ),
         ),
     ),
@@ -249,13 +249,13 @@ CALLING = (
         "wait_for_service without a timeout",
         (
             Shows("wait_for_ever", hangs=True),
-            Shows("zero_timeout", "ValueError: timeout must be non-zero", "a time above 0"),
+            Shows("zero_timeout", "ValueError: timeout must be non-zero", "a timeout above 0"),
         ),
     ),
     Row(
         "Calling",
         "too few or too many positional arguments",
-        (Shows("too_few", "TypeError: Invalid number of arguments", "fewer or more fields"),),
+        (Shows("too_few", "TypeError: Invalid number of arguments", "differs from the number of fields"),),
     ),
     Row(
         "Calling",
@@ -308,7 +308,7 @@ CALLING = (
             Shows(
                 "died",
                 "transport error completing service call: unable to receive data from sender",
-                "went away while the call",
+                "ended during the call",
             ),
         ),
     ),
@@ -347,7 +347,7 @@ NODES_AND_MASTERS = (
     Row(
         "Nodes and masters",
         "master restarted",
-        (Shows("restarted_master", "service [/lab/door] unavailable", "knows no provider"),),
+        (Shows("restarted_master", "service [/lab/door] unavailable", "No node provides"),),
     ),
     Row("Nodes and masters", "master hung", (Shows("hung_master", hangs=True),)),
     Row(
@@ -364,22 +364,22 @@ NODES_AND_MASTERS = (
     Row(
         "Nodes and masters",
         "init_node on a thread",
-        (Shows("init_on_thread", "signal only works in main thread", "init_node() was called on a thread"),),
+        (Shows("init_on_thread", "signal only works in main thread", "called outside of the main thread"),),
     ),
     Row(
         "Nodes and masters",
         "rospy.spin() in a cell, then Interrupt",
-        (Shows("spun", "service [/lab/door] unavailable", "knows no provider", server="the door is served"),),
+        (Shows("spun", "service [/lab/door] unavailable", "No node provides", server="the door is served"),),
     ),
     Row(
         "Nodes and masters",
         "two kernels, one node name",
-        (Shows("same_name", server="new node registered with same name", cause="Two nodes have one name"),),
+        (Shows("same_name", server="new node registered with same name", cause="have the same name"),),
     ),
     Row(
         "Nodes and masters",
         "killed hard",
-        (Shows("killed", "ERROR: connection refused to [", "killed and could not sign off"),),
+        (Shows("killed", "ERROR: connection refused to [", "killed and could not unregister"),),
     ),
     Row(
         "Nodes and masters",
@@ -388,14 +388,14 @@ NODES_AND_MASTERS = (
             Shows(
                 "port_taken",
                 "roscore cannot run as another roscore/master is already running",
-                "A master runs on this port already",
+                "A master already runs on this port",
             ),
         ),
     ),
     Row(
         "Nodes and masters",
         "port taken: rosmaster",
-        (Shows("port_taken_rosmaster", "OSError: [Errno 98]", "Another program has the port", hangs=True),),
+        (Shows("port_taken_rosmaster", "OSError: [Errno 98]", "already uses the port", hangs=True),),
     ),
     Row(
         "Nodes and masters",
@@ -428,5 +428,5 @@ NODES_AND_MASTERS = (
 )
 
 ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
-# How many rows each section of the table has; a row added there has to be added here.
+# The number of rows in each section of the table. A new row must be counted here, too.
 COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

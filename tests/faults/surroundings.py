@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field
 
-from course_pkg.graph import Snapshot, look
-from course_pkg.graph.leashed import descendants
-from course_pkg.graph.ports import family, listening_ports
+from course_pkg.ros import Snapshot, look
+from course_pkg.ros.process.supervised import listening_ports
+from course_pkg.ros.process.supervisor import descendants
 
 
 @dataclass(frozen=True)
@@ -16,15 +16,16 @@ class Surroundings:
 
     graph: Snapshot = field(default_factory=look)
     processes: frozenset[int] = field(default_factory=lambda: frozenset(descendants(os.getpid())))
-    ports: frozenset[int] = field(default_factory=lambda: listening_ports(family(os.getpid())) or frozenset())
+    ports: frozenset[int] = field(default_factory=lambda: listening_ports(os.getpid()))
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return what is different now. A process that others started may end meanwhile."""
+        """Return what is different now. What ran before, such as a browser, may start processes."""
         now = Surroundings()
+        others = {pid for before in self.processes for pid in descendants(before)}
         left = {
             "graph": now.graph if now.graph != self.graph else None,
-            "processes": now.processes - self.processes,
+            "processes": now.processes - self.processes - others,
             "ports": now.ports ^ self.ports,
             "environment": dict(set(now.environment.items()) ^ set(self.environment.items())),
         }

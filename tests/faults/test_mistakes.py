@@ -1,4 +1,4 @@
-"""The table of mistakes is held to the code, row by row: each is caused for real, and explained."""
+"""The table of mistakes, row by row: each mistake is really made, and its symptom is explained."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from course_pkg.faults import caused, names
-from course_pkg.graph import MasterClient, PrivateMaster, explanations
-from tests.building.packages import GOOD, build, shell, spoilt, write
+from course_pkg.ros import MasterClient, PrivateMaster, explain
 from tests.faults.mistakes import COUNTS, ROWS, Builds, Shows
 from tests.faults.surroundings import Surroundings
 from tests.support import eventually
+from tests.workspace.packages import GOOD, build, shell, spoilt, write
 
 SHOWN = [each for row in ROWS for each in row.shown if isinstance(each, Shows)]
 BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
@@ -26,18 +26,18 @@ def test_no_row_is_left_out() -> None:
 
 
 def test_each_fault_of_the_lab_stands_for_a_row() -> None:
-    """The lab has no fault that the table does not know, and the table none that the lab lacks."""
+    """Each fault of the lab is in the table, and each fault of the table is in the lab."""
     assert sorted(each.fault for each in SHOWN) == sorted(names())
 
 
 def test_what_is_no_hang_says_something() -> None:
-    """A row that shows no words and no hang would hold nothing."""
+    """Each row shows an error message, or hangs."""
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
 @pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
-    """Caused for real it shows what the table says, that is explained, and afterwards all is as before."""
+    """The fault shows the table's symptom, the symptom is explained, and afterwards nothing is left."""
     assert master.uri
     before = Surroundings()
     with caused(shows.fault) as stage:
@@ -49,7 +49,7 @@ def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, show
     assert shows.said in seen.said
     assert shows.server in printed
     if shows.cause:
-        explained = [explanations.explain(text) for text in (seen.said, printed)]
+        explained = [explain.explain(text) for text in (seen.said, printed)]
         assert any(each.known and shows.cause in each.cause for each in explained), explained
 
 
@@ -86,7 +86,7 @@ LINES = {
 
 
 def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
-    """Return what ROS really prints for this slip."""
+    """Return what ROS prints for this mistake."""
     if built.slip in LINES:
         line, sourced = LINES[built.slip]
         return shell(workspace, line, sourced=sourced)
@@ -105,16 +105,16 @@ def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
 
 @pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
 def test_a_slip_in_building_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
-    """What catkin_make and the tools really print holds the stable words, and is explained."""
+    """What catkin_make and the tools print contains the stable text, and is explained."""
     text = printed(built, workspace, tmp_path)
     assert " ".join(built.said.split()) in " ".join(text.split())
-    explained = explanations.explain(text)
+    explained = explain.explain(text)
     assert explained.known
     assert built.cause in explained.cause
 
 
 def test_two_labs_on_one_graph(master: PrivateMaster) -> None:
-    """Two kernels may each have a case at once: neither sees the other's door."""
+    """Two kernels may each open a case at the same time; neither uses the other's nodes."""
     client = MasterClient(master.uri)
     with caused("stale") as one, caused("returns_none") as other:
         assert one.namespace != other.namespace

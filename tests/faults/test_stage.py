@@ -1,8 +1,10 @@
-"""Whatever becomes of a case, the graph is as before."""
+"""After every case, the graph is as before."""
 
 from __future__ import annotations
 
 import signal
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,8 +13,8 @@ import pytest
 from course_pkg.errors import MasterUnreachable, NodeFailed, UnknownFault
 from course_pkg.faults import TOOLS, Stage, caused, named, probe
 from course_pkg.faults.catalogue import every_fault, select
-from course_pkg.graph import MasterClient, PrivateMaster
-from course_pkg.graph.leashed import descendants
+from course_pkg.ros import MasterClient, PrivateMaster
+from course_pkg.ros.process.supervisor import descendants
 from tests.kernel import Kernel
 from tests.support import eventually, process_state
 
@@ -21,7 +23,7 @@ from course_pkg.faults import Stage, named
 stages = [Stage(named(name)) for name in {names!r}]
 for stage in stages:
     stage.cause()
-result = [str(stage._props.folder) for stage in stages]
+result = [str(stage._resources.folder) for stage in stages]
 """
 
 
@@ -32,7 +34,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL no process of a case is left, no registration, not even of what was killed on purpose."""
+    """After SIGKILL no process and no registration of a case is left, not even of nodes killed on purpose."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -43,7 +45,7 @@ def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, n
 
 
 def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kernel) -> None:
-    """Its last act is to take the case off the graph."""
+    """A kernel that ends removes its case from the graph."""
     kernel.run(CAUSE.format(names=["stale"]))
     assert nodes(master)
     kernel.exit()
@@ -51,7 +53,7 @@ def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kerne
 
 
 def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
-    """A case whose server does not come says so in bounded time, and leaves nothing."""
+    """A case whose server does not start raises an error in bounded time, and leaves nothing."""
 
     def play(stage: Stage) -> None:
         stage.serve("raise SystemExit(3)")
@@ -63,7 +65,7 @@ def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
 
 
 def test_without_a_graph_there_is_no_case(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It is said at once, before anything is started."""
+    """The error is raised before anything is started."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))
@@ -79,7 +81,7 @@ def test_undone_twice_is_undone(master: PrivateMaster) -> None:
 
 
 def test_a_fault_can_be_mended_by_hand(master: PrivateMaster) -> None:
-    """What the tools do is real: a stopped server goes on by SIGCONT, and answers the next call."""
+    """The tools really act: a server that was stopped continues by SIGCONT, and answers the next call."""
     assert master.uri
     with caused("stopped") as stage:
         assert stage.keeper is not None
@@ -88,7 +90,7 @@ def test_a_fault_can_be_mended_by_hand(master: PrivateMaster) -> None:
 
 
 def test_the_tools_show_what_is_there(master: PrivateMaster) -> None:
-    """Each tool is a real command, and ends; a clean-up takes the dead entries of the case away."""
+    """Each tool is a real command and ends; a clean-up removes the dead registrations of the case."""
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}
@@ -102,7 +104,7 @@ def test_the_tools_show_what_is_there(master: PrivateMaster) -> None:
 
 
 def test_names_and_groups_are_found() -> None:
-    """By name, by group, all for none; what there is not is said, with what there is."""
+    """Cases are selected by name or by group; an unknown name raises an error that lists the known ones."""
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}
@@ -113,7 +115,7 @@ def test_names_and_groups_are_found() -> None:
 
 
 def test_each_fault_is_told_apart() -> None:
-    """Names, diagnoses and reasons are each their own; every text is a sentence; every chapter is known."""
+    """Names, diagnoses and reasons are unique; each text is a sentence; each chapter exists."""
     faults = every_fault()
     for texts in (
         [each.name for each in faults],
@@ -124,3 +126,12 @@ def test_each_fault_is_told_apart() -> None:
     assert all(text.endswith(".") for each in faults for text in (each.diagnosis, each.remedy, each.reason))
     known = {each.name for each in faults}
     assert all(set(each.unlike) <= known for each in faults)
+
+
+def test_a_fault_needs_no_rospy_in_the_kernel() -> None:
+    """The faulty programs run as separate processes: the kernel only starts and calls them."""
+    code = "import sys, course_pkg.faults as f; f.caused, f.probe, f.names(); print('rospy' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True
+    )
+    assert done.stdout.strip() == "False"

@@ -1,10 +1,10 @@
-"""Made-up grades of a class, and of somebody who means harm."""
+"""Made-up grades of a class, some of them with harmful texts."""
 
 from __future__ import annotations
 
 import random
 
-from course_pkg.examiner.report import Report, Rule, Verdict
+from course_pkg.checking.report import Assertion, Report, Verdict
 from course_pkg.grading.grade import CellOutcome, Grade
 
 GOALS = {
@@ -32,10 +32,13 @@ NASTY = "\x1b[31m<script>alert(1)</script>\x00\u202e=HYPERLINK(1)]]>&\ud800\ufff
 def report(check: str, verdict: Verdict = Verdict.PASSED, **more: object) -> Report:
     """Return a report on one part."""
     possible = POINTS.get(check, 2)
-    rules = [Rule("the service is there", True), Rule("it has the type that the exercise names", True)]
+    rules = [
+        Assertion("the service is there", True),
+        Assertion("it has the type that the exercise names", True),
+    ]
     if verdict is Verdict.FAILED:
         asked = 'rosservice call /getGeometry "{length: 1.25, width: 4.0, height: 2.5}"'
-        rules.append(Rule("area is width times length", False, asked, "5", "5.25", HINTS[check]))
+        rules.append(Assertion("area is width times length", False, asked, "5", "5.25", HINTS[check]))
     notes = {
         Verdict.NOT_ATTEMPTED: "Replace the ... by your answer, and run the cell.",
         Verdict.UNDECIDED: "The kernel ended before the check did: it used more than 512 MB of memory.",
@@ -55,7 +58,7 @@ def class_of(count: int, chapters: tuple[str, ...] = ("05",), seed: int = 5) -> 
         for chapter in chapters:
             checks = [check for check in GOALS if check.startswith(chapter)]
             reports = tuple(report(check, _verdict(draw, strength)) for check in checks)
-            notes = ("05.2: 2 cells answer it; the last one was taken.",) if number % 9 == 0 else ()
+            notes = ("05.2: 2 cells answer it; the last one was used.",) if number % 9 == 0 else ()
             late, factor = (1.5, 0.8) if number % 11 == 0 else (0.0, 1.0)
             outcomes = [
                 CellOutcome(
@@ -94,7 +97,7 @@ def refused(
     chapter: str = "05",
     problem: str = "05_write_a_server.ipynb was not graded: it is empty.",
 ) -> Grade:
-    """Return the grade of what could not be graded."""
+    """Return the grade of a submission that could not be graded."""
     checks = [check for check in GOALS if chapter and check.startswith(chapter)]
     reports = tuple(report(check, Verdict.UNDECIDED, note=problem) for check in checks)
     return Grade(student, chapter, reports, problem=problem, origin="x")
@@ -102,7 +105,7 @@ def refused(
 
 def nasty(student: str = "../" + NASTY, **more: object) -> Grade:
     """Return a grade with something harmful in every text."""
-    rule = Rule(NASTY, False, NASTY, NASTY, NASTY, NASTY)
+    rule = Assertion(NASTY, False, NASTY, NASTY, NASTY, NASTY)
     bad = Report("05.1", Verdict.FAILED, NASTY, 0, 2, (rule,), NASTY, NASTY * 1000)
     cells = (CellOutcome(NASTY, NASTY, NASTY),)
     made = Grade(student, "05", (bad,), (NASTY,), cells, origin=NASTY, problem=NASTY)

@@ -1,4 +1,4 @@
-"""Notebooks as students hand them in, made from the real ones, and folders and zips of them."""
+"""Submissions in all layouts, made from the real notebooks."""
 
 from __future__ import annotations
 
@@ -6,26 +6,25 @@ import json
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-from course_pkg.authoring import Shelf
-from course_pkg.authoring.shelf import derived, read
+from course_pkg.authoring.cells import Notebook
+from course_pkg.authoring.notebook_store import NotebookStore, derived, read
 
 NAMES = {"05": "05_write_a_server.ipynb", "06": "06_write_a_client.ipynb"}
 
 
-def reference(chapter: str = "05") -> dict[str, Any]:
+def reference(chapter: str = "05") -> Notebook:
     """Return the solution of a chapter."""
-    return read(Shelf().solutions([chapter])[0])
+    return read(NotebookStore().solutions([chapter])[0])
 
 
-def handed_out(chapter: str = "05") -> dict[str, Any]:
-    """Return the notebook that students begin with."""
+def handed_out(chapter: str = "05") -> Notebook:
+    """Return the students' notebook of a chapter."""
     return json.loads(json.dumps(derived(reference(chapter))))
 
 
-def raw(notebook: Mapping[str, Any]) -> bytes:
-    """Return a notebook as a file holds it."""
+def raw(notebook: Notebook) -> bytes:
+    """Return the bytes of a notebook's file."""
     return json.dumps(notebook).encode()
 
 
@@ -38,7 +37,7 @@ def folder(root: Path, files: Mapping[str, bytes]) -> Path:
     return root
 
 
-def zipped(path: Path, files: Mapping[str, bytes], **changes: Any) -> Path:  # noqa: ANN401 -- of a ZipInfo
+def zipped(path: Path, files: Mapping[str, bytes], **changes: int | str | bytes) -> Path:
     """Write `files` into a zip; `changes` are attributes of each member."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():

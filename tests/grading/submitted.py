@@ -1,4 +1,4 @@
-"""Submissions to grade: the solution of a chapter with a student's answers in it."""
+"""Submissions to grade: the solution of a chapter with a student's answers."""
 
 from __future__ import annotations
 
@@ -7,21 +7,27 @@ from pathlib import Path
 
 from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import code_cells, exercise_of
-from course_pkg.authoring.shelf import Shelf
+from course_pkg.authoring.notebook_store import NotebookStore
 from tests.grading.handing_in import folder as write_files
 from tests.grading.handing_in import raw, reference
 
-WRONG = "def handle_geometry(request):\n    return geometryResponse(area=1.0, volume=2.0)\n"
+WRONG = """
+def handle_geometry(request):
+    return geometryResponse(area=1.0, volume=2.0)
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+"""
 
 
 def hand_in(
     folder: Path, student: str, chapter: str = "05", answers: Mapping[str, str] | None = None
 ) -> Path:
-    """Write the solution of `chapter` as `student`'s, with `answers` by part; "" leaves a cell blank."""
+    """Write `student`'s copy of a chapter's solution, with `answers` by part; "" leaves a cell blank."""
     notebook = reference(chapter)
     for cell in code_cells(notebook):
         part = exercise_of(cell)
         if answers and part in answers:
             cell["source"] = answers[part] or handed_out(part, cell["source"])
-    name = f"{student}/{Shelf().solutions([chapter])[0].name}"
+    name = f"{student}/{NotebookStore().solutions([chapter])[0].name}"
     return write_files(folder, {name: raw(notebook)}) / name

@@ -1,4 +1,4 @@
-"""What comes from a submission is harmless where it goes."""
+"""Text from a submission is harmless in every report."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NASTY = {
 
 @pytest.mark.parametrize(("given", "kept"), NASTY.values(), ids=NASTY)
 def test_text_shows_what_it_is(given: str, kept: str) -> None:
-    """Nothing in it steers a terminal, hides or turns letters, or breaks XML or UTF-8."""
+    """The text contains no terminal codes, no invisible characters, and nothing that breaks XML or UTF-8."""
     assert clean.text(given) == kept
     assert clean.text(clean.text(given)) == kept
 
@@ -33,7 +33,7 @@ def test_text_shows_what_it_is(given: str, kept: str) -> None:
     "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
 )
 def test_length_is_bounded(given: str) -> None:
-    """However long a text is, little of it is kept; what was cut is cut only once."""
+    """Of a long text, only a limited part is kept; cutting it again changes nothing."""
     kept = clean.text(given)
     assert len(kept) <= clean.LONG
     assert kept.count("\n") <= clean.LINES
@@ -41,12 +41,12 @@ def test_length_is_bounded(given: str) -> None:
 
 
 def test_what_is_cut_says_so() -> None:
-    """A reader is told that there was more."""
+    """A mark shows that the text was cut."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
 
 def test_a_line_is_one_line() -> None:
-    """Line ends and tabs become blanks."""
+    """Line ends and tabs become spaces."""
     assert clean.line(" a\n\tb\r\nc ") == "a b c"
 
 
@@ -54,26 +54,26 @@ def test_a_line_is_one_line() -> None:
     "start", ["=", "+", "-", "@", "\t=", "\r=", "\n=", " =", "\x00=", "\u200b=", "\uff1d"]
 )
 def test_no_cell_is_a_formula(start: str) -> None:
-    """A spreadsheet shows it as a text, whatever stands in front of the sign."""
+    """A spreadsheet shows it as text, with any characters before the sign."""
     assert clean.cell(start + "HYPERLINK(1)").startswith("'")
 
 
 def test_markup_is_text() -> None:
-    """A page shows it and does not follow it, in an attribute neither."""
+    """A page shows it as text, also in an attribute."""
     assert clean.html("<script>'\"&") == "&lt;script&gt;&#x27;&quot;&amp;"
 
 
 def test_data_of_any_shape_is_cleaned() -> None:
-    """Texts in lists and dicts, the keys as well; numbers stay, and a list has an end."""
+    """Texts in lists and dicts are cleaned, and keys as well; numbers stay, and long lists are cut."""
     given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
-    cleaned = clean.data(given)
+    cleaned = clean.record(given)
     assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
     assert len(cleaned["n"]) == clean.ITEMS
 
 
 @pytest.mark.parametrize("name", ["s01", "anna.b-c_1", "0"])
 def test_a_plain_name_stays(name: str) -> None:
-    """Nobody has to look for a file under another name."""
+    """A usual name does not change, so its file is easy to find."""
     assert clean.file_name(name) == name
 
 
@@ -98,7 +98,7 @@ WILD = [
 
 
 def test_a_wild_name_stays_in_its_folder() -> None:
-    """No separators, no devices, no dots in front, of bearable length; and each has another name."""
+    """Names contain no separators, devices or leading dots, have a limited length, and stay different."""
     names = [clean.file_name(name) for name in WILD]
     for name in names:
         assert clean.PLAIN_NAME.fullmatch(name), name
@@ -109,14 +109,14 @@ def test_a_wild_name_stays_in_its_folder() -> None:
 
 
 def test_a_name_cannot_take_the_place_of_another() -> None:
-    """Who calls themselves as the changed name of another student gets a third name."""
+    """A student whose name equals another's changed name gets a third name."""
     changed = clean.file_name("S01")
     assert changed != clean.file_name("s01")
     assert clean.file_name(changed) != changed
 
 
 def test_a_student_keeps_the_name() -> None:
-    """As it is written, in one form of Unicode; what had to be taken out still tells two names apart."""
+    """A name is kept in one form of Unicode; two names stay different even if characters are removed."""
     assert clean.identity("Größe_12") == clean.identity("Gro\u0308ße_12") == "Größe_12"
     assert clean.identity("a\x00") != clean.identity("a")
     assert clean.identity("a\ud800") != clean.identity("a\ud801")

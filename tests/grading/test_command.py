@@ -1,4 +1,4 @@
-"""`course grade` as an instructor types it: whole runs, killed and continued, by threads and by a cluster."""
+"""`course grade` as an instructor types it: whole runs, killed and continued, with threads and a cluster."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from pathlib import Path
 
 import pytest
 
-from course_pkg.graph.leashed import descendants
-from course_pkg.provision import Places
+from course_pkg.ros.process.supervisor import descendants
+from course_pkg.setup import Places
 from tests.grading.submitted import WRONG, hand_in
 from tests.support import eventually
 
-pytestmark = pytest.mark.usefixtures("walls")
+pytestmark = pytest.mark.usefixtures("sandbox")
 TOTAL = "earned"
 COURSE = Places.of().checkout / "course"
 
 
 @pytest.fixture(scope="module")
 def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Four students: all right, one part wrong, the same notebook as the first, and no notebook at all."""
+    """Write submissions of four students: all right, one part wrong, a copy of the first, no notebook."""
     folder = tmp_path_factory.mktemp("submissions")
     hand_in(folder, "s01")
     hand_in(folder, "s02", answers={"05.1": WRONG})
@@ -49,7 +49,7 @@ def points(out: Path) -> dict[str, float]:
 
 @pytest.fixture(scope="module")
 def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Grade all, with nothing in the way, and keep the folder."""
+    """Grade all submissions, and return the folder."""
     out = tmp_path_factory.mktemp("grades")
     done = grade(submissions, out)
     assert done.returncode == 0, done.stderr
@@ -58,7 +58,7 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 def test_everybody_gets_what_they_deserve(undisturbed: Path) -> None:
-    """Full marks, one part less, the same as the first, and nothing with a reason."""
+    """The grades are full marks, one part less, the same as the first, and zero with a reason."""
     earned = points(undisturbed)
     assert earned["s01"] == earned["s03"] > earned["s02"] > earned["s04"] == 0
     record = json.loads((undisturbed / "results" / "s04" / "05.json").read_text())
@@ -66,7 +66,7 @@ def test_everybody_gets_what_they_deserve(undisturbed: Path) -> None:
 
 
 def test_every_report_is_there(undisturbed: Path) -> None:
-    """For spreadsheets, platforms, students and the instructor."""
+    """There are files for spreadsheets, platforms, students and the instructor."""
     names = {str(path.relative_to(undisturbed)) for path in undisturbed.rglob("*") if path.is_file()}
     assert {
         "grades.csv",
@@ -81,7 +81,7 @@ def test_every_report_is_there(undisturbed: Path) -> None:
 
 
 def test_what_is_graded_is_not_graded_again(submissions: Path, undisturbed: Path) -> None:
-    """The same command again takes every grade from the run before."""
+    """The same command again reads all grades from the previous run."""
     before = points(undisturbed)
     done = grade(submissions, undisturbed)
     assert "4 of 4 notebooks are graded from an earlier run" in done.stderr
@@ -92,7 +92,7 @@ def test_what_is_graded_is_not_graded_again(submissions: Path, undisturbed: Path
 def test_a_run_that_was_killed_goes_on(
     submissions: Path, undisturbed: Path, tmp_path: Path, after: float
 ) -> None:
-    """SIGKILL leaves no process behind, and the next run's grades are those of an undisturbed one."""
+    """SIGKILL leaves no process, and the next run gives the same grades as an undisturbed one."""
     with subprocess.Popen(
         [COURSE, "grade", submissions, "--out", tmp_path, "--validate", "none"], stderr=subprocess.DEVNULL
     ) as process:
@@ -107,7 +107,7 @@ def test_a_run_that_was_killed_goes_on(
 
 @pytest.mark.timeout(240)
 def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
-    """By dask's workers in processes of their own, with the same code."""
+    """Dask workers in separate processes give the same grades."""
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
@@ -118,16 +118,16 @@ def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, t
 
 
 def test_private_parts_count_and_are_not_shown(submissions: Path, tmp_path: Path) -> None:
-    """An instructor's own checks and points: in the grade, and not in what students read."""
+    """An instructor's own checks and points are in the grade, and not in the students' pages."""
     private = tmp_path / "private"
     private.mkdir()
     (private / "private_05.py").write_text("""
-from course_pkg.examiner import Exam, part
+from course_pkg.checking import CheckContext, part
 
 @part("05.1.1", points=3, goal="A secret goal.", needs=["handle_geometry"])
-def flat(exam: Exam) -> None:
-    response = exam.service("/getGeometry", "course_pkg/geometry")(length=2.0, width=3.0, height=0.0)
-    exam.expect("a secret rule", expected=[6.0, 0.0], seen=[response.area, response.volume], near=1e-3)
+def flat(context: CheckContext) -> None:
+    response = context.service("/getGeometry", "course_pkg/geometry")(length=2.0, width=3.0, height=0.0)
+    context.expect("a secret rule", expected=[6.0, 0.0], actual=[response.area, response.volume], near=1e-3)
 """)
     (private / "points.json").write_text('{"05.2": 0, "05.1": 5}')
     out = tmp_path / "out"
@@ -146,16 +146,16 @@ def flat(exam: Exam) -> None:
 
 
 def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -> None:
-    """--unsafe-no-sandbox grades as well, and is not to be overlooked."""
+    """--unsafe-no-sandbox gives the same grades, with a warning in each report."""
     done = grade(submissions, tmp_path, "--unsafe-no-sandbox")
     assert done.returncode == 0, done.stderr
     assert points(tmp_path)["s01"] > points(tmp_path)["s02"]
     for name in ("feedback/s01.html", "class.html"):
-        assert "without walls" in (tmp_path / name).read_text()
+        assert "without a sandbox" in (tmp_path / name).read_text()
 
 
 def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
-    """`course grade-one` keeps nothing besides."""
+    """`course grade-one` writes no other file."""
     notebook = submissions / "s02" / "05_write_a_server.ipynb"
     out = tmp_path / "grade.json"
     subprocess.run(
@@ -171,8 +171,9 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
     [
         (["/nowhere"], "nowhere"),
         (["{here}", "--chapters", "99"], "99"),
-        (["{here}", "--late-policy", "much"], "late policy"),
-        (["{here}", "--private", "/nowhere"], "no folder"),
+        (["{here}", "--late", "late.csv"], "--late needs a policy"),
+        (["{here}", "--late-per-day", "much"], "--late-per-day"),
+        (["{here}", "--private", "/nowhere"], "not a folder"),
         (["{here}", "--out", "/proc/here"], "--out"),
         (["{here}", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
     ],
@@ -180,7 +181,7 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
 def test_what_makes_no_sense_is_said_in_one_message(
     submissions: Path, tmp_path: Path, words: list[str], said: str
 ) -> None:
-    """No traceback, and what to do about it."""
+    """The message has no traceback and names the next step."""
     given = [word.format(here=submissions) for word in words]
     command = [COURSE, "grade", *given, *([] if "--out" in given else ["--out", tmp_path / "out"])]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)

@@ -1,7 +1,8 @@
-"""Late days from a table, and what they cost."""
+"""Late days from a table, and the points that they cost."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -18,50 +19,69 @@ def _table(folder: Path, content: str | bytes) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("words", "late", "factor"),
+    ("per_day", "max_days", "late", "factor"),
     [
-        ("10% a day, 3 days", 0, 1.0),
-        ("10% a day, 3 days", 0.1, 0.9),
-        ("10% a day, 3 days", 1, 0.9),
-        ("10% a day, 3 days", 3, 0.7),
-        ("10% a day, 3 days", 3.5, 0.0),
-        ("10 % per day, at most 3 days", 2, 0.8),
-        ("10% A DAY", 9, 0.1),
-        ("10% a day", 11, 0.0),
-        ("33.3% each day", 1, 0.667),
-        ("100% a day", 0.01, 0.0),
-        ("", 9, 1.0),
-        ("none", 9, 1.0),
+        (10, 3, 0, 1.0),
+        (10, 3, 0.1, 0.9),
+        (10, 3, 1, 0.9),
+        (10, 3, 3, 0.7),
+        (10, 3, 3.5, 0.0),
+        (10, None, 9, 0.1),
+        (10, None, 11, 0.0),
+        (33.3, None, 1, 0.667),
+        (100, None, 0.01, 0.0),
+        (0, None, 9, 1.0),
+        (None, 2, 2, 1.0),
+        (None, 2, 2.5, 0.0),
     ],
 )
-def test_what_lateness_costs(words: str, late: float, factor: float) -> None:
-    """Each day that has begun costs its share; after the last nothing is left, never less than nothing."""
-    assert late_policy(words).factor(late) == pytest.approx(factor)
+def test_what_lateness_costs(
+    tmp_path: Path, per_day: float | None, max_days: float | None, late: float, factor: float
+) -> None:
+    """Each started day costs its share; after the last day no points are left."""
+    assert late_policy(tmp_path, per_day, max_days).factor(late) == pytest.approx(factor)
+
+
+def test_without_a_table_nothing_costs() -> None:
+    """Without the options, no submission is late."""
+    assert late_policy(None, None, None).factor(9) == 1.0
 
 
 @pytest.mark.parametrize(
-    "words", ["10", "10% an hour", "-10% a day", "110% a day", "10% a day, many days", "nan% a day"]
+    ("table", "per_day", "max_days", "message"),
+    [
+        (Path("late.csv"), None, None, "--late needs a policy.*--late-per-day 10"),
+        (None, 10, None, "--late TABLE"),
+        (None, None, 3, "--late TABLE"),
+        (Path("late.csv"), -10, None, "--late-per-day -10 .*0 to 100"),
+        (Path("late.csv"), 110, None, "--late-per-day 110 .*0 to 100"),
+        (Path("late.csv"), math.nan, None, "--late-per-day nan .*0 to 100"),
+        (Path("late.csv"), 10, -1, "--late-max-days -1 .*0 or more"),
+        (Path("late.csv"), 10, math.nan, "--late-max-days nan .*0 or more"),
+    ],
 )
-def test_a_policy_that_is_none(words: str) -> None:
-    """It is refused, with an example."""
-    with pytest.raises(GradingError, match="10% a day, 3 days"):
-        late_policy(words)
+def test_a_policy_that_makes_no_sense_is_refused(
+    table: Path | None, per_day: float | None, max_days: float | None, message: str
+) -> None:
+    """The message names the option and the expected value."""
+    with pytest.raises(GradingError, match=message):
+        late_policy(table, per_day, max_days)
 
 
 def test_a_table_by_student(tmp_path: Path) -> None:
-    """A row holds for every chapter; who has no row is in time."""
+    """A row applies to all chapters; a student without a row is in time."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns02,0.5\n\n"))
     assert [table.days(each, "05") for each in ("s01", "s02", "s03")] == [2.0, 0.5, 0.0]
 
 
 def test_a_row_for_a_chapter_is_nearer(tmp_path: Path) -> None:
-    """It outranks the student's other row; "5" is chapter 05."""
+    """A row for a chapter replaces the student's general row; "5" means chapter 05."""
     table = late_table(_table(tmp_path, "student,chapter,days\ns01,,1\ns01,5,3\n"))
     assert (table.days("s01", "05"), table.days("s01", "06")) == (3.0, 1.0)
 
 
 def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
-    """With a mark at the beginning, semicolons, a comma for the point, capitals, other line ends."""
+    """A byte order mark, semicolons, decimal commas, capitals and other line ends are accepted."""
     table = late_table(_table(tmp_path, "\ufeffStudent;Days\r\nGro\u0308ße;1,5\r\n".encode()))
     assert table.days("Größe", "05") == 1.5
 
@@ -85,20 +105,20 @@ def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table(tmp_path: Path, content: str | bytes, words: str) -> None:
-    """The message names the line and what is wrong with it, and not the student."""
+    """The message names the line and the mistake, and not the student."""
     with pytest.raises(GradingError, match=words) as caught:
         late_table(_table(tmp_path, content))
     assert "secret" not in str(caught.value)
 
 
 def test_no_table(tmp_path: Path) -> None:
-    """A file that is not there is named."""
+    """The message names the missing file."""
     with pytest.raises(GradingError, match=r"none\.csv"):
         late_table(tmp_path / "none.csv")
 
 
 def test_lateness_goes_to_the_submissions(tmp_path: Path) -> None:
-    """Each gets its own; and a student of the table who handed nothing in is counted."""
+    """Each student gets their own days; a student of the table without a submission is counted."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns99,1\n"))
     given = [Submission(name, "05", b"", "") for name in ("s01", "s02")]
     assert [each.late for each in table.applied(given)] == [2.0, 0.0]

@@ -1,4 +1,4 @@
-"""Every report says what was earned and why, to whoever reads it, and carries nothing harmful along."""
+"""Each report states the points and the reasons for its readers, and contains nothing harmful."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from xml.etree import ElementTree
 
 import pytest
 
+from course_pkg.checking.report import Verdict
 from course_pkg.errors import GradingError
-from course_pkg.examiner.report import Verdict
 from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports import read_grades, record_path, write_record, write_reports
-from course_pkg.grading.reports.book import WITHOUT_WALLS, Book, attention
+from course_pkg.grading.reports.gradebook import WITHOUT_SANDBOX, Book, attention
 from tests.grading.grades import HINTS, NASTY, class_of, nasty, refused, report
 
-OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # tags that nothing closes
+OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # tags without an end tag
 
 
 class Outline(HTMLParser):
-    """What a page consists of; a tag that closes another than the last open one is noted."""
+    """Collects the tags of a page; a tag that closes another one than the last open one is an error."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -38,22 +38,22 @@ class Outline(HTMLParser):
         self.wrong += self._open
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note a tag."""
+        """Store a tag."""
         self.tags.append((tag, dict(attrs)))
         if tag not in OPEN:
             self._open.append(tag)
 
     def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note a tag that closes itself."""
+        """Store a tag that closes itself."""
         self.tags.append((tag, dict(attrs)))
 
     def handle_endtag(self, tag: str) -> None:
-        """Hold that the last open tag is closed."""
+        """Assert that the last open tag is closed."""
         if not self._open or self._open.pop() != tag:
             self.wrong.append(tag)
 
     def handle_data(self, data: str) -> None:
-        """Keep the text."""
+        """Store the text."""
         self.text.append(data)
 
     def all(self, *names: str) -> list[dict[str, str | None]]:
@@ -71,7 +71,7 @@ def _files(out: Path) -> Iterator[Path]:
 
 
 def _two() -> list[Grade]:
-    """Return two students: all right but late, and one of each verdict and nothing for chapter 06."""
+    """Return two students: one all right but late, one with each verdict and no chapter 06."""
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
     full = tuple(report(f"05.{number}") for number in range(1, 6))
@@ -84,7 +84,7 @@ def _two() -> list[Grade]:
 
 
 def test_the_table(tmp_path: Path) -> None:
-    """A row a student, a column a part; what was not handed in is empty; lateness is taken off the totals."""
+    """Each student has a row, each part a column; missing work is empty; late days reduce the totals."""
     write_reports(_two(), tmp_path)
     head, first, second = _rows(tmp_path / "grades.csv")
     five = ["05.1", "05.2", "05.3", "05.4", "05.5", "05 days late", "05 total"]
@@ -107,7 +107,7 @@ def test_the_table(tmp_path: Path) -> None:
 
 
 def test_the_records(tmp_path: Path) -> None:
-    """They hold the grades, whole, under names that are the students'."""
+    """The records contain the whole grades, under the students' names."""
     grades = [*_two(), refused("s03", "", "x.pdf is no notebook."), refused("s03", "06")]
     write_reports(grades, tmp_path)
     assert read_grades(tmp_path) == sorted(grades, key=lambda grade: (grade.student, grade.chapter))
@@ -116,7 +116,7 @@ def test_the_records(tmp_path: Path) -> None:
 
 
 def test_reports_from_records(tmp_path: Path) -> None:
-    """What was graded before a run was killed is enough to report on."""
+    """Reports can be written on the part that was graded before a run was killed."""
     for grade in class_of(3):
         write_record(tmp_path, grade)
     write_reports(read_grades(tmp_path), tmp_path)
@@ -125,7 +125,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_a_record_that_is_none(tmp_path: Path, content: str) -> None:
-    """The instructor learns which file it is; the student's name is not said."""
+    """The message names the file, and not the student."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)
@@ -135,7 +135,7 @@ def test_a_record_that_is_none(tmp_path: Path, content: str) -> None:
 
 
 def test_gradescope(tmp_path: Path) -> None:
-    """As its specification has it: tests with scores and words, and a score that lateness is taken off."""
+    """The file follows Gradescope's format: tests with scores and texts, and a score reduced by lateness."""
     write_reports(_two(), tmp_path)
     results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
     assert results["score"] == 12.1
@@ -152,7 +152,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """The columns that it finds a student by, the points possible, and no grade for what is missing."""
+    """It has the columns that identify a student, the possible points, and no grade for missing work."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -169,7 +169,7 @@ def test_canvas(tmp_path: Path) -> None:
 
 
 def test_moodle(tmp_path: Path) -> None:
-    """By user name, address or full name; each grade with its feedback."""
+    """Students are identified by user name, address or full name; each grade has its feedback."""
     five = _two()[2]
     moodle = replace(five, student="Full Name_12", origin="Full Name_12_assignsubmission_file_/05.ipynb")
     write_reports([five, replace(five, student="a@b.example"), moodle], tmp_path)
@@ -182,7 +182,7 @@ def test_moodle(tmp_path: Path) -> None:
 
 
 def test_junit(tmp_path: Path) -> None:
-    """A part that was not examined is an error, and none is skipped."""
+    """A part that was not examined is an error, and no part is skipped."""
     write_reports([*_two(), refused("s03", "")], tmp_path)
     root = ElementTree.parse(tmp_path / "junit.xml").getroot()  # noqa: S314 -- our own file
     assert {key: root.get(key) for key in ("tests", "failures", "errors")} == {
@@ -200,7 +200,7 @@ def test_junit(tmp_path: Path) -> None:
 
 
 def test_feedback_teaches(tmp_path: Path) -> None:
-    """Rule, what was asked, expected and seen, and the hint; and what was out of the ordinary."""
+    """The page shows assertion, inputs, expected and actual values, hint, and unusual events."""
     write_reports(_two(), tmp_path)
     page = " ".join("".join(Outline((tmp_path / "feedback/s02.html").read_text()).text).split())
     for words in (
@@ -216,7 +216,7 @@ def test_feedback_teaches(tmp_path: Path) -> None:
 
 
 def test_the_class_page(tmp_path: Path) -> None:
-    """How each part went in words, the hints by how many were given them, and who needs a look."""
+    """The page shows results by part, hints by frequency, and the submissions that need a look."""
     write_reports([*class_of(30), refused("s31")], tmp_path)
     outline = Outline((tmp_path / "class.html").read_text())
     page = " ".join("".join(outline.text).split())
@@ -231,34 +231,34 @@ def test_the_class_page(tmp_path: Path) -> None:
 
 
 def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
-    """However many rules gave it."""
+    """A hint is counted once, even if several assertions gave it."""
     failed = report("05.1", Verdict.FAILED)
-    twice = replace(failed, rules=(*failed.rules, failed.rules[-1]))
+    twice = replace(failed, assertions=(*failed.assertions, failed.assertions[-1]))
     write_reports([Grade("s01", "05", (twice,)), Grade("s02", "05", (failed,))], tmp_path)
     page = (tmp_path / "class.html").read_text()
     assert re.search(rf"{re.escape(HINTS['05.1'])}</td><td class=\"number\">2<", page)
 
 
 def test_a_broken_rule_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """An author sees where a hint is wanted."""
+    """Failures without a hint are listed, for the author of the check."""
     failed = report("05.1", Verdict.FAILED)
-    plain = replace(failed, rules=tuple(replace(rule, hint="") for rule in failed.rules))
+    plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)
     assert "(no hint) area is width times length" in (tmp_path / "class.html").read_text()
 
 
 def test_nobody_and_nothing(tmp_path: Path) -> None:
-    """A class of nobody, and files of nobody's."""
+    """An empty class, and files without a student, can be reported."""
     write_reports([], tmp_path)
     assert "nothing to show" in (tmp_path / "class.html").read_text()
-    write_reports([refused("", "", "x.ipynb: nothing tells whose it is.")], tmp_path)
+    write_reports([refused("", "", "x.ipynb: its student is unknown it is.")], tmp_path)
     assert "(nobody)" in (tmp_path / "class.html").read_text()
-    assert "nothing tells whose" in (tmp_path / "feedback/nobody.html").read_text()
+    assert "its student is unknown" in (tmp_path / "feedback/nobody.html").read_text()
     assert len(_rows(tmp_path / "canvas.csv")) == 2
 
 
 def test_who_needs_a_look() -> None:
-    """Problems, what was not examined, nothing at all, and nothing earned; not a late or an odd notebook."""
+    """These need a look: problems, unexamined parts, no submission, no points; late or odd ones do not."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -268,20 +268,23 @@ def test_who_needs_a_look() -> None:
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
-    """In words; be it one submission of many."""
-    write_reports([replace(grade, walls=False) for grade in class_of(2)], tmp_path)
+    """The feedback is text, also for one of many submissions."""
+    write_reports([replace(grade, sandboxed=False) for grade in class_of(2)], tmp_path)
     for path in _files(tmp_path):
-        assert "without walls" in path.read_text().replace("Run without walls", "run without walls"), path
-    assert WITHOUT_WALLS in read_grades(tmp_path)[0].notes
+        assert "without a sandbox" in path.read_text().replace(
+            "Run without a sandbox", "run without a sandbox"
+        ), path
+    assert WITHOUT_SANDBOX in read_grades(tmp_path)[0].notes
     write_reports(read_grades(tmp_path), tmp_path)
-    assert read_grades(tmp_path)[0].notes.count(WITHOUT_WALLS) == 1
+    assert read_grades(tmp_path)[0].notes.count(WITHOUT_SANDBOX) == 1
 
 
 def test_private_parts_stay_private(tmp_path: Path) -> None:
-    """What a student sees tells nothing of how they are examined; what an instructor sees does."""
+    """A student's page does not show how the check works; the instructor's does."""
     secret = report("05.1", Verdict.FAILED, goal="secret goal", note="secret note", printed="secret print")
     secret = replace(
-        secret, rules=tuple(replace(rule, text="secret rule", hint="secret hint") for rule in secret.rules)
+        secret,
+        assertions=tuple(replace(rule, text="secret rule", hint="secret hint") for rule in secret.assertions),
     )
     write_reports([Grade("s01", "05", (secret,), private=("05.1",))], tmp_path)
     for name in ("feedback/s01.html", "gradescope/s01/results.json", "moodle.csv", "canvas.csv"):
@@ -291,7 +294,7 @@ def test_private_parts_stay_private(tmp_path: Path) -> None:
 
 
 def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
-    """No control character, no turned letter, no markup, no formula, nothing outside the folder."""
+    """Reports contain no control character, no markup, no formula, and write no file outside the folder."""
     out = tmp_path / "deep" / "out"
     write_reports([nasty(), nasty("=cmd()"), nasty("CON"), nasty("con"), nasty("s01")], out)
     assert [path.name for path in tmp_path.iterdir()] == ["deep"]
@@ -314,7 +317,7 @@ def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
 
 
 def test_names_that_could_meet_stay_apart(tmp_path: Path) -> None:
-    """Each student has a page and a record, also where capitals do not count."""
+    """Each student has a page and a record, even on a file system that ignores capitals."""
     names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
     write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
     for folder in ("results", "feedback", "gradescope"):
@@ -327,7 +330,7 @@ def _pages(out: Path) -> list[str]:
 
 
 def test_pages_stand_alone(tmp_path: Path) -> None:
-    """No script, nothing from elsewhere; the policy lets in the page's own style, and nothing else."""
+    """There are no scripts and no foreign resources; the policy permits only the page's own style."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         names = {tag for tag, _ in outline.tags}
@@ -341,7 +344,7 @@ def test_pages_stand_alone(tmp_path: Path) -> None:
 
 
 def test_pages_can_be_read_by_everybody(tmp_path: Path) -> None:
-    """Language, title, one main part, headings in steps, headers with a scope, labels; tags that close."""
+    """Language, title, one main part, ordered headings, headers with a scope, labels; all tags are closed."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         assert outline.wrong == []
@@ -366,14 +369,14 @@ def test_names_stay_out_of_what_is_said(
 
 
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
-    """The instructor learns which, and that nothing is lost."""
+    """The message names the report that failed, and states that nothing is lost."""
     (tmp_path / "out").write_text("")
     with pytest.raises(GradingError, match="not lost"):
         write_reports(class_of(1), tmp_path / "out")
 
 
 def test_long_texts_are_cut(tmp_path: Path) -> None:
-    """A flood in a submission is none in its reports."""
+    """Much text in a submission gives short reports."""
     flood = report("05.1", Verdict.FAILED, printed=NASTY * 100_000, note="x" * 1_000_000)
     write_reports([Grade("s01", "05", (flood,), notes=("y" * 1_000_000,))], tmp_path)
     assert max(path.stat().st_size for path in _files(tmp_path)) < 60_000

@@ -1,4 +1,4 @@
-"""nbval's run of a notebook: feedback cell by cell, the kernel behind walls, and nothing earned by it."""
+"""nbval's run of a notebook in a sandbox: feedback for each cell, without points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.grading.validation import outcomes_of
 
 
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
-    """Return a notebook of (source, what it is to show); with `check`, the last cell checks that part."""
+    """Return a notebook of (source, expected output); with `check`, the last cell checks that part."""
     made = nbformat.v4.new_notebook()
     for number, (source, shown) in enumerate(cells):
         cell = nbformat.v4.new_code_cell(source, id=f"cell-{number}", execution_count=number + 1)
@@ -32,9 +32,9 @@ def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
     return dict(made)
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("sandbox")
 def test_each_cell_is_held_to_what_is_stored() -> None:
-    """What shows the same passes, what shows something else fails, and what ends the kernel ends the run."""
+    """Equal outputs pass, other outputs fail, and a cell that ends the kernel ends the run."""
     seen = outcomes_of(notebook(("1 + 1", "2"), ("1 + 1", "3"), ("'over'", "'over'")))
     assert [(each.cell, each.outcome) for each in seen] == [
         ("cell-0", "passed"),
@@ -44,15 +44,17 @@ def test_each_cell_is_held_to_what_is_stored() -> None:
     assert "3" in seen[1].words
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """No notebook, no check and no other process is there for the kernel, and no network but its own."""
+    """The kernel sees no notebook, no check and no other process, and only its own network."""
     probe = """
 import glob, os, pathlib, socket
-import course_pkg.examiner.checks as checks
+import course_pkg.chapters as chapters
 folders = ("/tmp", "/student", "/run")
 found = [path for folder in folders for path in glob.glob(f"{folder}/**/*.ipynb", recursive=True)]
-names = [name for folder in checks.__path__ for name in os.listdir(folder)]
+files = [path for folder in chapters.__path__ for path in glob.glob(f"{folder}/ch*/**/*.*", recursive=True)]
+secret = [path for path in files if "checks" in path or path.endswith(("answers.py", "fixtures.py"))]
+names = [path for path in secret if os.path.getsize(path)]
 lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdline")]
 (found, names, [line for line in lines if "pytest" in line], [name for _, name in socket.if_nameindex()])
 """
@@ -60,15 +62,15 @@ lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdl
     assert seen.outcome == "passed", seen.words
 
 
-@pytest.mark.usefixtures("walls")
+@pytest.mark.usefixtures("sandbox")
 def test_a_kernel_that_ends_is_noticed_in_time() -> None:
-    """It does not take nbval's 2,000 seconds."""
+    """The run ends before nbval's limit of 2,000 s."""
     seen = outcomes_of(notebook(("import os; os._exit(0)", ""), ("1", "1")), cell=4)
     assert [each.outcome for each in seen] != ["passed", "passed"]
 
 
 def plain_nbval(path: Path, *words: str) -> str:
-    """Return what pytest prints for a student's notebook, with the course's plug-in."""
+    """Return what pytest prints for a student's notebook with the course's plug-in."""
     plugin = ["-p", "course_pkg.grading.nbval_plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "-q", "-c", "/dev/null", "--nbval", *plugin, *words, str(path)]
     return subprocess.run(
@@ -84,7 +86,7 @@ def plain_nbval(path: Path, *words: str) -> str:
     ],
 )
 def test_plain_nbval_ends_with_a_line_for_each_part(tmp_path: Path, shown: str, line: str) -> None:
-    """Run by hand, the plug-in says how each part went, as far as the notebook shows it."""
+    """Run by hand, the plug-in shows the result of each part."""
     path = tmp_path / "chapter.ipynb"
     says = f"from IPython.display import display\ndisplay({{'text/plain': {shown!r}}}, raw=True)"
     path.write_text(json.dumps(notebook(("1", "1"), (says, ""), check="05.1")))

@@ -1,16 +1,17 @@
-"""Running `course` as a user does, and looking at what it leaves behind."""
+"""Functions that run `course` as a user does, and find the processes that it leaves behind."""
 
 from __future__ import annotations
 
 import os
 import re
 import signal
+import socket
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from course_pkg.graph.leashed import descendants
+from course_pkg.ros.process.supervisor import descendants
 from tests.support import eventually
 
 ROOT = Path(__file__).parents[2]
@@ -18,20 +19,20 @@ ADDRESS = re.compile(r"http://\S+")
 
 
 def user_environment() -> dict[str, str]:
-    """Return an environment without what the suite itself set."""
+    """Return an environment without the variables that the suite has set."""
     return {name: value for name, value in os.environ.items() if not name.startswith("ROS_")}
 
 
 @contextmanager
-def running(*words: str) -> Iterator[subprocess.Popen[str]]:
-    """Start `course` with its output in pipes; end it if it has not ended by itself."""
+def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]]:
+    """Start `course lab` or `course run` with its output in a pipe; end it if it has not ended by itself."""
     with subprocess.Popen(
-        [ROOT / "course", *words],
-        env=user_environment(),
+        [ROOT / "course", *arguments],
+        env={**user_environment(), **variables},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        start_new_session=True,  # so that a test's own Ctrl-C does not count twice
+        start_new_session=True,  # the test's own Ctrl-C is not counted twice
     ) as process:
         try:
             yield process
@@ -42,14 +43,14 @@ def running(*words: str) -> Iterator[subprocess.Popen[str]]:
 
 
 @contextmanager
-def lab(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Start `course lab`; yield the process, and the address once it is printed."""
-    with running("lab", "--no-browser", *words) as process:
+def lab(*arguments: str, **variables: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Start `course lab`; yield the process and the address as soon as it is printed."""
+    with running("lab", "--no-browser", *arguments, **variables) as process:
         yield process, address_of(process)
 
 
 def address_of(process: subprocess.Popen[str]) -> str:
-    """Read the output up to the address."""
+    """Read the output up to the line with the address, and return the address."""
     seen = []
     assert process.stdout
     for line in process.stdout:
@@ -65,14 +66,30 @@ def below(process: subprocess.Popen[str]) -> list[int]:
 
 
 def all_gone(pids: list[int]) -> bool:
-    """Wait until none of `pids` lives."""
+    """Wait until none of `pids` runs."""
     return eventually(lambda: not [pid for pid in pids if alive(pid)], timeout=20)
 
 
 def alive(pid: int) -> bool:
-    """Say whether a process runs; one that is dead and not yet reaped does not."""
+    """Return whether a process runs; a zombie does not."""
     try:
         state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
         return False
     return state != "Z"
+
+
+def having(pattern: bytes, pids: list[int]) -> list[int]:
+    """Return those of `pids` whose command line contains `pattern`; NUL separates the arguments there."""
+    found = []
+    for pid in pids:
+        with suppress(OSError):  # it has ended meanwhile
+            if pattern in Path(f"/proc/{pid}/cmdline").read_bytes():
+                found.append(pid)
+    return found
+
+
+def can_connect(port: int) -> bool:
+    """Return whether a program listens on a port of this host."""
+    with socket.socket() as client:
+        return client.connect_ex(("127.0.0.1", port)) == 0

@@ -1,23 +1,26 @@
-"""A Jupyter Server extension for tests: /sockets says of each kernel websocket whether TCP_NODELAY is set."""
+"""A Jupyter Server extension for tests: /sockets lists whether each kernel websocket has TCP_NODELAY set."""
 
 from __future__ import annotations
 
 import gc
 import json
 import socket
-from typing import Any
 
 from jupyter_server.base.handlers import JupyterHandler
+from jupyter_server.serverapp import ServerApp
 from jupyter_server.services.kernels.websocket import KernelWebsocketHandler
 
 
 class SocketsHandler(JupyterHandler):  # type: ignore[misc]
-    """Looks at the sockets themselves."""
+    """Reports the options of the server's sockets."""
 
     def get(self) -> None:
-        """Answer with one truth value for each open kernel websocket."""
+        """Answer with one Boolean for each open kernel websocket."""
         handlers = [
-            it for it in gc.get_objects() if isinstance(it, KernelWebsocketHandler) and it.ws_connection
+            it
+            for it in gc.get_objects()
+            # Do not use isinstance(): it fails for a weakref.proxy whose object is gone.
+            if issubclass(type(it), KernelWebsocketHandler) and it.ws_connection
         ]
         streams = [handler.ws_connection.stream for handler in handlers]
         options = [
@@ -30,5 +33,5 @@ def _jupyter_server_extension_points() -> list[dict[str, str]]:
     return [{"module": "tests.lab.sockets"}]
 
 
-def _load_jupyter_server_extension(server: Any) -> None:  # noqa: ANN401
+def _load_jupyter_server_extension(server: ServerApp) -> None:
     server.web_app.add_handlers(".*$", [("/sockets", SocketsHandler)])

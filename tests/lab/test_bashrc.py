@@ -18,7 +18,7 @@ PS1='mine> '
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
-    """A home folder whose ~/.bashrc puts another Python, another master and an alias first."""
+    """Create a home folder whose ~/.bashrc sets another Python, another master and an alias."""
     (tmp_path / ".bashrc").write_text(HOSTILE)
     (tmp_path / "shims").mkdir()
     for name in ("python3", "rosservice"):
@@ -43,7 +43,7 @@ def shell(home: Path, commands: str) -> str:
 
 
 def test_the_course_comes_before_what_bashrc_says(home: Path) -> None:
-    """Python, tools and master are the course's; the user's aliases and prompt stay, marked."""
+    """Python, tools and master are those of the course; the user's aliases stay, and the prompt is marked."""
     look = "echo py:$(python3 -c 'print(3)') uri:$ROS_MASTER_URI ip:${ROS_IP-none}"
     seen = shell(home, f"{look}; mine; rosservice list")
     assert "py:3 uri:http://localhost:" in seen
@@ -54,7 +54,7 @@ def test_the_course_comes_before_what_bashrc_says(home: Path) -> None:
 
 
 def test_tab_completes_the_tools_of_ros(home: Path) -> None:
-    """The completion of rosrun and rosservice is there, and knows the course's package."""
+    """The Tab completion of rosrun and rosservice works, and lists the course's package."""
     tab = "COMP_WORDS=(rosrun course_p) COMP_CWORD=1; _roscomplete_exe; echo found:${COMPREPLY[*]}"
     seen = shell(home, f"complete -p rosrun rosservice rossrv roslaunch; {tab}")
     for tool in ("rosrun", "rosservice", "rossrv", "roslaunch"):

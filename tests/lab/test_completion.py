@@ -1,4 +1,4 @@
-"""What chapter 07 says of the Tab key in a terminal."""
+"""The Tab key in a terminal, as chapter 08 describes it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ TAB = "\t"
 
 
 def test_tab_types_for_you(tmp_path: Path) -> None:
-    """Tab completes a service's name, and behind it writes a request of zeros."""
+    """The Tab key completes the name of a service, and then a request in which all values are zero."""
     lines = [SWITCH, f"rosservice call /sw{TAB}rep{TAB}", f"rosservice call /switch/set {TAB}", "kill %1"]
     seen = shell(tmp_path, "\n".join(lines))
-    assert 'message: "closed"' in seen  # of /switch/report
+    assert 'message: "closed"' in seen  # the response of /switch/report
     assert '/switch/set "data: false"' in seen
     assert 'message: "already closed"' in seen

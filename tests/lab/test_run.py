@@ -1,14 +1,17 @@
-"""`course run`: any command, with a master of its own."""
+"""`course run` runs any command with its own master."""
 
 from __future__ import annotations
 
 import signal
 import subprocess
+import time
+from contextlib import suppress
 from pathlib import Path
 
+import pexpect
 import pytest
 
-from tests.lab.commands import ROOT, alive, all_gone, below, running, user_environment
+from tests.lab.commands import ROOT, alive, all_gone, below, having, running, user_environment
 from tests.support import eventually
 
 
@@ -22,47 +25,47 @@ def course_run(*words: str, text: str = "", **variables: str) -> subprocess.Comp
 
 @pytest.mark.parametrize(("script", "status"), [("exit 0", 0), ("exit 7", 7), ("kill -9 $$", 137)])
 def test_the_status_of_the_command_is_passed_on(script: str, status: int) -> None:
-    """A command's status is `course run`'s, 128 + n where signal n ended it."""
+    """The command's status becomes that of `course run`; it is 128 + n if signal n ended the command."""
     assert course_run("sh", "-c", script).returncode == status
 
 
 def test_every_word_reaches_the_command() -> None:
-    """Options, `--`, blanks and empty words are the command's, even --help."""
+    """Options, `--`, blanks and empty arguments are passed to the command, even --help."""
     words = ["-n", "--", "--help", "a b", "", "-1.0"]
     assert course_run("printf", "[%s]", *words).stdout == "".join(f"[{word}]" for word in words)
 
 
 def test_input_reaches_the_command() -> None:
-    """A command can be fed by a pipe."""
+    """A command can read from a pipe."""
     assert course_run("tr", "a-z", "A-Z", text="words").stdout == "WORDS"
 
 
 def test_a_command_that_is_not_there_is_one_clear_message() -> None:
-    """The name of the command is in the message, and the status is 1."""
+    """The message contains the name of the command, and the status is 1."""
     answer = course_run("no-such-command")
     assert (answer.returncode, answer.stderr) == (
         1,
-        "course: no-such-command cannot be run: No such file or directory.\n",
+        "course: no-such-command could not be started: No such file or directory.\n",
     )
 
 
 def test_each_command_has_a_master_of_its_own_on_this_host_only() -> None:
-    """The graph answers, at an address of 127.0.0.1, and is another one for another command."""
+    """The master listens on 127.0.0.1 only, and each command has a master of its own."""
     script = "rosnode list; echo $ROS_MASTER_URI $ROS_HOSTNAME"
     first, second = (course_run("sh", "-c", script).stdout.split() for _ in range(2))
-    assert first[1:] == second[1:] == ["localhost"]
-    assert first[0] != second[0]
+    assert first[::2] == second[::2] == ["/rosout", "localhost"]
+    assert first[1] != second[1]
 
 
 def test_a_master_that_the_user_names_is_used() -> None:
-    """With ROS_MASTER_URI set, no master is started, and the address stays."""
+    """If ROS_MASTER_URI is set, no master is started, and the variable does not change."""
     assert (
         course_run("printenv", "ROS_MASTER_URI", ROS_MASTER_URI="http://robot:1").stdout == "http://robot:1\n"
     )
 
 
 def test_the_course_is_a_package_like_any_other() -> None:
-    """The tools of ROS find the package's service, its MD5 and its server."""
+    """The tools of ROS find the course's service type, its MD5 sum and its package."""
     script = "rossrv show geometry && rossrv md5 course_pkg/geometry && rospack find course_pkg"
     answer = course_run("sh", "-c", script)
     assert answer.stdout.startswith("[course_pkg/geometry]:\nfloat32 length\n"), answer.stderr
@@ -70,7 +73,7 @@ def test_the_course_is_a_package_like_any_other() -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_reaches_the_command_and_nothing_is_left(number: signal.Signals) -> None:
-    """Ctrl-C, a kill and a closed terminal end the command, and the master with it."""
+    """Ctrl-C, a kill and a closed terminal end the command, and also its master."""
     script = "trap 'echo heard; exit 3' INT TERM HUP; echo up; while :; do sleep 0.05; done"
     with running("run", "bash", "-c", script) as process:
         assert process.stdout
@@ -83,11 +86,73 @@ def test_a_signal_reaches_the_command_and_nothing_is_left(number: signal.Signals
 
 
 def test_nothing_outlives_a_killed_run() -> None:
-    """After SIGKILL of `course run` its command and its master end by themselves."""
+    """After SIGKILL of `course run`, its command and its master end."""
     with running("run", "sleep", "1000") as process:
         family = eventually(lambda: "sleep" in names(below(process)) and below(process))
         process.kill()
         assert all_gone(family)
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "rosrun course_pkg server & until rosservice list | grep -q /getGeometry; do :; done",
+        "sleep 1000 & disown; setsid sleep 1000 & sleep 0.2",
+        "(trap '' TERM; while :; do sleep 0.05; done) &",
+    ],
+    ids=["a node", "without a parent or session", "ignores SIGTERM"],
+)
+def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
+    """The processes that a command leaves in the background end after the command; then the master ends."""
+    tag = str(tmp_path)  # all these processes have it in their environment, and no other process has it
+    answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
+    assert answer.returncode == 5, answer.stderr
+    assert [pid for pid in tagged(tag) if alive(pid)] == []
+
+
+def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
+    """In `course run bash`, Ctrl-C ends the foreground job only, Ctrl-Z stops it, and exit ends both jobs."""
+    tag = f"course-run-{time.monotonic_ns()}"
+    shell = pexpect.spawn(
+        str(ROOT / "course"), ["run", "bash"], env={**user_environment(), "TAG": tag}, timeout=30
+    )
+
+    def job(seconds: int) -> list[int]:
+        return eventually(lambda: having(b"sleep\0%d" % seconds, tagged(tag)), timeout=20)
+
+    try:
+        shell.expect_exact("(course)")
+        shell.sendline("sleep 1000 &")
+        background = job(1000)
+        shell.sendline("sleep 1001")
+        foreground = job(1001)
+        shell.sendintr()
+        assert all_gone(foreground)
+        shell.sendline("sleep 1002")
+        stopped = job(1002)
+        shell.send("\x1a")
+        shell.expect_exact("Stopped")
+        assert alive(background[0])
+        assert alive(stopped[0])
+        shell.sendline("kill %2")  # with a stopped job, the first `exit` only prints a warning
+        assert all_gone(stopped)
+        shell.sendline("exit 7")
+        shell.expect(pexpect.EOF)
+        shell.close()
+        assert shell.exitstatus == 7
+        assert all_gone(background)
+    finally:
+        shell.close(force=True)
+
+
+def tagged(tag: str) -> list[int]:
+    """Return the processes that have `tag` in their environment."""
+    found = []
+    for environment in Path("/proc").glob("[0-9]*/environ"):
+        with suppress(OSError):  # it has ended, or it belongs to another user
+            if tag.encode() in environment.read_bytes():
+                found.append(int(environment.parent.name))
+    return found
 
 
 def names(pids: list[int]) -> list[str]:

@@ -5,35 +5,28 @@ from __future__ import annotations
 import os
 import signal
 import socket
-import subprocess
 import time
 from collections.abc import Iterator
 
 import pytest
 
-from course_pkg.graph import MasterClient, NodeProcess, PrivateMaster
 from course_pkg.nodes.client import read_sides
-from tests.support import eventually
+from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster
+from tests.support import eventually, terminal
 
 pytestmark = pytest.mark.usefixtures("master")
 
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg server`, answering."""
+    """Run `rosrun course_pkg server` until it answers."""
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         process.wait_for_service("/getGeometry")
         yield process
 
 
-def terminal(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a command as a student types it."""
-    env = {**os.environ, **environment}
-    return subprocess.run(command, capture_output=True, text=True, timeout=30, env=env, check=False)
-
-
 def test_rosservice_call(server: NodeProcess) -> None:
-    """The tool of ROS gets area 6.24 and volume 55.54."""
+    """`rosservice call` prints area 6.24 and volume 55.54."""
     done = terminal("rosservice", "call", "/getGeometry", "1.2", "5.2", "8.9")
     assert done.returncode == 0
     values = dict(line.split(": ") for line in done.stdout.splitlines())
@@ -43,19 +36,19 @@ def test_rosservice_call(server: NodeProcess) -> None:
 
 
 def test_client_prints_area_and_volume(server: NodeProcess) -> None:
-    """The client prints both, each on a line, and nothing else."""
+    """The client prints both values, each on its own line, and nothing else."""
     done = terminal("rosrun", "course_pkg", "client", "1.2", "5.2", "8.9")
     assert (done.returncode, done.stdout, done.stderr) == (0, "area: 6.24\nvolume: 55.54\n", "")
 
 
 def test_rossrv_show() -> None:
-    """The type is known to the tools of ROS."""
+    """The tools rossrv and rosservice show the type."""
     assert "float32 length" in terminal("rossrv", "show", "geometry").stdout
 
 
 @pytest.mark.parametrize("words", [[], ["1", "2"], ["1", "2", "3", "4"], ["1", "2", "tall"]])
 def test_client_with_a_wrong_line(words: list[str]) -> None:
-    """Wrong arguments are the usage text and exit status 2, at once and without a server."""
+    """Wrong arguments give the usage text and exit status 2, at once and without a server."""
     done = terminal("rosrun", "course_pkg", "client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: client LENGTH WIDTH HEIGHT")
@@ -70,7 +63,7 @@ def test_client_with_a_wrong_line(words: list[str]) -> None:
     ],
 )
 def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], told: str) -> None:
-    """The server refuses a side that no box has and names it; the client says so and exits with 1."""
+    """The server refuses an invalid side and names it; the client prints the message and exits with 1."""
     done = terminal("rosrun", "course_pkg", "client", *sides)
     assert done.returncode == 1
     assert f"service cannot process request: {told}" in done.stderr
@@ -78,13 +71,13 @@ def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], told: 
 
 
 def test_number_that_no_float32_holds(server: NodeProcess) -> None:
-    """A number that cannot be sent is named, not traced back."""
+    """A number that cannot be sent is named, without a traceback."""
     done = terminal("rosrun", "course_pkg", "client", "1e39", "1", "1")
     assert (done.returncode, done.stderr) == (2, "1e+39 is more than a float32 can hold.\n")
 
 
 def test_client_without_a_server() -> None:
-    """Without a server the client waits for 5 s, says so in one line, and exits with 1."""
+    """Without a server the client waits for 5 s, prints one line, and exits with 1."""
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3")
     assert done.returncode == 1
     assert "timeout exceeded while waiting for service /getGeometry" in done.stderr
@@ -92,7 +85,7 @@ def test_client_without_a_server() -> None:
 
 
 def test_client_without_a_master() -> None:
-    """Without a master the client says so at once, and exits with 1."""
+    """Without a master the client prints this at once, and exits with 1."""
     started = time.monotonic()
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3", ROS_MASTER_URI="http://localhost:1")
     assert done.returncode == 1
@@ -101,7 +94,7 @@ def test_client_without_a_master() -> None:
 
 
 def test_remapping(master: PrivateMaster) -> None:
-    """Name and service of the server can be remapped, and the client takes remappings from its arguments."""
+    """Name and service of the server can be remapped, and the client accepts remappings as arguments."""
     command = ["rosrun", "course_pkg", "server", "__name:=other", "getGeometry:=/measure"]
     with NodeProcess(command) as process:
         process.wait_for_service("/measure")
@@ -114,7 +107,7 @@ def test_remapping(master: PrivateMaster) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_server_ends_when_told(server: NodeProcess, master: PrivateMaster, number: signal.Signals) -> None:
-    """Ctrl-C, or kill, ends the server promptly, without a traceback and without a registration left."""
+    """Ctrl-C and kill end the server quickly, without a traceback, and unregister it."""
     started = time.monotonic()
     os.kill(server.pid, number)
     assert server.wait(5) == 0
@@ -124,7 +117,7 @@ def test_server_ends_when_told(server: NodeProcess, master: PrivateMaster, numbe
 
 
 def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A server that has found no master yet ends on Ctrl-C too, without a traceback."""
+    """A server that has found no master yet ends on Ctrl-C, too, without a traceback."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         eventually(lambda: "Waiting for one" in process.output())
@@ -134,7 +127,7 @@ def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch
 
 
 def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master: PrivateMaster) -> None:
-    """A connection that says nothing does not keep the server from answering others."""
+    """A connection that sends nothing does not block other clients."""
     uri = MasterClient(master.uri).lookup_service("/getGeometry")
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
@@ -152,5 +145,5 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     ],
 )
 def test_reading_the_sides(words: list[str], sides: tuple[float, float, float] | None) -> None:
-    """Three numbers in any notation of Python are sides, anything else is not."""
+    """Three numbers in any notation of Python are accepted, other arguments are refused."""
     assert read_sides(words) == sides

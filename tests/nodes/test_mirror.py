@@ -1,4 +1,4 @@
-"""The robot says how its joints stand, and the simulator shows it turned over, whatever else it hears."""
+"""The robot publishes its joint states, and the simulator publishes them mirrored."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from collections.abc import Iterator
 import pytest
 from sensor_msgs.msg import JointState
 
-from course_pkg.graph import MasterClient, NodeProcess, PrivateMaster
-from course_pkg.nodes.robot import ARM, stance
+from course_pkg.nodes.robot import ARM, joint_state
 from course_pkg.nodes.simulator import mirrored
+from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster
 from tests.kernel import Kernel
 from tests.support import eventually
 
@@ -34,17 +34,17 @@ def connected(publisher):
 
 @pytest.fixture
 def simulator() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg simulator`, on the graph."""
+    """Run `rosrun course_pkg simulator` until it is on the graph."""
     with NodeProcess(["rosrun", "course_pkg", "simulator"]) as process:
         process.wait_for_service("/simulator/get_loggers")
         yield process
 
 
 def test_a_stance_is_where_the_joints_are_and_how_fast_they_move() -> None:
-    """The velocity is the change of the position; the motion has no jumps and stays within reach."""
+    """The velocity is the change of the position; the motion has no jumps and stays within its limits."""
     step = 1e-5
     for at in (0.0, 0.7, 3.1, 100.0):
-        now, soon = stance(at), stance(at + step)
+        now, soon = joint_state(at), joint_state(at + step)
         assert list(now.name) == ["base", "shoulder", "elbow", "wrist"]
         for joint, here, there, speed in zip(ARM, now.position, soon.position, now.velocity, strict=True):
             assert (there - here) / step == pytest.approx(speed, abs=1e-3)
@@ -52,7 +52,7 @@ def test_a_stance_is_where_the_joints_are_and_how_fast_they_move() -> None:
 
 
 def test_a_mirror_turns_signs_and_leaves_the_message_alone() -> None:
-    """The time and the names stay; what was heard is not changed: other callbacks get the same object."""
+    """Time and names stay; the received message is not changed, because other callbacks share it."""
     message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
     message.header.stamp.secs = 7
     shown = mirrored(message)
@@ -73,19 +73,19 @@ def test_a_mirror_turns_signs_and_leaves_the_message_alone() -> None:
     ],
 )
 def test_what_is_no_stance_is_refused(odd: JointState, told: str) -> None:
-    """Wrong lengths and numbers that are none are told in words."""
+    """Wrong lengths and values that are no numbers give an error message."""
     with pytest.raises(ValueError, match=told):
         mirrored(odd)
 
 
 @pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
 def test_what_says_little_is_a_stance_all_the_same(fine: JointState) -> None:
-    """A robot without joints, or one that does not say how fast it moves, is shown as it is."""
+    """A state without joints, or without velocities, is published unchanged."""
     assert len(mirrored(fine).position) == len(fine.name)
 
 
 def test_the_robot_speaks_whether_or_not_anybody_listens(kernel: Kernel) -> None:
-    """At its rate, with the time of each stance, each a little after the one before."""
+    """States are published at the given rate, each with a slightly later time."""
     kernel.run(LISTEN)
     with NodeProcess(["rosrun", "course_pkg", "robot", "_rate:=100"]):
         kernel.run("heard = node.subscribe('/joint_states', JointState).wait(50, timeout=20)")
@@ -100,7 +100,7 @@ def test_the_robot_speaks_whether_or_not_anybody_listens(kernel: Kernel) -> None
 
 
 def test_the_simulator_shows_every_stance_and_draws_meanwhile(simulator: NodeProcess, kernel: Kernel) -> None:
-    """In the order in which they came, and while it is busy with pictures of its own."""
+    """States are mirrored in their order, while the simulator also draws pictures."""
     kernel.run(LISTEN)
     kernel.run(
         "shown, pictures = node.subscribe('/mirrored_joints', JointState),"
@@ -116,10 +116,10 @@ def test_the_simulator_shows_every_stance_and_draws_meanwhile(simulator: NodePro
 
 
 def test_an_odd_message_is_left_out_and_the_next_is_shown(simulator: NodeProcess, kernel: Kernel) -> None:
-    """What cannot be shown is told once in a while, and nothing stands still over it."""
+    """Invalid states are reported now and then, and the node continues."""
     kernel.run(LISTEN)
     kernel.run(
-        "shown = node.subscribe('/mirrored_joints', JointState)\n"
+        "shown = node.subscribe('/mirrored_joints', JointState); connected(shown._subscriber)\n"
         "say = rospy.Publisher('/joint_states', JointState, queue_size=100); connected(say)\n"
         "for position in ([], [1.0, 2.0], [float('nan')], [float('inf')], [3.0]):\n"
         "    say.publish(JointState(name=['a'], position=position))"
@@ -130,7 +130,7 @@ def test_an_odd_message_is_left_out_and_the_next_is_shown(simulator: NodeProcess
 
 
 def test_the_launch_file_starts_both(kernel: Kernel) -> None:
-    """With an argument for the rate, and one that leaves the simulator out."""
+    """The launch file has an argument for the rate, and one that omits the simulator."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch("course_pkg", "mirror.launch", "rate:=50"):
         kernel.run("shown = node.subscribe('/mirrored_joints', JointState).wait(20, timeout=20)")
@@ -138,13 +138,13 @@ def test_the_launch_file_starts_both(kernel: Kernel) -> None:
     assert 0.018 < apart / 19 < 0.05
     with NodeProcess.roslaunch("course_pkg", "mirror.launch", "simulator:=false") as process:
         process.wait_for_service("/robot/get_loggers")
-        assert kernel.run("from course_pkg.graph import look; result = look().node('/simulator')") is None
+        assert kernel.run("from course_pkg.ros import look; result = look().node('/simulator')") is None
 
 
 @pytest.mark.parametrize("program", ["robot", "simulator"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_they_end_when_told(program: str, number: signal.Signals, master: PrivateMaster) -> None:
-    """Ctrl-C, or kill, ends them without a traceback, and leaves no registration."""
+    """Ctrl-C and kill end both nodes without a traceback, and unregister them."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(f"/{program}/get_loggers")
         os.kill(process.pid, number)
@@ -161,7 +161,7 @@ def test_they_end_when_told(program: str, number: signal.Signals, master: Privat
     ],
 )
 def test_a_parameter_that_cannot_be(command: tuple[str, ...], told: str) -> None:
-    """It is named, with what it may be, and the program ends with status 1."""
+    """The message names the parameter and its limits, and the program ends with status 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert told in process.output()

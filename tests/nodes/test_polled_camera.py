@@ -1,33 +1,31 @@
-"""The camera that takes a picture when it is asked to."""
+"""The camera that takes a picture for each call."""
 
 from __future__ import annotations
 
 import os
 import signal
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 import rospy
-from course_pkg.srv import LetIn, PolledImage
+from course_pkg.srv import LetIn, PolledImage, PolledImageResponse
 
-from course_pkg.graph import BoundedProxy, MasterClient, NodeProcess, PrivateMaster
+from course_pkg.ros import BoundedProxy, MasterClient, NodeProcess, PrivateMaster
 from course_pkg.shop import shop_picture
-from tests.nodes.terminals import terminal
-from tests.support import eventually
+from tests.support import eventually, terminal
 
 pytestmark = pytest.mark.usefixtures("master")
 
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg polled_camera`, and nobody else."""
+    """Run `rosrun course_pkg polled_camera`, and no other node."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera"]) as process:
         process.wait_for_service("/request_image")
         yield process
 
 
-def take(width: int = 0, height: int = 0) -> Any:  # noqa: ANN401 -- a class that catkin generates
+def take(width: int = 0, height: int = 0) -> PolledImageResponse:
     """Take a picture."""
     return BoundedProxy("/request_image", PolledImage)(width, height)
 
@@ -37,7 +35,7 @@ def take(width: int = 0, height: int = 0) -> Any:  # noqa: ANN401 -- a class tha
     ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
 )
 def test_a_picture_is_what_it_says(asked: tuple[int, int], size: tuple[int, int]) -> None:
-    """Its size is the one asked for, 0 for the camera's own; the points are those of the shop."""
+    """The picture has the requested size, the camera's own size for 0; it shows the shop."""
     taken = take(*asked)
     image = taken.image
     assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")
@@ -51,7 +49,7 @@ def test_a_picture_is_what_it_says(asked: tuple[int, int], size: tuple[int, int]
     [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
 )
 def test_a_size_that_cannot_be_is_refused(asked: tuple[int, int], words: str) -> None:
-    """With what is right; and the next picture is taken."""
+    """The message names the limits, and the next call works."""
     with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
         take(*asked)
     assert take().image.data
@@ -59,7 +57,7 @@ def test_a_size_that_cannot_be_is_refused(asked: tuple[int, int], words: str) ->
 
 @pytest.mark.usefixtures("camera")
 def test_it_shows_who_is_at_the_counter() -> None:
-    """While shop_camera runs it is its customers who are in the picture, and otherwise a shop of its own."""
+    """While shop_camera runs, the picture shows its customers; otherwise the node's own shop."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):
@@ -69,7 +67,7 @@ def test_it_shows_who_is_at_the_counter() -> None:
 
 
 def test_the_first_picture_is_of_the_shop_that_is_there() -> None:
-    """A camera that is started when customers are there does not begin with its own shop."""
+    """A camera that starts while customers are present does not show its own shop first."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         BoundedProxy("/let_in", LetIn)(after=[0.0] * 9, stay=600.0)
@@ -79,7 +77,7 @@ def test_the_first_picture_is_of_the_shop_that_is_there() -> None:
 
 
 def test_it_can_stream() -> None:
-    """With _stream:= it publishes pictures of its own size, too, and goes on answering."""
+    """With _stream:= it also publishes pictures of its own size, and still answers calls."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", "_stream:=30"]) as process:
         process.wait_for_service("/request_image")
         heard = terminal("rostopic", "echo", "-n", "2", "--noarr", "/image")
@@ -89,7 +87,7 @@ def test_it_can_stream() -> None:
 
 @pytest.mark.parametrize("settings", [[], ["_stream:=30"]])
 def test_it_ends_when_told(settings: list[str], master: PrivateMaster) -> None:
-    """Ctrl-C ends it, without a traceback and without a registration left."""
+    """Ctrl-C ends it without a traceback, and unregisters it."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", *settings]) as process:
         process.wait_for_service("/request_image")
         os.kill(process.pid, signal.SIGINT)

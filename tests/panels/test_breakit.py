@@ -1,4 +1,4 @@
-"""What the lab knows and does, with no page; the stage is one of paper but in the last tests."""
+"""The model of the fault lab without a page. Only the last tests use a real stage on the graph."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -14,29 +13,29 @@ from course_pkg.errors import UnknownFault
 from course_pkg.faults.catalogue import every_fault, named
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.program import Seen
-from course_pkg.graph import MasterClient, PrivateMaster
-from course_pkg.graph.explanations import explain
 from course_pkg.panels import BreakIt
-from course_pkg.panels.breakit.cases import OPTIONS, cases
+from course_pkg.panels.breakit.cases import OPTIONS, Case, CaseStore, cases
 from course_pkg.panels.breakit.model import LabModel
-from course_pkg.panels.breakit.store import CaseStore
+from course_pkg.ros import MasterClient, PrivateMaster
+from course_pkg.ros.explain import explain
+from course_pkg.types import Plain
 from tests.support import eventually
 
 
 @dataclass
 class Paper:
-    """A stage on which nothing happens, and all is written down."""
+    """A stage that causes no fault and records what it is asked to do."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
     holds: threading.Event | None = None
 
     def stage(self, fault: Fault) -> Sheet:
-        """Put a fault on it."""
+        """Cause a fault."""
         return Sheet(self, fault.name)
 
     def use(self, sheet: Sheet, tool: str) -> Seen:
-        """Use a tool."""
+        """Record the use of a tool."""
         if self.holds:
             self.holds.wait(10)
         self.done.append(f"{tool} {sheet.name}")
@@ -45,36 +44,35 @@ class Paper:
 
 @dataclass
 class Sheet:
-    """One fault on paper."""
+    """A made-up fault."""
 
     paper: Paper
     name: str
-    keeper: Any = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
+    keeper: Seen = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
 
     def cause(self) -> None:
-        """Note it, or fail."""
+        """Record the start, or fail."""
         if self.paper.fails:
             raise ConnectionRefusedError(111, "Connection refused")
         self.paper.done.append(f"cause {self.name}")
 
     def undo(self) -> None:
-        """Note it."""
+        """Record the end."""
         self.paper.done.append(f"undo {self.name}")
 
 
 class Lab:
-    """A model with its latest state."""
+    """A model together with its latest state."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()
-        self.state: dict[str, Any] = {}
+        self.state: dict[str, Plain] = {}
         self.store = CaseStore(path / "cases.json")
-        stage: Any = self.paper.stage
-        use: Any = self.paper.use
-        self.model = LabModel(cases(*chosen), self.store, self.state.update, stage=stage, use=use)
+        paper = self.paper
+        self.model = LabModel(cases(*chosen), self.store, self.state.update, stage=paper.stage, use=paper.use)
         self.state.update(self.model.overview())
 
-    def begin(self, name: str) -> dict[str, Any]:
+    def begin(self, name: str) -> dict[str, Plain]:
         """Open the case with this fault, wait for its symptom, and return its state."""
         number = next(case.number for case in cases() if case.fault.name == name)
         self.model.open(number)
@@ -82,25 +80,25 @@ class Lab:
         return self.case
 
     def settle(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait until no look is running."""
         eventually(lambda: self.case["phase"] in ("ready", "over"))
 
     @property
-    def case(self) -> dict[str, Any]:
-        """What the page knows of the case."""
+    def case(self) -> dict[str, Plain]:
+        """Return what the page knows of the case."""
         return dict(self.state["case"])
 
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """All cases, on paper."""
+    """Return all cases, with made-up stages."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
 
 
 def test_numbers_say_nothing() -> None:
-    """The order is another than the catalogue's, each fault has one number, the same in every selection."""
+    """The order differs from the catalogue's order, and each fault has the same number in every selection."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
     assert [case.fault for case in everything] != list(every_fault())
@@ -111,8 +109,8 @@ def test_numbers_say_nothing() -> None:
 
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.fault.name)
-def test_each_case_has_plausible_options(case: Any) -> None:  # noqa: ANN401 -- a Case, or pytest's marker
-    """Five diagnoses that differ, the right one among them, and none that would be true here as well."""
+def test_each_case_has_plausible_options(case: Case) -> None:
+    """A case offers five different diagnoses: the right one, and four that are wrong for this fault."""
     assert len(set(case.diagnoses)) == OPTIONS
     assert case.fault.diagnosis in case.diagnoses
     assert case.fault.remedy in case.remedies
@@ -124,13 +122,13 @@ def test_each_case_has_plausible_options(case: Any) -> None:  # noqa: ANN401 -- 
 
 
 def test_right_answers_are_not_always_in_one_place() -> None:
-    """Whoever always picks the same line learns nothing by it."""
+    """The place of the right diagnosis differs from case to case."""
     places = {case.diagnoses.index(case.fault.diagnosis) for case in cases()}
     assert places == set(range(OPTIONS))
 
 
 def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
-    """Neither the name, nor the reason, nor which option is right reaches the page before an answer."""
+    """Before the answer, the page receives neither name nor reason nor the index of the right option."""
     case = lab.begin("stale")
     assert lab.paper.done == ["cause stale", "again stale"]
     assert case["looks"][0]["said"] == "what again printed"
@@ -142,7 +140,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """A click while another look is under way is left out; the symptom stays, with the latest eight."""
+    """A click is ignored while another look is running; the symptom and the latest eight looks are kept."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -161,7 +159,7 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
 
 
 def test_a_wrong_answer_says_what_would_hold_then(lab: Lab) -> None:
-    """It gets the reason of what it named; the right one gets its own, and counts, but not as the first."""
+    """A wrong diagnosis shows its reason. The right one afterwards counts, but not as a first answer."""
     case = lab.begin("stale")
     wrong = next(
         each for each in every_fault() if each.diagnosis in case["diagnoses"] and each.name != "stale"
@@ -175,14 +173,14 @@ def test_a_wrong_answer_says_what_would_hold_then(lab: Lab) -> None:
     lab.model.answer(named("stale").diagnosis, named("stale").remedy)
     assert lab.case["verdict"]["state"] == "right"
     assert lab.case["verdict"]["reason"] == named("stale").reason
-    assert lab.case["verdict"]["taught"] == "chapter 10, Survive trouble"
+    assert lab.case["verdict"]["taught"] == "chapter 12, Survive trouble"
     assert lab.case["verdict"]["server"] == "the server's program"
     assert lab.state["score"] == {"solved": 1, "first": 0, "of": len(every_fault())}
     assert lab.store.read()["stale"].tries == 3
 
 
 def test_a_right_first_answer_counts_as_such(lab: Lab, tmp_path: Path) -> None:
-    """It is kept on disk, and another lab knows of it."""
+    """The result is saved on disk, and another lab reads it."""
     lab.begin("md5")
     lab.model.answer(named("md5").diagnosis, named("md5").remedy)
     assert lab.state["score"]["first"] == 1
@@ -192,7 +190,7 @@ def test_a_right_first_answer_counts_as_such(lab: Lab, tmp_path: Path) -> None:
 
 
 def test_who_looks_at_the_answer_has_not_found_it(lab: Lab) -> None:
-    """The answer is told; a right one given later is no first one."""
+    """The model shows the right answer; choosing it afterwards does not count as a first answer."""
     lab.begin("died")
     lab.model.reveal()
     assert lab.case["verdict"]["diagnosis"] == named("died").diagnosis
@@ -204,7 +202,7 @@ def test_who_looks_at_the_answer_has_not_found_it(lab: Lab) -> None:
 
 
 def test_another_case_undoes_the_one_before(lab: Lab) -> None:
-    """At no time are two faults there."""
+    """There are never two faults at the same time."""
     lab.begin("stale")
     lab.begin("md5")
     lab.model.close()
@@ -218,7 +216,7 @@ def test_another_case_undoes_the_one_before(lab: Lab) -> None:
 
 
 def test_undo_waits_for_what_is_under_way(lab: Lab) -> None:
-    """A page that is closed in the middle of a look leaves no fault behind."""
+    """A page that is closed during a look leaves no fault on the graph."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -229,8 +227,8 @@ def test_undo_waits_for_what_is_under_way(lab: Lab) -> None:
 
 
 def test_a_case_is_gone_through_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The symptom and what the tools showed stay; the fault is undone; no answer is given away."""
-    lab.model.perform("stale", ["services", "ping"])
+    """The symptom and the looks are kept, the fault is undone, and the answer is not shown."""
+    lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
     assert lab.case["phase"] == "over"
@@ -238,7 +236,7 @@ def test_a_case_is_gone_through_for_a_page_without_a_kernel(lab: Lab) -> None:
 
 
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
-    """The error comes in words that `explain` knows, and what was begun is undone."""
+    """`explain` knows the error message, and what was started is undone."""
     lab.paper.fails = True
     lab.begin("stale")
     assert "Connection refused" in lab.state["trouble"]
@@ -250,20 +248,20 @@ def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
 
 
 def test_what_there_is_not_is_refused() -> None:
-    """A name that no fault has is an error in the cell, that says which there are."""
+    """An unknown name of a fault raises an error that lists the known names."""
     with pytest.raises(UnknownFault, match="groups serving, calling, masters"):
         BreakIt("rust")
 
 
 def test_its_text_is_the_same_for_everybody(tmp_path: Path) -> None:
-    """A notebook that shows it can be compared."""
+    """The text of the lab is the same in every run, so nbval can compare it."""
     store = CaseStore(tmp_path / "cases.json")
     assert repr(BreakIt(store=store)) == "BreakIt()"
     assert repr(BreakIt("stale", "serving", store=store)) == "BreakIt('stale', 'serving')"
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """Showing the lab touches nothing; a case does; hiding it undoes the case; so does closing."""
+    """Showing the lab changes nothing; opening a case causes its fault; hiding or closing the lab ends it."""
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

@@ -6,18 +6,26 @@ from xml.etree import ElementTree
 
 import pytest
 
-from course_pkg.graph import NodeSeen, ServiceSeen, Snapshot, TopicSeen
 from course_pkg.panels.graph.drawing import svg
-from course_pkg.panels.graph.folding import CROWD, folded, namespaces, space
 from course_pkg.panels.graph.layout import WIDE, laid_out
 from course_pkg.panels.graph.model import GraphModel
-from course_pkg.panels.graph.picture import Kind, Line, Picture, picture
+from course_pkg.panels.graph.picture import (
+    CROWD,
+    Kind,
+    Line,
+    Picture,
+    folded,
+    namespaces,
+    picture,
+    space,
+)
+from course_pkg.ros import NodeSeen, ServiceSeen, Snapshot, TopicSeen
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Make a snapshot of topics, each as (publisher, topic, subscriber), and services by their nodes."""
+    """Return a snapshot of topics, each as (publisher, topic, subscriber), and of services by node."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -41,18 +49,18 @@ NESTED = graph(
 
 
 def many(count: int) -> Snapshot:
-    """Make a snapshot of so many turtles, each a namespace of three topics."""
+    """Return a snapshot of `count` turtles; each is a namespace with three topics."""
     kinds = ("pose", "color", "scan")
     return graph(*(("/sim", f"/turtle{n}/{kind}", "/watch") for n in range(count) for kind in kinds))
 
 
 def names(shown: Picture) -> set[str]:
-    """Find what is drawn."""
+    """Return the shapes that are drawn."""
     return {each.name for each in shown.shapes}
 
 
 def test_a_namespace_holds_two_or_more() -> None:
-    """What stands alone in its namespace is not grouped, and of two equal groups the inner one counts."""
+    """A single name in a namespace is not grouped; of two equal groups, the inner one is used."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -60,14 +68,14 @@ def test_a_namespace_holds_two_or_more() -> None:
 
 
 def test_a_small_graph_is_framed_and_not_folded() -> None:
-    """Every shape stays, and a frame says what belongs together."""
+    """All shapes are drawn, and a frame shows which belong to one namespace."""
     shown = folded(picture(TURTLE), {})
     assert names(shown) == names(picture(TURTLE))
     assert {frame.name: len(frame.members) for frame in shown.frames} == {"/turtle1/": 3}
 
 
 def test_a_folded_namespace_is_one_box_with_the_lines_of_all() -> None:
-    """A line to anything inside leads to the box, once for each direction and kind."""
+    """A line to a shape inside leads to the box, once for each direction and kind."""
     shown = folded(picture(TURTLE), {"/turtle1/": True})
     assert names(shown) == {"/sim", "/monitor", "/teleop", "/clear", "/turtle1/"}
     box = "namespace /turtle1/"
@@ -96,7 +104,7 @@ def test_what_runs_inside_of_a_box_is_not_seen() -> None:
 
 
 def test_a_box_within_a_frame() -> None:
-    """A namespace in a namespace is folded by itself, and stands in the frame of the outer one."""
+    """An inner namespace is folded separately and is drawn in the frame of the outer one."""
     shown = folded(picture(NESTED), {"/robot/arm/": True})
     frames = {frame.name: frame.members for frame in shown.frames}
     assert set(frames) == {"/robot/", "/robot/base/"}
@@ -105,7 +113,7 @@ def test_a_box_within_a_frame() -> None:
 
 
 def test_a_crowd_folds_by_itself_unless_somebody_chose() -> None:
-    """Above a size namespaces fold; one that a student has opened stays open, and a small graph is left."""
+    """Large graphs fold namespaces, except one that a student has unfolded; small graphs do not fold."""
     crowd, few = picture(many(CROWD // 3)), picture(many(3))
     assert len(crowd.shapes) > CROWD
     assert len(folded(crowd, {}).shapes) == 2 + CROWD // 3
@@ -116,7 +124,7 @@ def test_a_crowd_folds_by_itself_unless_somebody_chose() -> None:
 
 
 def test_a_crowd_in_one_namespace_is_not_folded_away() -> None:
-    """A namespace with most of the graph in it would leave nothing to see; those within it fold."""
+    """A namespace that contains most of the graph is not folded; the namespaces inside it are."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
     assert [frame.name for frame in shown.frames] == ["/all/"]
@@ -124,7 +132,7 @@ def test_a_crowd_in_one_namespace_is_not_folded_away() -> None:
 
 
 def test_who_does_not_answer_is_said_of_the_box() -> None:
-    """A dead node inside is not hidden by the fold."""
+    """A dead node is visible even if its namespace is folded."""
     seen = graph(("/robot/a", "/robot/x", "/robot/b"))
     nodes = tuple(NodeSeen(each.name, each.uri, "refused") for each in seen.nodes[:1]) + seen.nodes[1:]
     whole = picture(Snapshot(seen.master, nodes, seen.topics, seen.services))
@@ -134,7 +142,7 @@ def test_who_does_not_answer_is_said_of_the_box() -> None:
 
 
 def test_frames_enclose_what_is_theirs_and_nothing_else() -> None:
-    """Of the shapes in the drawing just the members lie in a frame."""
+    """The frame contains exactly the shapes of the namespace."""
     layout = laid_out(folded(picture(NESTED), {}))
     assert [framed.frame.name for framed in layout.frames] == ["/robot/", "/robot/arm/", "/robot/base/"]
     for framed in layout.frames:
@@ -148,7 +156,7 @@ def test_frames_enclose_what_is_theirs_and_nothing_else() -> None:
 
 
 def test_a_wide_drawing_is_turned_upright() -> None:
-    """A chain of nodes that would be several pages wide runs from top to bottom."""
+    """A long chain of nodes is drawn from top to bottom instead of several pages wide."""
     chain = graph(*((f"/node_{n}", f"/topic_{n}", f"/node_{n + 1}") for n in range(9)))
     layout = laid_out(picture(chain))
     assert layout.width < WIDE
@@ -160,7 +168,7 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """Both have one key, and say whether they are expanded, so that the focus stays through a fold."""
+    """Frame and box have the same key and state whether they are expanded, so the focus survives folding."""
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")
@@ -172,13 +180,13 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Make a model, and a list of what it says."""
+    """Return a model, and the list of its messages."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 
 
 def test_what_is_folded_stays_folded_when_the_graph_changes() -> None:
-    """A node that comes does not open what somebody has closed."""
+    """A new node does not unfold a namespace that the student has folded."""
     model, heard = said()
     model.see(TURTLE)
     assert heard[-1]["spaces"] == [{"name": "/turtle1/", "folded": False}]
@@ -191,7 +199,7 @@ def test_what_is_folded_stays_folded_when_the_graph_changes() -> None:
 
 
 def test_the_words_tell_also_of_what_is_folded_away() -> None:
-    """The list below the drawing is the whole graph, and the namespace is in it for a click."""
+    """The list below the drawing contains the whole graph; a click folds and unfolds a namespace there."""
     model, heard = said()
     model.see(TURTLE)
     before = heard[-1]["facts"]
@@ -203,7 +211,7 @@ def test_the_words_tell_also_of_what_is_folded_away() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """With the noise shown, the two services that every node brings are one group."""
+    """If loggers are shown, the two logger services of each node form one group."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

@@ -1,20 +1,20 @@
-"""The graph panel's model: pictures, layout, drawing, words."""
+"""The model of the graph panel: pictures, layout, drawing and texts."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
 from course_pkg.errors import DrawingFailed
-from course_pkg.graph import Snapshot
-from course_pkg.graph.snapshot import NodeSeen, ServiceSeen, TopicSeen
 from course_pkg.panels.graph.drawing import svg
 from course_pkg.panels.graph.layout import LONGEST, Layout, laid_out
 from course_pkg.panels.graph.model import GraphModel
 from course_pkg.panels.graph.picture import Kind, Line, graph_text, picture
+from course_pkg.ros import Snapshot
+from course_pkg.ros.protocol.snapshot import NodeSeen, ServiceSeen, TopicSeen
+from course_pkg.types import Plain
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Make a snapshot of the nodes that the topics and services name."""
+    """Return a snapshot of the nodes that the topics and services name."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(
@@ -42,7 +42,7 @@ WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/
 
 
 def test_lines_run_the_way_that_data_goes() -> None:
-    """Publisher to topic to subscriber, and both ways between a node and its service."""
+    """Lines lead from publisher to topic to subscriber, and both ways between a node and its service."""
     assert set(picture(WHOLE).lines) == {
         Line("node /talker", "topic /chatter"),
         Line("topic /chatter", "node /listener"),
@@ -51,7 +51,7 @@ def test_lines_run_the_way_that_data_goes() -> None:
 
 
 def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
-    """/rosout and the logger services are noise to a beginner."""
+    """/rosout and the logger services are hidden at first."""
     assert {shape.name for shape in picture(WHOLE).shapes} == {
         "/talker",
         "/listener",
@@ -63,20 +63,20 @@ def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
 
 
 def test_a_hidden_node_takes_its_services_and_its_own_topics_along() -> None:
-    """No line leads to a node that is not shown."""
+    """No line leads to a node that is not drawn."""
     shown = picture(WHOLE, hide=["/server", "/talker"])
     assert {shape.name for shape in shown.shapes} == {"/listener", "/chatter"}
     assert shown.lines == (Line("topic /chatter", "node /listener"),)
 
 
 def test_the_order_of_the_snapshot_does_not_matter() -> None:
-    """The same graph gives the same picture, and so the same drawing."""
+    """The same graph gives the same picture and the same drawing."""
     turned = Snapshot(WHOLE.master, WHOLE.nodes[::-1], WHOLE.topics[::-1], WHOLE.services[::-1])
     assert picture(turned) == picture(WHOLE)
 
 
 def test_the_graph_in_words_names_no_port() -> None:
-    """The text is the same on every run: who publishes, subscribes and serves what."""
+    """The text is the same in every run: it lists who publishes, subscribes and provides which service."""
     assert graph_text(WHOLE) == (
         "/listener\n  subscribes /chatter  (std_msgs/String)\n"
         "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
@@ -86,7 +86,7 @@ def test_the_graph_in_words_names_no_port() -> None:
 
 
 def test_shapes_do_not_overlap_and_lie_inside() -> None:
-    """Graphviz gives every shape a place of its own in the picture."""
+    """Graphviz places all shapes without overlap."""
     layout = laid_out(picture(WHOLE, noise=True))
     boxes = []
     for placed in layout.shapes:
@@ -103,7 +103,7 @@ def test_shapes_do_not_overlap_and_lie_inside() -> None:
 
 
 def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
-    """Both ends of the name stay, the whole name is in the words."""
+    """A long name keeps its beginning and its end; the description contains the whole name."""
     name = "/robot/" + "x" * 60 + "/pose"
     shown = picture(snapshot(topics=(TopicSeen(name, "a/B", ("/n",), ()),)))
     placed = next(each for each in laid_out(shown).shapes if each.shape.kind is Kind.TOPIC)
@@ -113,7 +113,7 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
 
 
 def test_the_drawing_says_in_words_what_it_shows() -> None:
-    """Each shape is a button with a name; a node that does not answer says so."""
+    """Each shape is a button with a name; the name of a node that does not answer includes this fact."""
     root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
@@ -130,7 +130,7 @@ def test_the_drawing_says_in_words_what_it_shows() -> None:
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
-    """Whatever a node calls itself is text."""
+    """The name of a node is shown as text, even if it contains HTML."""
     evil = '/<script>alert("x")</script>'
     drawn = svg(laid_out(picture(snapshot(topics=(TopicSeen(evil, "a/B", ("/n",), ()),)))))
     assert "<script" not in drawn
@@ -138,15 +138,15 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
 
 
 class Wall:
-    """A model and what it said."""
+    """A model and its messages."""
 
-    def __init__(self, **options: Any) -> None:  # noqa: ANN401 - passed on
-        self.said: list[dict[str, Any]] = []
+    def __init__(self, **options: str) -> None:
+        self.said: list[dict[str, Plain]] = []
         self.model = GraphModel(lambda **parts: self.said.append(parts), **options)
 
 
 def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
-    """A change in what is hidden costs no drawing."""
+    """A change of a hidden node does not draw the picture again."""
     wall = Wall()
     wall.model.see(WHOLE)
     more = ServiceSeen("/server/set_logger_level", "roscpp/SetLoggerLevel", "/server", "x", "answered")
@@ -155,7 +155,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
 
 
 def test_a_choice_draws_anew() -> None:
-    """Asking for the noise shows it."""
+    """The option shows the hidden names."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
     wall.model.choose(noise=True, show_own=False)
@@ -164,7 +164,7 @@ def test_a_choice_draws_anew() -> None:
 
 
 def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """One sentence says what to install, and the list says what the drawing would."""
+    """Without Graphviz, one sentence names what to install, and the list contains the whole graph."""
     monkeypatch.setenv("PATH", str(tmp_path))
     wall = Wall()
     wall.model.see(WHOLE)
@@ -184,7 +184,7 @@ def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_
 def test_graphviz_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str
 ) -> None:
-    """A graphviz that hangs or fails is one sentence, not a hang."""
+    """If Graphviz hangs or fails, the panel shows one sentence and continues."""
     dot = tmp_path / "dot"
     dot.write_text(f"#!/bin/sh\n{script}\n")
     dot.chmod(0o755)
@@ -194,7 +194,7 @@ def test_graphviz_has_a_deadline(
 
 
 def test_a_graph_that_cannot_be_seen_keeps_the_old_picture() -> None:
-    """The reason is said; when the graph is back, so is the picture."""
+    """Without a master the panel shows the reason; when the master is back, it shows the picture again."""
     wall = Wall()
     wall.model.see(WHOLE)
     wall.model.lose("No master answers.")
@@ -204,6 +204,6 @@ def test_a_graph_that_cannot_be_seen_keeps_the_old_picture() -> None:
 
 
 def test_an_empty_graph_needs_no_graphviz(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Nothing to draw is not an error."""
+    """An empty graph is not an error."""
     monkeypatch.setenv("PATH", str(tmp_path))
     assert laid_out(picture(snapshot())) == Layout()

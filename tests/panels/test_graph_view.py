@@ -1,22 +1,42 @@
-"""The graph panel's widget on a real master, with no page."""
+"""The widget of the graph panel on a real master, without a page, and the recording of what it showed."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
 
-from course_pkg.graph import NodeProcess, NodeSeen, PrivateMaster, Snapshot
 from course_pkg.panels.graph import view
+from course_pkg.panels.graph.activity import ActivityState
+from course_pkg.panels.graph.history import BYTES, MOMENTS, History
+from course_pkg.panels.graph.model import Scene
 from course_pkg.panels.graph.view import GraphPanel
+from course_pkg.ros import NodeProcess, NodeSeen, PrivateMaster, Snapshot
 from tests.kernel import Kernel
 from tests.support import eventually, stopped
+
+BEGAN = 1_800_000_000.0  # s since the epoch
+
+
+def shown(drawing: str = "<svg/>", **notes: str) -> tuple[Scene, ActivityState]:
+    """Return a state of the panel: a drawing, and notes on topics."""
+    return {"drawing": drawing, "facts": [], "spaces": [], "trouble": ""}, {"notes": notes}
+
+
+def filled(*states: tuple[Scene, ActivityState]) -> History:
+    """Return the recording of these states, one per second."""
+    history = History()
+    history.start(BEGAN, *states[0])
+    for number, state in enumerate(states[1:], start=1):
+        history.add(BEGAN + number, *state)
+    return history
 
 
 @pytest.fixture(scope="module")
 def pulse(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """The course's pulse, running: it publishes twice a second."""
+    """Run the course's pulse, which publishes twice a second."""
     assert master.uri
     with NodeProcess.rosrun("course_pkg", "pulse") as process:
         process.wait_for_service("/pulse/get_loggers", timeout=20)
@@ -25,7 +45,7 @@ def pulse(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def panel(pulse: NodeProcess) -> Iterator[GraphPanel]:
-    """A panel that looks at the pulse."""
+    """Open a panel that shows the pulse."""
     assert pulse.running
     panel = GraphPanel()
     yield panel
@@ -33,23 +53,22 @@ def panel(pulse: NodeProcess) -> Iterator[GraphPanel]:
 
 
 def test_the_repr_is_stable(panel: GraphPanel) -> None:
-    """Whatever is on the graph, the text of the output is the same."""
+    """The text of the output is the same for every graph."""
     assert repr(panel) == "GraphPanel()"
 
 
 def test_a_rate_comes_by_itself_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
-    """Somebody who listens is connected, counted, and told with a rate; a hidden panel asks nobody."""
-    kernel.run(
-        "from course_pkg.graph import join\nnode = join('ear')\nnode.subscribe('/pulse', 'std_msgs/UInt32')"
-    )
+    """A connected subscriber is counted and shown with a rate; a hidden panel calls no node."""
+    kernel.run("from course_pkg.ros import join\nnode = join('listener')")
+    kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
     eventually(lambda: panel.activity["notes"].get("topic /pulse") == "2 Hz", timeout=30)
     panel._dispatch(panel, {"kind": "bye", "view": "a"}, [])
-    assert panel._listener._stop is None
+    assert panel._counts._stop is None
 
 
 def test_what_was_shown_is_handed_over_once_when_no_page_shows_it(panel: GraphPanel) -> None:
-    """While a page shows it, nothing grows; hidden, it has the pictures of that time; shown again, none."""
+    """While a page shows the panel, no recording grows; a hidden panel keeps the pictures of that time."""
     told: list[object] = []
     panel.observe(lambda change: told.append(change["new"]), "history")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -78,7 +97,7 @@ def test_a_panel_that_stays_as_it_is_keeps_nothing(pulse: NodeProcess) -> None:
 
 
 def test_a_click_folds_a_namespace(panel: GraphPanel) -> None:
-    """With the loggers shown, those of a node are a namespace that a click folds."""
+    """If loggers are shown, those of a node form a namespace that a click folds."""
     panel.received("choose", {"noise": True, "show_own": True})
     panel.received("fold", {"name": "/pulse/", "fold": True})
     assert {"name": "/pulse/", "folded": True} in panel.spaces
@@ -87,8 +106,8 @@ def test_a_click_folds_a_namespace(panel: GraphPanel) -> None:
 
 
 def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
-    """After join() the panel offers to hide this notebook's node; before, there is none."""
-    own = "from course_pkg import GraphPanel, join\nfrom course_pkg.graph import this_node\n"
+    """After join() the panel offers to hide the node of this notebook; before join() it does not."""
+    own = "from course_pkg import GraphPanel, join\nfrom course_pkg.ros import this_node\n"
     assert kernel.run(own + "result = [this_node(), GraphPanel().own]") == [None, ""]
     joined = (
         "node = join('mine')\nresult = [this_node() is node, GraphPanel().own, GraphPanel(node=node).own]"
@@ -99,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On a busy machine a node may miss one look: it is asked again before it is said to be gone."""
+    """A node that misses one look is called again before the panel reports it as gone."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -111,3 +130,61 @@ def test_a_node_that_is_late_once_is_not_lost(
         node = panel._look().node("/pulse")
     assert isinstance(node, NodeSeen)
     assert not node.reachable
+
+
+def test_what_does_not_change_is_kept_once() -> None:
+    """If nothing happens on the graph, the recording is one picture without a replay."""
+    assert filled(*[shown()] * 5).state(BEGAN + 9) == {}
+
+
+def test_moments_and_their_scenes() -> None:
+    """A drawing that appears again is stored once; times are ms since the first moment."""
+    kept = filled(shown("a"), shown("a", x="2 Hz"), shown("b"), shown("a"))
+    state = kept.state(BEGAN + 8.5)
+    assert state["began"] == BEGAN
+    assert state["length"] == 8500
+    assert [scene["drawing"] for scene in state["scenes"]] == ["a", "b"]
+    assert [moment[:2] for moment in state["moments"]] == [(0, 0), (1000, 0), (2000, 1), (3000, 0)]
+    assert state["moments"][1][2] == {"notes": {"x": "2 Hz"}}
+
+
+def test_moments_stay_in_order_if_the_clock_is_set_back() -> None:
+    """The moments are in the order of their times."""
+    history = filled(shown("a"), shown("b"))
+    history.add(BEGAN - 3600, *shown("c"))
+    assert [moment[0] for moment in history.state(BEGAN - 3600)["moments"]] == [0, 1000, 1000]
+
+
+def test_nothing_is_kept_before_the_start_and_after_the_end() -> None:
+    """A panel without a page records nothing, and a new start deletes the previous recording."""
+    history = History()
+    history.add(BEGAN, *shown("a"))
+    history.start(BEGAN, *shown("b"))
+    history.add(BEGAN + 1, *shown("c"))
+    history.stop()
+    history.add(BEGAN + 2, *shown("d"))
+    assert [scene["drawing"] for scene in history.state(BEGAN + 2)["scenes"]] == ["b", "c"]
+    history.start(BEGAN + 3, *shown("e"))
+    assert history.state(BEGAN + 4) == {}
+
+
+def test_it_is_bounded_in_number() -> None:
+    """After hours the recording contains the newest moments, and the first of them is at 0 ms."""
+    kept = filled(*(shown("a", turn=str(turn)) for turn in range(3 * MOMENTS)))
+    moments = kept.state(BEGAN + 3 * MOMENTS)["moments"]
+    assert len(moments) == MOMENTS
+    assert (moments[0][0], moments[-1][2]) == (0, {"notes": {"turn": str(3 * MOMENTS - 1)}})
+
+
+def test_it_is_bounded_in_bytes() -> None:
+    """Large different drawings replace the oldest ones and their moments."""
+    kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
+    state = kept.state(BEGAN + 40)
+    assert len(json.dumps(state)) < 1.1 * BYTES
+    assert state["scenes"][-1]["drawing"] == f"{39:020000}"
+    assert len(state["scenes"]) == len(state["moments"]) > 5
+
+
+def test_a_drawing_that_is_too_large_is_not_played() -> None:
+    """A drawing larger than the limit causes no error, and the recording stays within its size."""
+    assert filled(shown("a"), shown("x" * (BYTES + 1)), shown("y" * (BYTES + 1))).state(BEGAN + 3) == {}

@@ -4,45 +4,36 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
-from course_pkg.graph import NodeProcess, PrivateMaster
 from course_pkg.panels import GraphPanel, ServicePanel
+from course_pkg.types import Plain
 from tests.support import eventually
 
-
-@pytest.fixture(scope="module", autouse=True)
-def server(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run the course's geometry server on the master."""
-    assert master.uri
-    server = NodeProcess.rosrun("course_pkg", "server")
-    server.wait_for_service("/getGeometry", timeout=20)
-    yield server
-    server.stop()
+pytestmark = pytest.mark.usefixtures("server")
 
 
 @pytest.fixture
 def panel() -> Iterator[ServicePanel]:
-    """Open a panel and close it."""
+    """Open a panel, and close it after the test."""
     panel = ServicePanel("/getGeometry")
     yield panel
     panel.close()
 
 
 def threads() -> list[str]:
-    """Name the threads that panels start."""
+    """Return the threads that panels have started."""
     return sorted(thread.name for thread in threading.enumerate() if thread.name.startswith("panel-"))
 
 
-def ended(panel: ServicePanel) -> dict[str, Any]:
-    """Wait for the call to end."""
+def ended(panel: ServicePanel) -> dict[str, Plain]:
+    """Wait for the end of the call."""
     return eventually(lambda: panel.outcome if panel.outcome["phase"] not in ("idle", "running") else None)
 
 
 def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
-    """The page's message leads to a real call, and the answer is in the traits."""
+    """A message of the page causes a real call, and the response is in the traits."""
     panel.received("call", {"draft": {"length": "1.2", "width": "5.2", "height": "8.9"}, "deadline": "5"})
     outcome = ended(panel)
     assert outcome["phase"] == "done"
@@ -56,7 +47,7 @@ def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
 
 
 def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
-    """call() returns the response message, and the form shows what was sent."""
+    """call() returns the response message, and the form shows the request."""
     response = panel.call(length=2.0, width=3.0, height=4.0)
     assert (response.area, response.volume) == (6.0, 24.0)
     assert panel.response is response
@@ -65,7 +56,7 @@ def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
 
 
 def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
-    """Its repr and text/plain are the same before and after a call, so that notebooks can be compared."""
+    """Its repr and text/plain are the same before and after a call, so that nbval can compare notebooks."""
     before = repr(panel)
     panel.call()
     assert repr(panel) == before == "ServicePanel('/getGeometry')"
@@ -76,20 +67,20 @@ def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
 
 
 def test_the_service_is_described(panel: ServicePanel) -> None:
-    """Type, node and fields come from the graph and the type's definition."""
+    """Type, node and fields come from the graph and from the definition of the type."""
     assert (panel.form["type"], panel.form["node"]) == ("course_pkg/geometry", "/SERVER_NODE")
     assert [field["name"] for field in panel.form["request"]["fields"]] == ["length", "width", "height"]
     assert {each["name"]: each["tool"] for each in panel.services}["/SERVER_NODE/get_loggers"] is True
 
 
 def test_no_thread_without_a_page(panel: ServicePanel) -> None:
-    """The graph is followed while a view is on a page, and no longer; closing ends what is left."""
+    """The panel follows the graph only while a page shows it; closing ends its threads."""
     assert threads() == []
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
     panel._dispatch(panel, {"kind": "hello", "view": "b"}, [])
-    assert threads() == ["panel-follower"]
+    assert threads() == ["panel-poller"]
     panel._dispatch(panel, {"kind": "bye", "view": "a"}, [])
-    assert threads() == ["panel-follower"]
+    assert threads() == ["panel-poller"]
     panel._dispatch(panel, {"kind": "bye", "view": "b"}, [])
     eventually(lambda: not threads())
     panel._dispatch(panel, {"kind": "hello", "view": "c"}, [])
@@ -98,13 +89,13 @@ def test_no_thread_without_a_page(panel: ServicePanel) -> None:
 
 
 def test_an_error_in_a_click_is_shown_in_the_panel(panel: ServicePanel) -> None:
-    """A message that makes no sense does not reach the kernel's cells."""
+    """A malformed message from the page has no effect on the kernel's cells."""
     panel._dispatch(panel, {"kind": "call"}, [])
     assert panel.notice == "KeyError: 'draft'"
 
 
 def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
-    """What a page without a kernel answers from was really called."""
+    """The recorded responses of a page without a kernel come from real calls."""
     panel.record([{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": -1.0}])
     assert [each["draft"]["length"] for each in panel.recording] == ["1.0", "-1.0"]
     assert panel.recording[0]["outcome"]["rows"][0]["text"] == "2.0"
@@ -112,7 +103,7 @@ def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
 
 @pytest.mark.parametrize("panel_class", [ServicePanel, GraphPanel])
 def test_no_master_is_a_sentence(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
-    """Without a master a panel opens all the same, and says why it is empty."""
+    """Without a master the panel opens and gives the reason for being empty."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
     panel = panel_class()
     assert "localhost:9" in panel.trouble
@@ -120,7 +111,7 @@ def test_no_master_is_a_sentence(monkeypatch: pytest.MonkeyPatch, panel_class: t
 
 
 def test_a_graph_panel_draws_the_real_graph() -> None:
-    """The server and its service are in the drawing and in the list."""
+    """The drawing and the list contain the server and its service."""
     panel = GraphPanel(live=False)
     assert 'data-key="service /getGeometry"' in panel.drawing
     assert [fact["name"] for fact in panel.facts] == ["/SERVER_NODE", "/getGeometry"]

@@ -1,21 +1,20 @@
-"""What a timeline draws of a recording, and what it says in words."""
+"""What a timeline draws of a recording, and its description as text."""
 
 from __future__ import annotations
 
 import json
-from typing import Any
+from dataclasses import replace
 
 import pytest
 
-from course_pkg.graph import Event, Recording
 from course_pkg.panels import Timeline, timeline_text
-from course_pkg.panels.timeline.model import MOST, OPEN, arrows, state
-from course_pkg.panels.timeline.rows import rows_of
+from course_pkg.panels.timeline.model import MOST, OPEN, arrows, rows_of, state
 from course_pkg.panels.timeline.waits import waits_of
+from course_pkg.ros import Event, Recording
 
 
-def call(key: str = "call 1", at: float = 0.0, **more: Any) -> list[Event]:  # noqa: ANN401
-    """Make up a call that is on record at both ends: 1 s, of which the handler works 0.6 s."""
+def call(key: str = "call 1", at: float = 0.0, **more: str) -> list[Event]:
+    """Return a call that both ends recorded: 1 s long, and 0.6 s of it in the handler."""
     who = {"caller": "/customer", "server": "/cashier", "thread": "MainThread", **more}
     caller, server, thread = who["caller"], who["server"], who["thread"]
     return [
@@ -29,7 +28,7 @@ def call(key: str = "call 1", at: float = 0.0, **more: Any) -> list[Event]:  # n
 
 
 def message(number: int, at: float, *hearers: str) -> list[Event]:
-    """Make up a message and its callbacks."""
+    """Return a message and its callbacks."""
     key = f"message {number}"
     sent = Event("publish", "/robot", "/joints", at, at + 0.001, ", ".join(hearers), key, "MainThread")
     return [
@@ -41,8 +40,8 @@ def message(number: int, at: float, *hearers: str) -> list[Event]:
     ]
 
 
-def recording(*events: Event, length: float = 10.0, **more: Any) -> Recording:  # noqa: ANN401
-    """Make up a recording of these events."""
+def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | dict[str, str]) -> Recording:
+    """Return a recording of these events."""
     ordered = tuple(sorted(events, key=lambda event: event.start))
     return Recording(
         events=ordered, nodes=tuple(sorted({event.node for event in events})), length=length, **more
@@ -50,17 +49,17 @@ def recording(*events: Event, length: float = 10.0, **more: Any) -> Recording:  
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return the arrows by the kinds at their ends."""
+    """Return the arrows by the kinds of their ends."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
 def test_a_call_has_two_arrows() -> None:
-    """The request goes to the handler, and the answer from its end to the response."""
+    """One arrow leads from the request to the handler, another from the handler's end to the response."""
     assert drawn(recording(*call())) == [("request", "handler"), ("handler", "response")]
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """With one side of a call or message on record there is no arrow."""
+    """If only one side of a call or message was recorded, there is no arrow."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -69,7 +68,7 @@ def test_what_was_not_recorded_is_not_drawn() -> None:
 
 
 def test_no_answer_reaches_who_gave_up() -> None:
-    """A caller whose time was up got no answer, also when the handler ended later; a refusal is one."""
+    """A call that timed out has no answer, even if the handler ended later; a refusal is an answer."""
     *asked, handler, _ = call()
     gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
     refused = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
@@ -78,7 +77,7 @@ def test_no_answer_reaches_who_gave_up() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """What is open has no answer; a wait begun before the recording shows where its request went."""
+    """A call that has not ended has no answer; a wait that began earlier shows where its request went."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -87,12 +86,12 @@ def test_a_call_that_never_ended() -> None:
 
 
 def test_a_message_has_an_arrow_to_each_callback() -> None:
-    """One message, two subscribers: two arrows."""
+    """One message to two subscribers has two arrows."""
     assert drawn(recording(*message(1, 1.0, "/simulator", "/plotter"))) == [("publish", "callback")] * 2
 
 
 def test_threads_that_work_at_once_stand_below_each_other() -> None:
-    """Handlers that overlap have rows of their own, handlers one after the other share one."""
+    """Handlers that overlap have separate rows; handlers one after the other share a row."""
     overlapping = [
         Event("handler", "/s", "/x", at, at + 1, "/c", f"call {at}", f"Thread-{at}") for at in (0, 0.5, 0.9)
     ]
@@ -104,7 +103,7 @@ def test_threads_that_work_at_once_stand_below_each_other() -> None:
 
 
 def test_a_thread_keeps_its_row() -> None:
-    """What a thread does twice stands on one row, also when another worked in between."""
+    """Two events of one thread share a row, even if another thread worked in between."""
     events = [
         Event("callback", "/n", "/a", 0, 1, thread="/a"),
         Event("handler", "/n", "/x", 0.5, 1.5, thread="Thread-1"),
@@ -114,7 +113,7 @@ def test_a_thread_keeps_its_row() -> None:
 
 
 def test_a_call_within_a_callback_is_inset() -> None:
-    """What a thread does within something else is known to lie within it, and what follows is not."""
+    """An event of a thread within another one is drawn inside it; an event after it is not."""
     callback = Event("callback", "/customer", "/go", -0.1, 1.5, thread="/go")
     after = Event("callback", "/customer", "/go", 2.0, 2.1, thread="/go")
     found = recording(callback, *(e for e in call(thread="/go") if e.node == "/customer"), after)
@@ -124,14 +123,14 @@ def test_a_call_within_a_callback_is_inset() -> None:
 
 
 def test_fifty_overlapping_calls() -> None:
-    """Each of 50 callers and 50 handlers at once has its row."""
+    """Each of 50 simultaneous callers and handlers has its own row."""
     events = [event for n in range(50) for event in call(f"call {n}", n / 1000, thread=f"caller {n}")]
     lanes = state(recording(*events))["lanes"]
     assert lanes == [{"node": "/customer", "rows": 50}, {"node": "/cashier", "rows": 50}]
 
 
 def test_the_state_is_bounded() -> None:
-    """Of too many events the calls are kept, then the messages in order, and what is left out is said."""
+    """Of too many events, calls are kept first, then messages; a note gives the number left out."""
     stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
     kept = state(recording(*stream, *call(at=4.0)))
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
@@ -144,7 +143,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """Of too many calls the first are kept."""
+    """If there are too many calls, the first ones are kept."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
@@ -152,17 +151,17 @@ def test_too_many_calls() -> None:
 
 
 def test_nothing_recorded() -> None:
-    """An empty recording says which nodes were idle or had no record."""
+    """An empty recording lists which nodes were idle and which had no record."""
     empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
     assert empty["unrecorded"] == [["/b", "its process is gone"]]
 
 
 def test_all_that_is_shown_comes_from_the_recording() -> None:
-    """The columns give back each event as it was, in whole microseconds."""
+    """The columns contain each event unchanged, in whole microseconds."""
     found = recording(*call(), *message(1, 2.0, "/simulator"))
     kept = state(found)
-    columns, words = kept["columns"], kept["words"]
+    columns, words = kept["columns"], kept["strings"]
     for number, event in enumerate(found.events):
         assert kept["kinds"][columns["kind"][number]] == event.kind
         assert kept["lanes"][columns["lane"][number]]["node"] == event.node
@@ -173,7 +172,7 @@ def test_all_that_is_shown_comes_from_the_recording() -> None:
 
 
 def test_who_waited_how_long() -> None:
-    """Look-up, connection and wait count as waiting, the handler does not; messages make nobody wait."""
+    """Look-up, connection and wait count as waiting; the handler and messages do not."""
     waits = waits_of(recording(*call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator")))
     (wait,), (stream,) = waits["calls"], waits["streams"]
     assert (wait["node"], wait["service"], wait["servers"]) == ("/customer", "/x", ["/cashier"])
@@ -182,14 +181,14 @@ def test_who_waited_how_long() -> None:
 
 
 def test_an_open_wait_counts_to_the_end() -> None:
-    """A wait that had not ended counts up to the end of the recording, and from its beginning."""
+    """A wait that has not ended counts from its beginning to the end of the recording."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     (found,) = waits_of(recording(wait, length=2.0))["calls"]
     assert (found["blocked"], found["open"]) == (2.0, 1)
 
 
 def test_in_plain_sentences() -> None:
-    """The text says who waited for whom and who did not, without times and numbers."""
+    """The text lists which node waited for which, without times and numbers."""
     error = Event("error", "/customer", "/nope", 5.1, 5.1, "", "call 8", "MainThread", "unavailable")
     lookup = Event("lookup", "/customer", "/nope", 5.0, 5.1, "master", "call 8", "MainThread")
     late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
@@ -204,24 +203,24 @@ def test_in_plain_sentences() -> None:
 
 
 def test_messages_that_nobody_heard() -> None:
-    """That nobody was connected is said where it is on record; else somebody may have heard."""
+    """If it was recorded that no subscriber was connected, the text contains it; otherwise it does not."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
-    lost = Event(**{**sent.as_dict(), "note": "nobody was connected"})
+    lost = replace(sent, note="nobody was connected")
     assert timeline_text(recording(lost)).endswith("nobody was connected.")
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1
 
 
 @pytest.mark.parametrize(("failed", "words"), [(1, "in vain"), (2, "at times in vain")])
 def test_failures_in_plain_sentences(failed: int, words: str) -> None:
-    """A call that failed was made in vain; one of several, at times."""
+    """The text counts failed calls: all of them, or some of several."""
     error = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
     found = recording(*call()[:-1], error, *(call("call 2", 2.0) if failed == 2 else []))
     assert timeline_text(found) == f"/customer called /x and waited for /cashier, {words}."
 
 
 def test_the_panel() -> None:
-    """It is a widget with a stable name that needs a recording and no kernel."""
+    """The timeline is a widget with a stable name; it needs a recording and no kernel."""
     panel = Timeline(recording(*call()))
     assert repr(panel) == "Timeline()"
     assert panel.recorded["length"] == 10_000_000

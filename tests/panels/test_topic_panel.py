@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import pytest
 
 from course_pkg.errors import NotATopic, UnknownType
-from course_pkg.graph import MasterClient, PrivateMaster, look
 from course_pkg.panels import TopicPanel
+from course_pkg.ros import MasterClient, PrivateMaster, look
 from tests.kernel import Kernel
 from tests.support import eventually
 
@@ -17,12 +17,12 @@ SETTINGS = {"rate": "10", "queue": "10", "latch": False, "path": "data"}
 
 @pytest.fixture
 def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
-    """Show a panel of /speed, and close it."""
+    """Show a panel of /speed, and close it after the test."""
     assert master.uri
     panel = TopicPanel("/speed", "std_msgs/Float64")
     panel.received("hello", {})
     panel.shown()
-    eventually(lambda: panel.around.get("own"), timeout=20)
+    eventually(lambda: panel.connections.get("own"), timeout=20)
     yield panel
     panel.hidden()
     panel.close()
@@ -36,22 +36,22 @@ def click(panel: TopicPanel, action: str, data: str, **settings: object) -> None
 
 
 def sent_to(panel: TopicPanel) -> set[str]:
-    """Return the nodes to which something was sent."""
-    return {each["peer"] for each in panel.spoken.get("deliveries", ()) if each["sent"]}
+    """Return the nodes that received the message."""
+    return {each["peer"] for each in panel.publisher.get("deliveries", ()) if each["sent"]}
 
 
 def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: PrivateMaster) -> None:
-    """Shown, it is a node that subscribes; shown once more, the same; hidden, it is gone."""
+    """A shown panel is a node that subscribes; showing it again adds none; hiding it removes the node."""
     panel.shown()
     topic = next(each for each in look(master.uri).topics if each.name == "/speed")
-    assert topic.subscribers == (panel.around["own"],)
+    assert topic.subscribers == (panel.connections["own"],)
     assert topic.publishers == ()
     panel.hidden()
     eventually(lambda: not look(master.uri).nodes)
 
 
 def test_no_page_no_node(master: PrivateMaster) -> None:
-    """A panel that nobody looks at starts nothing, and yet has its form and its commands."""
+    """A panel that no page shows starts no process, but has its form and its commands."""
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert panel.check["once"] == "rostopic pub --once /speed std_msgs/Float64 0.0"
     assert panel.trouble == ""
@@ -60,22 +60,22 @@ def test_no_page_no_node(master: PrivateMaster) -> None:
 
 
 def test_a_click_publishes_for_real(panel: TopicPanel, kernel: Kernel) -> None:
-    """A subscriber in another node gets the number, and the panel counts that it was sent."""
+    """A subscriber in another node receives the number, and the panel counts the message."""
     kernel.run("""
-        from course_pkg.graph import join
+        from course_pkg.ros import join
         node = join("listener")
         heard = node.subscribe("/speed", "std_msgs/Float64")
     """)
     click(panel, "publish", "-1.5", latch=True)
     assert kernel.run("result = heard.wait(1)[0].data") == -1.5
     eventually(lambda: "/listener" in sent_to(panel))
-    assert eventually(lambda: panel.echo)[0]["line"] == "data -1.5"
+    assert eventually(lambda: panel.messages)[0]["line"] == "data -1.5"
 
 
 def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> None:
-    """A rate goes on only while somebody can see it and stop it."""
+    """A rate continues only while a page shows the panel, so that it can be stopped."""
     kernel.run("""
-        from course_pkg.graph import join
+        from course_pkg.ros import join
         from tests.support import eventually
         node = join("listener")
         heard = node.subscribe("/speed", "std_msgs/Float64")
@@ -88,59 +88,61 @@ def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> 
 
 
 def test_it_comes_back_with_what_was_typed(panel: TopicPanel) -> None:
-    """Shown again, the panel has another node, which knows the type and what is to be drawn."""
+    """A panel that is shown again has another node, with the same type and plot."""
     click(panel, "publish", "2.5")
-    first = panel.around["own"]
+    first = panel.connections["own"]
     panel.hidden()
     panel.shown()
-    eventually(lambda: panel.around.get("own") not in ("", first), timeout=20)
-    assert panel.echo == []
+    eventually(lambda: panel.connections.get("own") not in ("", first), timeout=20)
+    assert panel.messages == []
     click(panel, "publish", "3.5", latch=True)
-    assert eventually(lambda: panel.echo)[0]["line"] == "data 3.5"
+    assert eventually(lambda: panel.messages)[0]["line"] == "data 3.5"
     assert eventually(lambda: '"count": 1' in panel.curve)
 
 
 def test_a_page_in_a_hurry_leaves_nothing_behind(panel: TopicPanel, master: PrivateMaster) -> None:
-    """However often and fast it is shown and hidden, there is one node in the end, or none."""
+    """After many quick shows and hides there is one node, or none."""
     for _ in range(8):
         panel.hidden()
         panel.shown()
-    eventually(lambda: [node.name for node in look(master.uri).nodes] == [panel.around["own"]], timeout=30)
+    eventually(
+        lambda: [node.name for node in look(master.uri).nodes] == [panel.connections["own"]], timeout=30
+    )
     panel.hidden()
     eventually(lambda: not look(master.uri).nodes)
 
 
 def test_another_type_is_said(panel: TopicPanel, kernel: Kernel) -> None:
-    """A real publisher of another type is named with its type."""
+    """A publisher of another type is named with its type."""
     kernel.run("""
-        from course_pkg.graph import join
+        from course_pkg.ros import join
         node = join("talker")
-        spoken = node.advertise("/speed", "std_msgs/String")
+        publisher = node.advertise("/speed", "std_msgs/String")
     """)
-    warnings = eventually(lambda: panel.around["warnings"])
+    warnings = eventually(lambda: panel.connections["warnings"])
     assert warnings[0].startswith("/talker publishes std_msgs/String (MD5 992ce8a1…)")
 
 
 def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
-    """A panel without a type has that of the publisher at once."""
+    """A panel without a type takes the type of the publisher."""
     kernel.run("""
-        from course_pkg.graph import join
+        from course_pkg.ros import join
         node = join("talker")
-        spoken = node.advertise("/joints", "sensor_msgs/JointState")
+        publisher = node.advertise("/joints", "sensor_msgs/JointState")
     """)
     panel = TopicPanel("joints")
     assert panel.about["message"]["name"] == "sensor_msgs/JointState"
-    assert panel.around["publishers"] == ({"node": "/talker", "type": "sensor_msgs/JointState"},)
+    assert panel.connections["publishers"] == [{"node": "/talker", "type": "sensor_msgs/JointState"}]
     panel.close()
 
 
 def test_the_text_is_the_same_in_every_run(panel: TopicPanel) -> None:
-    """text/plain holds the topic's name and nothing that changes."""
+    """text/plain contains the topic's name and nothing that changes."""
     assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "TopicPanel('/speed')"
 
 
 def test_a_slip_in_the_cell_is_an_error_in_the_cell() -> None:
-    """A type that is not there, and a name that cannot be one."""
+    """An unknown type and an invalid name raise errors."""
     with pytest.raises(UnknownType, match="Flaot64"):
         TopicPanel("/speed", "std_msgs/Flaot64")
     with pytest.raises(NotATopic):
@@ -148,7 +150,7 @@ def test_a_slip_in_the_cell_is_an_error_in_the_cell() -> None:
 
 
 def test_without_a_master_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The form is there, and a sentence says why nothing can be seen."""
+    """The panel shows the form, and the reason why it receives nothing."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert "No ROS master" in panel.trouble
@@ -156,7 +158,7 @@ def test_without_a_master_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A panel that was shown before join() finds the master that join() has started."""
+    """A panel that was shown before join() finds the master that join() starts."""
     with PrivateMaster() as master:
         monkeypatch.setenv("ROS_HOSTNAME", "localhost")
         monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
@@ -164,7 +166,7 @@ def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch
         panel.shown()
         eventually(lambda: panel.trouble)
         monkeypatch.setenv("ROS_MASTER_URI", master.uri)
-        eventually(lambda: panel.around.get("own"), timeout=20)
+        eventually(lambda: panel.connections.get("own"), timeout=20)
         assert panel.trouble == ""
         panel.hidden()
         eventually(lambda: not MasterClient(master.uri).system_state().nodes)

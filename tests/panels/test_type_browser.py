@@ -1,43 +1,51 @@
-"""The type browser: which types there are, what one is made of, and who offers it."""
+"""The type browser: the list of types, the fields of a type, and the nodes that use it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from course_pkg.graph import NodeProcess, NodeSeen, PrivateMaster, ServiceSeen, Snapshot, TopicSeen
 from course_pkg.panels import TypeBrowser
-from course_pkg.panels.types.description import CHANGED, NO_FILE, UNBUILT, described
-from course_pkg.panels.types.model import TypeModel, catalogue, offers, packages
-from tests.interfaces.conftest import build, package
+from course_pkg.panels.types.model import (
+    CHANGED,
+    NO_FILE,
+    UNBUILT,
+    TypeModel,
+    catalogue,
+    described,
+    offers,
+    packages,
+)
+from course_pkg.ros import NodeProcess, NodeSeen, PrivateMaster, ServiceSeen, Snapshot, TopicSeen
+from course_pkg.types import Plain
 from tests.support import eventually
+from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model and what it said, by keyword."""
+    """A model and its messages, by keyword."""
 
     def __init__(self) -> None:
-        self.said: list[dict[str, Any]] = []
+        self.said: list[dict[str, Plain]] = []
         self.model = TypeModel(lambda **parts: self.said.append(parts))
 
-    def last(self, name: str) -> Any:  # noqa: ANN401 - a trait
-        """Find the latest of one kind."""
+    def last(self, name: str) -> Plain:
+        """Return the latest message of one kind."""
         return next(each[name] for each in reversed(self.said) if name in each)
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder for packages, on both paths."""
+    """Return a folder for packages that is on both paths."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     monkeypatch.syspath_prepend(str(tmp_path / "python"))
     return tmp_path
 
 
 def test_a_service_is_told_with_fields_comments_and_lines() -> None:
-    """What a student asks of a type stands there: fields, MD5, text, and lines that work as they are."""
+    """The browser shows fields, MD5, text, and commands that work unchanged."""
     told = described("std_srvs/SetBool", "srv")
     request, response = told["parts"]
     assert [(each["type"], each["name"]) for each in request["fields"]] == [("bool", "data")]
@@ -55,7 +63,7 @@ def test_a_service_is_told_with_fields_comments_and_lines() -> None:
 
 
 def test_messages_within_are_a_tree_and_constants_are_told() -> None:
-    """A message in a message, or in an array, has its own fields below it; a time has its two halves."""
+    """Nested messages and arrays list their own fields; a time lists its two parts."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (
@@ -69,7 +77,7 @@ def test_messages_within_are_a_tree_and_constants_are_told() -> None:
 
 
 def test_a_broken_file_is_told_with_file_and_line(folder: Path) -> None:
-    """A text that ROS refuses is a sentence that says where, and the text is there to be read."""
+    """For an invalid definition the browser shows the error with its line, and the text."""
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
     assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
@@ -78,7 +86,7 @@ def test_a_broken_file_is_told_with_file_and_line(folder: Path) -> None:
 
 
 def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
-    """It can be looked at, and not be imported."""
+    """A definition that is not built can be shown, but not imported."""
     package(folder, "raw_types_pkg", New_srv="int8 x\n---\n")
     told = described("raw_types_pkg/New", "srv")
     assert told["warning"] == UNBUILT
@@ -86,7 +94,7 @@ def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
 
 
 def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
-    """What programs use is shown, and that the file says otherwise; a comment alone changes nothing."""
+    """The browser shows the built type, and notes that the file differs; changed comments do not count."""
     root = package(folder, "made_pkg", Made_srv="int8 x\n---\n", Whole_msg="int8 y\n")
     build(root, folder / "python")
     file = root / "srv" / "Made.srv"
@@ -106,14 +114,14 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """An unknown name is a sentence with advice, never an error in the page."""
+    """An unknown name leads to a sentence with advice, and to no error on the page."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")
 
 
 def test_packages_are_those_with_types() -> None:
-    """Each has its services and its messages, all in order."""
+    """Each package lists its services and its messages, sorted."""
     found = packages((("b_pkg/One", "b_pkg/Two"), ("a_pkg/Three", "b_pkg/One")))
     assert found == [
         {"name": "a_pkg", "srv": [], "msg": ["Three"]},
@@ -122,7 +130,7 @@ def test_packages_are_those_with_types() -> None:
 
 
 def test_everything_on_the_path_can_be_opened() -> None:
-    """Of all types of this machine none is a problem."""
+    """No type of this machine causes a problem."""
     services, messages = catalogue()
     assert {"std_srvs/SetBool", "course_pkg/geometry"} <= set(services)
     assert "std_msgs/String" in messages
@@ -130,32 +138,32 @@ def test_everything_on_the_path_can_be_opened() -> None:
 
 
 def test_a_type_that_vanishes_is_told(folder: Path) -> None:
-    """When the files change, so does what is shown, without anybody picking it anew."""
+    """When a file changes, the page shows the change without another click."""
     wall = Wall()
     root = package(folder, "short_pkg", Lived_srv="int8 x\n---\n")
-    wall.model.know(catalogue())
+    wall.model.update(catalogue())
     wall.model.open("short_pkg/Lived")
     assert wall.last("described")["problem"] == ""
     (root / "srv" / "Lived.srv").unlink()
-    wall.model.know(catalogue())
+    wall.model.update(catalogue())
     assert "short_pkg/Lived" in wall.last("described")["problem"]
     assert all(each["srv"] != ["Lived"] for each in wall.last("packages"))
 
 
 def test_the_same_is_not_told_twice() -> None:
-    """Looking at files that did not change says nothing."""
+    """If no file has changed, the model sends nothing."""
     wall = Wall()
-    wall.model.know(catalogue())
+    wall.model.update(catalogue())
     wall.model.open("std_srvs/Empty")
     told = len(wall.said)
-    wall.model.know(catalogue())
+    wall.model.update(catalogue())
     assert len(wall.said) == told
 
 
 def test_a_name_of_both_halves_is_the_service() -> None:
-    """A service and a message may have one name; what is asked for by name is the service."""
+    """A service and a message may have the same name; the name then selects the service."""
     wall = Wall()
-    wall.model.know((("std_srvs/Empty",), ("std_msgs/Empty", "std_srvs/Empty")))
+    wall.model.update((("std_srvs/Empty",), ("std_msgs/Empty", "std_srvs/Empty")))
     wall.model.open("std_srvs/Empty")
     assert wall.last("described")["half"] == "srv"
     wall.model.open("std_msgs/Empty")
@@ -163,7 +171,7 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """Of a service type its services and their nodes, of a message type its topics and both their ends."""
+    """A service type lists its services and nodes, a message type its topics, publishers and subscribers."""
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),
@@ -181,7 +189,7 @@ def test_who_offers_a_type_now() -> None:
 
 @pytest.fixture
 def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
-    """A browser on a real master, shown by a page."""
+    """Show a browser on a real master."""
     assert master.uri
     browser = TypeBrowser("course_pkg/geometry")
     browser._dispatch(browser, {"kind": "hello", "view": "a"}, [])
@@ -190,7 +198,7 @@ def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
 
 
 def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) -> None:
-    """A server that starts and a file that is written appear by themselves while a page shows the browser."""
+    """A new server and a new file appear while a page shows the browser."""
     with NodeProcess.rosrun("course_pkg", "server"):
         who = eventually(lambda: browser.offers.get("srv", {}).get("course_pkg/geometry"), timeout=20)
     assert who == [{"name": "/getGeometry", "served by": ["/SERVER_NODE"]}]
@@ -203,14 +211,14 @@ def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) 
 
 
 def test_the_repr_is_stable(browser: TypeBrowser) -> None:
-    """It says what the cell said, whatever is clicked later."""
+    """The repr is that of the cell, and later clicks do not change it."""
     browser._dispatch(browser, {"kind": "open", "name": "std_srvs/Empty", "half": "srv"}, [])
     assert browser.described["name"] == "std_srvs/Empty"
     assert (repr(browser), repr(TypeBrowser())) == ("TypeBrowser('course_pkg/geometry')", "TypeBrowser()")
 
 
 def test_without_a_master_types_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files need no graph: only who offers a type is unknown, and why."""
+    """Without a master the types are shown, and a sentence explains why no nodes are listed."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     browser = TypeBrowser("std_srvs/Trigger")
     assert browser.described["md5"] == "937c9679a518e3a18d831e57125ea522"

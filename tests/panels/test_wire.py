@@ -1,4 +1,4 @@
-"""What the wire view makes of bytes: their places, their values, and what it leaves out."""
+"""How the wire view splits bytes: the offset and value of each piece, and what it leaves out."""
 
 from __future__ import annotations
 
@@ -6,18 +6,17 @@ import io
 import json
 import random
 import struct
-from typing import Any
 
 import pytest
 
 from course_pkg.errors import UnknownType
-from course_pkg.graph.relay import Chunk, Conversation
-from course_pkg.graph.wiretap import Wire
-from course_pkg.interfaces import MessageType, ServiceType, compile_message, compile_service
 from course_pkg.panels import WireView
 from course_pkg.panels.wire.anatomy import header_pieces, reply_pieces, request_pieces
 from course_pkg.panels.wire.model import STEPS, state
-from course_pkg.panels.wire.pieces import MOST, SHOWN
+from course_pkg.panels.wire.pieces import MOST, SHOWN, PieceState
+from course_pkg.ros.wire.capture import Wire
+from course_pkg.ros.wire.relay import Chunk, RelayedConnection
+from course_pkg.types import MessageType, Plain, ServiceType, compile_message, compile_service
 
 GEOMETRY = compile_service(
     "course_pkg/geometry", "float32 length\nfloat32 width\nfloat32 height\n---\nfloat32 area\nfloat32 volume"
@@ -72,7 +71,7 @@ VALUES = {
 
 
 def sized(data: bytes) -> bytes:
-    """Put the length of some bytes in front of them."""
+    """Return the bytes with their length in front."""
     return struct.pack("<I", len(data)) + data
 
 
@@ -81,25 +80,25 @@ def header(**fields: str) -> bytes:
     return sized(b"".join(sized(f"{name}={value}".encode()) for name, value in fields.items()))
 
 
-def body(kind: MessageType, values: dict[str, Any]) -> bytes:
-    """Return the bytes that genpy makes of a message, which has no length of its own."""
+def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
+    """Return the bytes of a message from genpy, without a length in front."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()
 
 
-def values(pieces: list[dict[str, Any]]) -> dict[str, str]:
-    """Return what the pieces say, by name."""
+def values(pieces: list[PieceState]) -> dict[str, str]:
+    """Return the values of the pieces, by name."""
     return {piece["name"]: piece["value"] for piece in pieces}
 
 
-def covered(pieces: list[dict[str, Any]]) -> list[tuple[int, int]]:
-    """Return the places of the pieces that are no headings."""
+def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
+    """Return the offsets of the pieces that are not headings."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 
-def gapless(pieces: list[dict[str, Any]], size: int) -> bool:
-    """Say whether the pieces cover `size` bytes, each once and in order."""
+def gapless(pieces: list[PieceState], size: int) -> bool:
+    """Return whether the pieces cover `size` bytes, each byte once and in order."""
     at = 0
     for start, count in covered(pieces):
         if start != at:
@@ -108,20 +107,20 @@ def gapless(pieces: list[dict[str, Any]], size: int) -> bool:
     return at == size
 
 
-def spoken(*said: tuple[bool, bytes], closed_by: str = "client") -> Conversation:
-    """Make up a connection on which this was said, by the client where True stands."""
+def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
+    """Return a connection with these parts; True marks the parts of the client."""
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
-    return Conversation(10.0, chunks, closed_by)
+    return RelayedConnection(10.0, chunks, closed_by)
 
 
-def titles(*conversations: Conversation, kind: ServiceType | None = GEOMETRY, **more: Any) -> list[str]:  # noqa: ANN401
+def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETRY, **more: int) -> list[str]:
     """Return the titles of the steps of these connections."""
-    wire = Wire("/x", uri="rosrpc://localhost:1", conversations=conversations, kind=kind, **more)
+    wire = Wire("/x", uri="rosrpc://localhost:1", connections=conversations, kind=kind, **more)
     return [step["title"] for step in state(wire, unknown)["steps"]]
 
 
 def unknown(name: str) -> ServiceType:
-    """Know no type."""
+    """Find no type."""
     raise UnknownType(name, f"there is no {name}")
 
 
@@ -132,7 +131,7 @@ ANSWERED = (False, b"\1" + sized(struct.pack("<2f", 6.24, 55.536)))
 
 
 def test_every_primitive_has_its_place_and_value() -> None:
-    """The pieces cover what genpy has written, byte for byte, and say the values that went in."""
+    """The pieces cover the bytes from genpy exactly, and contain the original values."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))
     pieces = request_pieces(data, kind)
@@ -154,7 +153,7 @@ def test_every_primitive_has_its_place_and_value() -> None:
 
 @pytest.mark.parametrize("cut", range(0, 200, 7))
 def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
-    """Wherever a message ends too soon, all that is there is shown, and nothing is raised."""
+    """A message that ends too early is shown as far as it goes, without an error."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))[:cut]
     assert gapless(request_pieces(data, kind), len(data))
@@ -163,7 +162,7 @@ def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_any_bytes_are_shown(seed: int) -> None:
-    """Bytes that no protocol made are taken apart without an error, and within bounds."""
+    """Random bytes are split without an error and within the limits."""
     data = random.Random(seed).randbytes(300)  # noqa: S311 -- no secrets
     kind = compile_message("x/Everything", EVERYTHING)
     for pieces in (header_pieces(data), request_pieces(data, kind), reply_pieces(data, kind)):
@@ -172,14 +171,14 @@ def test_any_bytes_are_shown(seed: int) -> None:
 
 
 def test_a_count_that_lies_ends() -> None:
-    """Four billion elements without fields take no bytes, and no time."""
+    """Four billion elements without fields take no bytes and no time."""
     kind = compile_message("x/Empties", "std_msgs/Empty[] nothing\nuint8 last")
     pieces = request_pieces(sized(b"\xff\xff\xff\xff\x05"), kind)
     assert values(pieces)["last"] == "5"
 
 
 def test_what_is_long_is_bounded() -> None:
-    """A picture of three million bytes, a long text and many points make a page of some kilobytes."""
+    """A large image, a long string and many points give a page of a few kilobytes."""
     kind = compile_message("x/Long", "uint8[] data\nstring text\ngeometry_msgs/Point[] points\nint32 last")
     point = {"x": 1.0, "y": 2.0, "z": 3.0}
     data = sized(
@@ -196,7 +195,7 @@ def test_what_is_long_is_bounded() -> None:
 
 
 def test_too_many_pieces_are_folded() -> None:
-    """Of a message with hundreds of fields the first are shown, and the rest is one piece."""
+    """Of a message with hundreds of fields, the first ones are shown, and the rest is one piece."""
     kind = compile_message("x/Wide", "\n".join(f"int32 f{number}" for number in range(400)))
     data = sized(body(kind, {}))
     pieces = request_pieces(data, kind)
@@ -205,7 +204,7 @@ def test_too_many_pieces_are_folded() -> None:
 
 
 def test_a_header_is_fields_with_their_lengths() -> None:
-    """Each field has its length and its text; a value may have an equals sign and any letter in it."""
+    """Each header field shows its length and its text; a value may contain "=" and any character."""
     data = header(callerid="/me", md5sum="30446f", note="ü=1")
     pieces = header_pieces(data)
     assert gapless(pieces, len(data))
@@ -214,11 +213,11 @@ def test_a_header_is_fields_with_their_lengths() -> None:
 
 
 def test_the_steps_of_a_call() -> None:
-    """Connection, two headers, request, response, end; times in ms from the first."""
+    """The steps are connection, two headers, request, response and end, with times in ms from the first."""
     wire = Wire(
         "/x",
         uri="rosrpc://localhost:1",
-        conversations=[spoken(GREETED, WELCOME, ASKED, ANSWERED)],
+        connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)],
         kind=GEOMETRY,
     )
     told = state(wire, unknown)
@@ -235,51 +234,51 @@ def test_the_steps_of_a_call() -> None:
 
 
 def test_bytes_that_came_in_pieces_are_one_step() -> None:
-    """TCP cuts where it likes, and joins what was sent apart."""
+    """The split works for any segments in which TCP delivers the bytes."""
     whole = WELCOME[1] + ANSWERED[1]
     drops = [(False, whole[at : at + 1]) for at in range(len(whole))]
-    assert titles(spoken((True, GREETED[1] + ASKED[1]), *drops)) == titles(
-        spoken(GREETED, WELCOME, ASKED, ANSWERED)
+    assert titles(connection((True, GREETED[1] + ASKED[1]), *drops)) == titles(
+        connection(GREETED, WELCOME, ASKED, ANSWERED)
     )
 
 
 def test_a_persistent_connection_has_many_requests() -> None:
-    """Each request stands before its response."""
-    steps = titles(spoken(GREETED, WELCOME, ASKED, ANSWERED, ASKED, ANSWERED))
+    """Each request precedes its response."""
+    steps = titles(connection(GREETED, WELCOME, ASKED, ANSWERED, ASKED, ANSWERED))
     assert steps[3:7] == ["Request", "Response", "Request", "Response"]
 
 
 def test_failures_are_told_apart() -> None:
-    """An ok byte of 0, a refused handshake, a server that hangs up, one that is gone, and a mere probe."""
+    """The view handles an ok byte of 0, a refused handshake, a lost connection, no server, and a probe."""
     refusal = (False, b"\0" + sized(b"no"))
-    assert "Error" in titles(spoken(GREETED, WELCOME, ASKED, refusal))
+    assert "Error" in titles(connection(GREETED, WELCOME, ASKED, refusal))
     turned_away = (False, header(error="md5sums do not match"))
-    steps = titles(spoken(GREETED, turned_away))
+    steps = titles(connection(GREETED, turned_away))
     assert "The server refuses the connection" in steps
     assert "Request" not in steps
     assert (
-        titles(spoken(GREETED, WELCOME, ASKED, closed_by="server"))[-1]
-        == "The server hangs up without an answer"
+        titles(connection(GREETED, WELCOME, ASKED, closed_by="server"))[-1]
+        == "The server closes without a response"
     )
-    assert titles(spoken(GREETED))[-1] == "The client gives up"
-    assert titles(Conversation(10.0, refused="Connection refused")) == [
+    assert titles(connection(GREETED))[-1] == "The client gives up"
+    assert titles(RelayedConnection(10.0, refused="Connection refused")) == [
         "Nobody takes the connection at localhost:1"
     ]
     probe = (True, header(probe="1", md5sum="*", callerid="/me", service="/x"))
-    assert "Connection header of the client, which only asks" in titles(spoken(probe, WELCOME))
+    assert "Connection header of the client, which only asks" in titles(connection(probe, WELCOME))
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:
-    """Where the type is unknown, or its MD5 another, the body is bytes and nothing is made up."""
-    wire = Wire("/x", conversations=[spoken(GREETED, WELCOME, ASKED, ANSWERED)])
+    """If the type is unknown or its MD5 differs, the body is shown as bytes."""
+    wire = Wire("/x", connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)])
     request = next(step for step in state(wire, unknown)["steps"] if step["title"] == "Request")
     assert [piece["role"] for piece in request["pieces"]] == ["length", "raw"]
 
 
 def test_many_steps_are_bounded_and_said() -> None:
-    """Of a tap with many calls the first steps are shown, and a note says how many there were."""
+    """Of many calls the first steps are shown, and a note gives the total number."""
     wire = Wire(
-        "/x", conversations=[spoken(GREETED, WELCOME, *[ASKED, ANSWERED] * 50)], kind=GEOMETRY, missed=3
+        "/x", connections=[connection(GREETED, WELCOME, *[ASKED, ANSWERED] * 50)], kind=GEOMETRY, skipped=3
     )
     told = state(wire, unknown)
     assert len(told["steps"]) == STEPS
@@ -288,8 +287,9 @@ def test_many_steps_are_bounded_and_said() -> None:
 
 
 def test_the_widget_has_a_stable_repr_and_a_small_state() -> None:
-    """Notebooks compare its text; the state is data for JSON; nothing at all is worth showing, too."""
-    view = WireView(Wire("/x", conversations=[spoken(GREETED, WELCOME, ASKED, ANSWERED)], kind=GEOMETRY))
+    """The text can be compared, the state is JSON, and an empty connection can be shown."""
+    view = WireView(Wire("/x", connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)], kind=GEOMETRY))
     assert repr(view) == "WireView('/x')"
+    assert (view.from_client, view.from_server) == (GREETED[1] + ASKED[1], WELCOME[1] + ANSWERED[1])
     assert len(json.dumps(view.exchange)) < 8000
     assert WireView(Wire("/x")).exchange["steps"] == []

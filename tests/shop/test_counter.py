@@ -1,4 +1,4 @@
-"""Customers come and go as they were told to, whatever was asked before."""
+"""Customers come and leave at the planned times."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.shop import Counter
 
 
 def test_customers_come_and_go() -> None:
-    """Each is there from the moment of coming until, and not at, the moment of going."""
+    """A customer is present from the time of arrival until just before the time of leaving."""
     counter = Counter()
     visits = counter.let_in(100.0, [1.0, 1.5], stay=2.0)
     assert [(visit.number, visit.comes, visit.goes) for visit in visits] == [
@@ -23,13 +23,13 @@ def test_customers_come_and_go() -> None:
 
 
 def test_numbers_follow_the_order_of_coming() -> None:
-    """Whoever comes first has the lowest number, in whatever order they were named."""
+    """The first customer has the lowest number, for any order of the arguments."""
     visits = Counter(7).let_in(0.0, [3.0, 1.0, 2.0], stay=1.0)
     assert [(visit.number, visit.comes) for visit in visits] == [(7, 1.0), (8, 2.0), (9, 3.0)]
 
 
 def test_a_new_day_drops_those_still_to_come() -> None:
-    """Who is there stays, who had not come does not come, and no number is given twice."""
+    """Present customers stay, future ones are removed, and no number is used twice."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)
@@ -38,7 +38,7 @@ def test_a_new_day_drops_those_still_to_come() -> None:
 
 
 def test_nobody_can_be_let_in() -> None:
-    """An empty list empties what was to come."""
+    """An empty list removes all future customers."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     assert counter.let_in(0.5, [], stay=0.0) == []
@@ -46,7 +46,7 @@ def test_nobody_can_be_let_in() -> None:
 
 
 def test_the_next_change_is_told() -> None:
-    """It is the earliest coming or going that has not been yet."""
+    """It is the next arrival or departure."""
     counter = Counter()
     counter.let_in(0.0, [1.0, 1.5], stay=1.0)
     changes = [0.0]
@@ -57,7 +57,7 @@ def test_the_next_change_is_told() -> None:
 
 @pytest.mark.parametrize("wrong", [-0.1, math.nan, math.inf, 1e9])
 def test_a_time_that_cannot_be_is_refused(wrong: float) -> None:
-    """It is named, and nothing has changed."""
+    """The error names the mistake, and nothing has changed."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     with pytest.raises(FieldError, match=r"after\[1\]"):
@@ -68,6 +68,6 @@ def test_a_time_that_cannot_be_is_refused(wrong: float) -> None:
 
 
 def test_a_crowd_is_refused() -> None:
-    """More customers than a camera can follow are refused with their number."""
+    """Too many customers for the camera are refused with their number."""
     with pytest.raises(FieldError, match="1001 customers are too many; expected at most 1000"):
         Counter().let_in(0.0, [0.0] * 1001, stay=1.0)

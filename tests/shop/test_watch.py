@@ -1,7 +1,8 @@
-"""What a camera says reaches those who wait for it, at once and all of them."""
+"""A camera's news reaches all waiting threads at once."""
 
 from __future__ import annotations
 
+import threading
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import count
@@ -9,14 +10,15 @@ from itertools import count
 import pytest
 
 from course_pkg.errors import CameraSilent
-from course_pkg.shop import Customer, Watch
+from course_pkg.shop import Customer, Eye, Watch, await_customer
+from course_pkg.shop import watch as module
 from tests.support import eventually
 
 FOR_EVER = 60.0  # s: longer than any test
 
 
 def test_who_comes_is_told_once() -> None:
-    """A customer is new with the first message in which they are, and keeps the time of it."""
+    """A customer is new in the first message that contains them; the time of this message is kept."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -27,7 +29,7 @@ def test_who_comes_is_told_once() -> None:
 
 
 def test_who_goes_is_forgotten() -> None:
-    """Somebody who is gone is nobody to wait for; somebody who comes back is new."""
+    """A customer who has left is not returned; one who comes back is new."""
     watch = Watch()
     watch.see([1])
     watch.see([])
@@ -36,7 +38,7 @@ def test_who_goes_is_forgotten() -> None:
 
 
 def test_one_who_goes_as_another_comes() -> None:
-    """The number of those who are there may stay the same."""
+    """A new customer is found even if the number of customers is unchanged."""
     watch = Watch()
     watch.see([1])
     watch.see([2])
@@ -45,7 +47,7 @@ def test_one_who_goes_as_another_comes() -> None:
 
 
 def test_a_wait_ends_at_once_where_somebody_is_there() -> None:
-    """Nobody waits for what has happened already."""
+    """A thread does not wait if a customer is there already."""
     watch = Watch()
     watch.see([3])
     customer = watch.wait(0, FOR_EVER, FOR_EVER)
@@ -54,7 +56,7 @@ def test_a_wait_ends_at_once_where_somebody_is_there() -> None:
 
 
 def test_all_who_wait_are_woken() -> None:
-    """Each gets the customer that it waits for, and no other one."""
+    """Each thread gets the customer for whom it waits."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -72,7 +74,7 @@ def _number(future: Future[Customer | None]) -> int | None:
 
 
 def test_a_wait_ends_with_its_patience() -> None:
-    """None, and not before the time is over."""
+    """The result is None, not before the end of the time."""
     watch = Watch()
     watch.see([])
     began = time.monotonic()
@@ -81,11 +83,83 @@ def test_a_wait_ends_with_its_patience() -> None:
 
 
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
-    """Whoever waits for a camera that is gone waits for nothing, and what it said last is no news."""
+    """A wait ends if the camera is silent, and its last message does not count as new."""
     watch = Watch()
     with pytest.raises(CameraSilent):
-        watch.wait(0, FOR_EVER, silence=5.0)  # it has never said anything
+        watch.wait(0, FOR_EVER, silence=5.0)  # it has never published anything
     watch.see([1])
     eventually(lambda: watch.silent_for > 0.05)
     with pytest.raises(CameraSilent):
         watch.wait(0, FOR_EVER, silence=0.05)
+
+
+def sees(frame: str) -> bool:
+    """Look at a frame that is text."""
+    if frame == "malformed":
+        raise ValueError(frame)
+    return frame == "somebody"
+
+
+@pytest.fixture
+def eye() -> Eye:
+    """Return a detector that has seen no frame."""
+    return Eye(sees)
+
+
+def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
+    """A malformed frame reports no customer, and ends the last report."""
+    seen = [eye.look()]
+    for frame in ("somebody", "malformed", "nobody", "malformed"):
+        eye.hear(frame)
+        seen.append(eye.look())
+    assert seen == [None, True, True, False, False]
+
+
+def test_knowledge_grows_old(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a valid frame for a while, the result is unknown."""
+    eye.hear("somebody")
+    monkeypatch.setattr(module, "FRAME_TIMEOUT", -1.0)
+    eye.hear("malformed")
+    assert eye.look() is None
+
+
+def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
+    """A customer is found even with a timeout of 0 s."""
+    eye.hear("somebody")
+    assert await_customer(eye, 0.0) is True
+
+
+def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
+    """All waiting threads continue, and frames without a customer do not end their wait."""
+    eye.hear("nobody")
+    with ThreadPoolExecutor(4) as pool:
+        waits = [pool.submit(await_customer, eye, 30.0) for _ in range(4)]
+        for frame in ("nobody", "malformed", "nobody", "somebody"):
+            eye.hear(frame)
+        assert [wait.result(20) for wait in waits] == [True] * 4
+
+
+def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
+    """Frames that arrive all the time do not extend the wait."""
+    over = threading.Event()
+
+    def stream() -> None:
+        while not over.wait(0.01):
+            eye.hear("nobody")
+
+    eye.hear("nobody")
+    camera = threading.Thread(target=stream)
+    camera.start()
+    started = time.monotonic()
+    try:
+        assert await_customer(eye, 0.2) is False
+        assert time.monotonic() - started < 10.0
+    finally:
+        over.set()
+        camera.join()
+
+
+def test_a_silent_camera_is_no_answer(eye: Eye) -> None:
+    """If the time ends while the result is unknown, this is reported."""
+    with pytest.raises(CameraSilent):
+        await_customer(eye, 0.05)

@@ -10,10 +10,9 @@ from threading import Thread
 
 import pytest
 
-from course_pkg.site.build import write_site
-from course_pkg.site.settings import Settings
+from course_pkg.site.build import Settings, write_site
 from tests.authoring.books import code, text
-from tests.site.shelves import runs, shelf
+from tests.site.notebook_stores import runs, store
 
 PANELS = [
     "from course_pkg import *; import time; node = join('chapter_00'); "
@@ -31,8 +30,8 @@ PANELS = [
     "TypeBrowser('std_srvs/SetBool')",
     "WireView('/getGeometry', length=1.0, width=2.0, height=3.0)",
     "BreakIt()",
-    "Plot({'delay': [(0, 1), (1, 3)]}, x='time (s)', y='delay (ms)', title='A line')",
-    "Plot({'a': 1, 'b': 3}, kind='bars', title='Bars')",
+    "import matplotlib.pyplot as plt\nplt.plot([0, 1], [1, 3])\nplt.xlabel('time (s)')\n"
+    "plt.ylabel('delay (ms)')\nplt.title('A line')\nplt.show()",
     "question = predict('00.panels', 'What will it be?', ['this', 'that']); question",
     "question.compare('that')",
     "predictions('00')",
@@ -44,7 +43,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the real course as it is stored: all pages, but no panels, for which it would have to run."""
+    """Build the real course from its stored outputs: all pages, but no panels, which need a run."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -58,7 +57,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
     cells.insert(0, text("## Every kind of panel"))
     troubles = write_site(
-        Settings(folder / "site", book=True), shelf(folder, _00_panels=cells), runs(folder / "cache")
+        Settings(folder / "site", book=True), store(folder, _00_panels=cells), runs(folder / "cache")
     )
     assert troubles == []
     return folder / "site"
@@ -66,7 +65,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
-    """Serve both sites from 127.0.0.1, and give the address of each."""
+    """Serve both sites on 127.0.0.1, and return the address of each."""
     servers = {}
     for site in (course, panels):
         handler = partial(_Quiet, directory=str(site))
@@ -80,4 +79,4 @@ def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
 
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
-        """Say nothing."""
+        """Write no log."""

@@ -1,21 +1,22 @@
-"""What the syllabus says of a chapter."""
+"""What the list of chapters contains."""
 
 from __future__ import annotations
 
 import pytest
 
-from course_pkg.authoring.shelf import Shelf, read
+from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.site.chapters import Chapter, chapter_of, hours
+from course_pkg.site.pages import learning_paths
 from tests.authoring.books import book, exercise, text
 
 
 def chapter(minutes: int) -> Chapter:
-    """Return a chapter that takes so long."""
+    """Return a chapter that takes this many minutes."""
     return Chapter("05_x", "X", "", "", "", minutes, ())
 
 
 def test_a_chapter_says_what_it_is_about() -> None:
-    """Title, lead, the three labels, and the points of its exercises."""
+    """It contains the title, the introduction, the three labels, and the points of the exercises."""
     first = "# Ask\n\nWho waits?\n\n**You will** ask.\nTwice.\n\n**You need** time.\n\n**Time**: 45 minutes."
     found = chapter_of("05_ask", book(text(first), exercise("05.1", 2), exercise("05.2", 3)))
     assert found == Chapter("05_ask", "Ask", "Who waits?", "ask.\nTwice.", "time.", 45, (2, 3))
@@ -23,13 +24,13 @@ def test_a_chapter_says_what_it_is_about() -> None:
 
 
 def test_a_chapter_that_says_nothing_has_its_name() -> None:
-    """As has one without a cell."""
+    """A chapter without a cell has its name as title, too."""
     assert chapter_of("05_ask", book()).title == "05_ask"
 
 
-@pytest.mark.parametrize("path", Shelf().solutions(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_every_chapter_says_all(path: object) -> None:
-    """The landing page has no gap."""
+    """Each chapter of the first page is complete."""
     found = chapter_of("00_x", read(path))  # type: ignore[arg-type]
     assert all((found.lead, found.will, found.need, found.minutes, found.points))
 
@@ -38,5 +39,16 @@ def test_every_chapter_says_all(path: object) -> None:
     ("minutes", "words"), [(45, "45 minutes"), (120, "2 hours"), (75, "1 hour and 15 minutes")]
 )
 def test_times_add_up(minutes: int, words: str) -> None:
-    """In hours, where it is one at least."""
+    """Times are given in hours if they are at least one hour."""
     assert hours([chapter(minutes)]) == words
+
+
+def test_a_path_has_all_its_chapters_and_says_how_long_it_takes() -> None:
+    """A path that offers a choice lists each way; its times are the sums of the chapters' times."""
+    known = [chapter_of(path.stem, read(path)) for path in NotebookStore().solutions()]
+    lab, turtles, whole = learning_paths(known)
+    assert [each.number for each in lab.choices[0].chapters] == ["00", "05", "06", "07"]
+    assert lab.choices[0].hours == hours(lab.choices[0].chapters)
+    assert turtles.choices[0].chapters[-1].number == "09"
+    assert len(turtles.choices) == 2
+    assert list(whole.choices[0].chapters) == known

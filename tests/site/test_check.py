@@ -1,4 +1,4 @@
-"""What `course site --check` finds."""
+"""The faults that `course site --check` finds."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ GOOD = (
 
 
 def page(folder: Path, html: str) -> list[str]:
-    """Write a page with this text beside a good one, and return what is found."""
+    """Write a page with this text beside a good page, and return the faults."""
     (folder / "one.html").write_text(f"<html><body>{html}")
     (folder / "two.html").write_text('<p id="x">x</p>')
     return faults(folder)
@@ -44,7 +44,7 @@ def page(folder: Path, html: str) -> list[str]:
     ],
 )
 def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
-    """Each by itself, with the page that it is on."""
+    """Each fault is found alone, with its page."""
     assert page(tmp_path, html) == [fault]
 
 
@@ -58,5 +58,5 @@ def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
     ],
 )
 def test_what_is_right_is_let_be(tmp_path: Path, html: str) -> None:
-    """Links that lead somewhere, figures with words, prices and shells' variables."""
+    """Working links, figures with descriptions, prices and shell variables are no faults."""
     assert page(tmp_path, html) == []

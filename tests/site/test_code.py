@@ -1,4 +1,4 @@
-"""Code with its colours."""
+"""Code with syntax colours."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from pathlib import Path
 import pytest
 
 from course_pkg.authoring.cells import code_cells
-from course_pkg.authoring.shelf import Shelf, read
+from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.site.code import Highlighter
 from course_pkg.site.prose import words
 
 
-@pytest.mark.parametrize("path", Shelf().solutions(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_colours_change_no_letter(path: Path) -> None:
-    """What is read, searched and copied is the cell, of every cell of the course."""
+    """The coloured text of each cell of the course equals the cell, for reading, search and copying."""
     highlight = Highlighter()
     for cell in code_cells(read(path)):
         assert words(highlight.cell(cell["source"])) == cell["source"].strip("\n")
 
 
 def test_a_magic_says_what_the_rest_is() -> None:
-    """A file's name and a shell's name choose the colours; a name that nobody knows chooses none."""
+    """The name of a file or of a shell selects the colours; an unknown name selects none."""
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")
@@ -30,5 +30,5 @@ def test_a_magic_says_what_the_rest_is() -> None:
 
 
 def test_what_looks_like_markup_is_text() -> None:
-    """Code can hold anything that HTML would take for its own."""
+    """Code may contain HTML, which is shown as text."""
     assert "<script" not in Highlighter().cell("'<script>' & \"</pre>\"")

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import base64
+from html.parser import HTMLParser
 
-from course_pkg.site.exhibits import EXHIBIT
-from course_pkg.site.exporter import Exporter, terminal
+import pytest
+
+from course_pkg.checking.report import Assertion, Report, Verdict
+from course_pkg.site.exporter import Exporter, Sanitizer, terminal
+from course_pkg.site.recordings import PANEL
 from tests.authoring.books import book, code, exercise
-from tests.site.shelves import result, shown
+from tests.site.notebook_stores import result, shown
 
 
 def test_a_result_is_shown() -> None:
-    """As text, where there is nothing better, with what HTML would take for its own escaped."""
+    """Text is the last choice of a result, and HTML in it is escaped."""
     assert "&lt;Box&gt; &amp; 3" in shown(result(text_plain="<Box> & 3")).html
 
 
 def test_html_is_cleaned() -> None:
-    """It goes before the text of the same result."""
+    """A picture is preferred to the text of the same result."""
     body = shown(result(text_html="<p onclick=f()>yes</p><script>no()</script>", text_plain="text")).html
     assert "<p>yes</p>" in body
     assert "onclick" not in body
@@ -25,12 +29,12 @@ def test_html_is_cleaned() -> None:
 
 
 def test_a_script_among_the_outputs_is_left_out() -> None:
-    """Of JavaScript nothing is shown, not even as text."""
+    """A result of JavaScript is not shown, not even as text."""
     assert "alert" not in shown(result(application_javascript="alert(1)")).html
 
 
 def test_a_drawing_is_a_picture() -> None:
-    """An SVG stands in an <img>, where no script of its own can run, and keeps its description."""
+    """An SVG is shown in an <img>, in which no script can run, and keeps its description."""
     drawing = "<svg><script>alert(1)</script></svg>"
     output = result(text_plain="x") | {
         "data": {"image/svg+xml": drawing},
@@ -42,8 +46,27 @@ def test_a_drawing_is_a_picture() -> None:
     assert "<svg" not in body
 
 
+def test_a_figure_is_described_by_its_own_text() -> None:
+    """The alternative text of a matplotlib figure has its labels and its title, without the numbers."""
+    texts = ("0.0", "\u22125", "10", "time (s)", "a &amp; b", "How late?")
+    drawing = "<svg>" + "".join(f'<text x="1">{each}</text>' for each in texts) + "</svg>"
+    output = result(text_plain="<Figure>") | {"data": {"image/svg+xml": drawing, "text/plain": "<Figure>"}}
+    assert 'alt="Figure: time (s), a &amp; b, How late?"' in shown(output).html
+
+
+def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
+    """A live panel comes first, then its picture, and last its text; the title describes the picture."""
+    drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
+    data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
+    body = shown(result() | {"data": data}).html
+    assert 'alt="The ROS graph: 2 &lt; 3 nodes"' in body
+    assert "GraphPanel()" not in body
+    live = {**data, PANEL: {"panel": "graph", "state": {}}}
+    assert "<img" not in shown(result() | {"data": live}).html
+
+
 def test_an_error_is_told_apart_from_output() -> None:
-    """It has a class of its own, as has what was written to stderr."""
+    """An error has its own class, and so does text on stderr."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["\x1b[31mE\x1b[0m: v"]}
     stream = {"output_type": "stream", "name": "stderr", "text": "careful"}
     body = shown(error, stream).html
@@ -52,25 +75,93 @@ def test_an_error_is_told_apart_from_output() -> None:
 
 
 def test_a_terminal_is_read_as_it_looks() -> None:
-    """What a carriage return wrote over is gone, lines end in one way, and no control is left."""
+    """Text before a carriage return is removed, line ends are uniform, and no control characters remain."""
     assert terminal("one\r\ntwo\r\n") == "one\ntwo"
     assert terminal("10 %\r20 %\rdone\x1b[K\x07") == "done"
     assert terminal("<b>") == "&lt;b&gt;"
 
 
 def test_an_exercise_can_be_linked_to() -> None:
-    """By the id that its cell has in the notebook, behind the prefix of its chapter."""
+    """A widget is found by the id of its cell in the notebook, with the prefix of the chapter."""
     body = Exporter().body(book(exercise("05.1"), code("x")), "c05-")
     assert 'class="in exercise" id="c05-exercise-05-1"' in body.html
     assert body.html.count("id=") == 1
 
 
 def test_the_states_of_panels_cannot_end_their_element() -> None:
-    """They are packed, so that no text in them is markup."""
-    output = result() | {
-        "data": {EXHIBIT: {"panel": "plot", "state": {"title": "</script><script>alert(1)"}}}
-    }
+    """States are compressed, so that no text in them is markup."""
+    output = result() | {"data": {PANEL: {"panel": "graph", "state": {"title": "</script><script>alert(1)"}}}}
     body = shown(output).html
-    assert 'data-panel="plot"' in body
+    assert 'data-panel="graph"' in body
     assert body.count("<script") == body.count("</script>") == 1
     assert "alert" not in body
+
+
+ATTACKS = [
+    "<script>alert(1)</script>",
+    "<SCRIPT SRC=//x></SCRIPT>",
+    "<img src=x onerror=alert(1)>",
+    "<img src='data:image/svg+xml;base64,PHN2Zz4='>",
+    "<svg><script>alert(1)</script></svg>",
+    "<svg onload=alert(1)>",
+    "<a href='javascript:alert(1)'>x</a>",
+    "<a href=' jAvAsCrIpT&#58;alert(1)'>x</a>",
+    "<a href='data:text/html,<script>alert(1)</script>'>x</a>",
+    "<iframe src='x'></iframe>",
+    "<object data='x'></object><embed src='x'>",
+    "<form action='//x'><input name=a></form>",
+    "<base href='//x'><meta http-equiv=refresh content='0;url=//x'>",
+    "<link rel=stylesheet href='//x'>",
+    "<style>@import '//x'</style>",
+    "<p style='background:url(//x)'>x</p>",
+    "<section style='border-left: 1px solid url(//x)'>x</section>",
+    "<div id=text data-panel=graph>x</div>",
+    "<noscript><p title='</noscript><img src=x onerror=alert(1)>'>",
+    "<math><mtext><table><mglyph><style><!--</style><img title='--&gt;&lt;img src=1 onerror=alert(1)&gt;'>",
+    "<!--<img src=x onerror=alert(1)>-->",
+]
+
+
+class Reader(HTMLParser):
+    """Collects the tags and attributes that a browser would see."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.seen: list[tuple[str, str, str]] = []
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Store a tag with its attributes."""
+        self.seen += [(tag, "", ""), *((tag, name, value or "") for name, value in attrs)]
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_nothing_runs_or_loads(attack: str) -> None:
+    """Scripts, requests and imitations of the page are removed from HTML; only their text may remain."""
+    for tag, name, value in Reader(Sanitizer()(attack)).seen:
+        assert tag in ("p", "a", "div", "section", "img", "table")
+        assert name in ("", "title")
+        assert not value or name == "title"
+
+
+def test_a_report_is_still_a_report() -> None:
+    """Text, structure and the coloured edge of a report are unchanged."""
+    rule = Assertion("it answers", holds=False, asked="2", expected="4", actual="<5>", hint="Add.")
+    report = Report("05.1", Verdict.FAILED, "A goal.", 0, 2, (rule,), "Again.", "printed")
+    clean = Sanitizer()(report.html())
+    for part in (
+        'class="course-report"',
+        "border-left",
+        "<strong>",
+        'aria-label="does not hold"',
+        "&lt;5&gt;",
+    ):
+        assert part in clean
+    assert "<details>" in clean
+
+
+def test_a_picture_that_is_carried_along_stays() -> None:
+    """A picture keeps its description and its size."""
+    picture = '<img src="data:image/png;base64,iVBORw0KGgo=" alt="a chair" width="64" height="48">'
+    assert Sanitizer()(picture) == picture

@@ -6,32 +6,66 @@ import json
 from pathlib import Path
 
 import course_pkg.site.glossary as module
-from course_pkg.authoring.shelf import Shelf, read
+from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.site.chapters import chapter_of
 from course_pkg.site.exporter import Exporter
 from course_pkg.site.glossary import Glossary
+from course_pkg.site.search_index import plain, script, sections
+from tests.authoring.books import book, code, text
 
 WRITTEN: dict[str, str] = json.loads((Path(module.__file__).parent / "glossary.json").read_text("utf-8"))
 
 
 def test_most_words_lead_to_where_they_are_explained() -> None:
-    """In the first section in which they are marked; some are only ever used."""
+    """A term links to the section that first shows it in bold or italics; some terms have no such section."""
     exporter, texts = Exporter(), []
-    for path in Shelf().solutions():
+    for path in NotebookStore().solutions():
         notebook = read(path)
-        texts.append((chapter_of(path.stem, notebook), notebook, exporter.body(notebook).headings))
+        texts.append(
+            (chapter_of(path.stem, notebook), notebook, exporter.body(notebook, folder=path.parent).headings)
+        )
     found = {entry.term: entry.page for entry in Glossary.of(texts).entries}
     assert found["master"] == "00_start_the_graph.html#1-a-master-and-a-first-node"
     assert len([page for page in found.values() if page]) >= 0.8 * len(found)
 
 
 def test_every_entry_is_a_sentence() -> None:
-    """And the file is in the order of the alphabet, so that a new word finds its place."""
+    """The entries are in alphabetical order, so that an author finds the place of a new one."""
     assert [term for term, meaning in WRITTEN.items() if not meaning.endswith(".")] == []
     assert list(WRITTEN) == sorted(WRITTEN, key=str.lower)
 
 
 def test_no_two_entries_share_an_anchor() -> None:
-    """A link leads to one of them."""
+    """Each link leads to one entry."""
     anchors = [entry.anchor for entry in Glossary.of([]).entries]
     assert len(set(anchors)) == len(anchors)
+
+
+def test_a_section_is_found_where_it_stands() -> None:
+    """Each section has its anchor, its prose and its code; a # in code begins no section."""
+    notebook = book(
+        text("# Title\n\nThe lead.", "t1"),
+        text("## One\n\n```\n## no heading\n```\nA **word**.", "t2"),
+        code("# a comment\nwait()"),
+        text("## Two\n\nMore.", "t3"),
+    )
+    found = list(sections("05 Title", "05.html", notebook, Exporter().body(notebook).headings))
+    assert [(each.url, each.title) for each in found] == [
+        ("05.html#title", "Title"),
+        ("05.html#one", "One"),
+        ("05.html#two", "Two"),
+    ]
+    assert "A word ." in found[1].text
+    assert "wait()" in found[1].text
+
+
+def test_marks_are_no_words() -> None:
+    """Links keep their text, and tables their cells."""
+    assert (
+        plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
+    )
+
+
+def test_the_texts_are_a_script() -> None:
+    """A page in a folder cannot fetch files, but it can load a script."""
+    assert script([]) == "courseTexts([]);\n"

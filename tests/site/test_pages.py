@@ -11,24 +11,30 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from course_pkg.site.scripts import fronts
-from tests.browser.jupyter import picture
+from tests.browser.pages import picture
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-# beyond those that axe-core has on by itself
+# added to the rules that axe-core applies by default
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
 OPTIONS = {"rules": RULES, "preload": False}  # a page may fetch nothing
-CONTRAST = "color-contrast"  # most of axe-core's time; no width changes it, and colours change nothing else
+CONTRAST = "color-contrast"  # most of axe-core's time; it does not depend on the width
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+ALWAYS = (1200, "light")  # checked in every run; the other three only if a page may look different
+SWEEPS = [
+    pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
+    for width in WIDTHS
+    for colours in COLOURS
+]
 PAGE = "00_panels.html"
-ENOUGH = ("index.html", "glossary.html", PAGE)  # for what has been looked at in both widths, and in the dark
+ENOUGH = ("index.html", "glossary.html", PAGE)  # enough for rules whose result was checked for both before
 
 
 @contextmanager
 def reader(
     browser: Browser, width: int = 1200, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[Page]:
-    """Open a browser whose network is cut but for 127.0.0.1; whatever fails or complains fails the test."""
+    """Open a browser that reaches only 127.0.0.1; failed requests and console messages fail the test."""
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     troubles: list[str] = []
     context.route(lambda url: not url.startswith(("file:", "http://127.0.0.1:")), lambda route: route.abort())
@@ -45,7 +51,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the pages of a site that a reader opens."""
+    """Return the pages of a site for readers."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
@@ -59,7 +65,7 @@ def open_page(page: Page, site: Path, name: str) -> None:
 def test_every_page_is_whole_without_a_network(
     browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
 ) -> None:
-    """No request fails, nothing complains, no page is wider than the window, every panel is drawn."""
+    """No request fails, the console is empty, no page is wider than the window, and every panel is drawn."""
     with reader(browser, 390) as page:
         for site in (course, panels):
             for name in [*pages(site), *(["book.html"] if site == course else [])]:
@@ -68,15 +74,14 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
-@pytest.mark.timeout(360)  # it is nothing but computing, and the machine may be busy
-@pytest.mark.parametrize("colours", COLOURS)
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.timeout(360)  # much computing on a machine that may be busy
+@pytest.mark.parametrize(("width", "colours"), SWEEPS)
 def test_axe_finds_nothing(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
 ) -> None:
-    """On every page, with and without the search open; the sizes of targets are looked at, too.
+    """axe-core finds nothing on any page, with and without the search; the sizes of targets are checked, too.
 
-    `tests/bench/axe.py` looks at every rule in every width and colour.
+    `tests/bench/site.py axe` checks every rule in every width and colour.
     """
     found, options = {}, options_for(width, colours)
     with reader(browser, width, colours) as page:
@@ -94,28 +99,28 @@ def test_axe_finds_nothing(
 
 
 def options_for(width: int, colours: str) -> dict[str, Any]:
-    """Return which rules this width and these colours can be the first to break."""
+    """Return the rules whose result can depend on this width and these colours."""
     if colours == "dark":
         return {**OPTIONS, "runOnly": [CONTRAST]}
     return OPTIONS if width == WIDTHS[0] else {**OPTIONS, "rules": {**RULES, CONTRAST: {"enabled": False}}}
 
 
 def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "html") -> list[str]:
-    """Return what axe-core, which the page has to have, says against this part of the page as it is."""
+    """Return the findings of axe-core, which the page must have loaded, for this part of the page."""
     run = "([part, options]) => axe.run(part, options)"
     found: list[dict[str, Any]] = page.evaluate(run, [part, options])["violations"]
     return [f"{each['id']}: {node['html'][:200]}" for each in found for node in each["nodes"]]
 
 
 def look_for(page: Page, words: str) -> None:
-    """Open the search by its key, and look for words."""
+    """Open the search with its key, and search for words."""
     page.keyboard.press("/")
     page.get_by_role("searchbox").fill(words)
     expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
 
 
 def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
-    """Each by its own front end, from the state in the page."""
+    """Each panel is drawn by its own front end from the state in the page."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         shown = page.locator("[data-panel]").evaluate_all(
@@ -123,11 +128,12 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
         )
         assert set(shown) == set(fronts()) - {"choices"}
         expect(page.locator("[data-panel] > .ros-panel")).to_have_count(len(shown))
+        expect(page.get_by_role("img", name="Figure: time (s), delay (ms), A line")).to_be_visible()
         picture(page, "site-panels")
 
 
 def test_the_book_is_whole_before_any_frame(browser: Browser, panels: Path) -> None:
-    """Chromium prints it when its time is up, and paints no frame until then."""
+    """Chromium prints the page when its time is over, and paints no frame until then."""
     with reader(browser) as page:
         page.add_init_script("requestAnimationFrame = setTimeout = () => 0")
         open_page(page, panels, "book.html")
@@ -135,7 +141,7 @@ def test_the_book_is_whole_before_any_frame(browser: Browser, panels: Path) -> N
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """With what the real server said when the chapter ran, and it says so; another says that nobody does."""
+    """A recorded request shows the real response and is marked; another is reported as not recorded."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         recorded, saved = page.get_by_role("region", name="Service panel").all()
@@ -148,7 +154,7 @@ def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
 
 
 def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None:
-    """By a handle that can be dragged."""
+    """The recording is moved by a slider that can be dragged."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         turtles = page.get_by_role("region", name="Turtle panel")
@@ -159,7 +165,7 @@ def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None
 
 
 def test_the_graph_can_be_played_again(browser: Browser, panels: Path) -> None:
-    """Its beginning, which was another picture than its end, by a handle that keys move, too."""
+    """The beginning shows another picture than the end, and keys move the slider, too."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -172,7 +178,7 @@ def test_the_graph_can_be_played_again(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """By keyboard alone: the key, a word, down, Enter."""
+    """The search works by keyboard alone: its key, a word, down, Enter."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")
@@ -183,7 +189,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_words_that_nothing_has_are_said_so(browser: Browser, course: Path) -> None:
-    """Nothing found is no empty list without a word; Escape closes the search."""
+    """A search without results is described; Escape closes the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
@@ -194,7 +200,7 @@ def test_words_that_nothing_has_are_said_so(browser: Browser, course: Path) -> N
 
 
 def test_a_choice_of_colours_lasts(browser: Browser, served: dict[Path, str], course: Path) -> None:
-    """On the next page, too, panels included; the button goes round: as the system has it, light, dark."""
+    """The theme is kept on the next page; the button changes between system, light and dark."""
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -209,7 +215,7 @@ def test_a_choice_of_colours_lasts(browser: Browser, served: dict[Path, str], co
 
 
 def test_the_contents_follow(browser: Browser, course: Path) -> None:
-    """The section that is read is the current one, and on a phone the list is folded away."""
+    """The section in view is marked in the contents; on a phone, the contents are folded."""
     with reader(browser) as page:
         open_page(page, course, "05_write_a_server.html")
         page.locator("h2").nth(4).evaluate("heading => heading.scrollIntoView({behavior: 'instant'})")
@@ -223,7 +229,7 @@ def test_the_contents_follow(browser: Browser, course: Path) -> None:
 
 
 def test_code_can_be_copied(browser: Browser, course: Path) -> None:
-    """As it stands in the cell, without the button's own word."""
+    """The button copies the text of the cell without the button's label."""
     with reader(browser) as page:
         page.context.grant_permissions(["clipboard-read", "clipboard-write"])
         open_page(page, course, "05_write_a_server.html")
@@ -235,7 +241,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """All text, code and links are there; where panels stood, a sentence says why they are missing."""
+    """Text, code and links are shown without scripts; a sentence replaces each panel."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
@@ -246,7 +252,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_connects_nowhere(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """Its policy forbids it, to its own server as well, and no script but the page's own runs."""
+    """The policy forbids connections, also to the page's own server, and runs only the page's own scripts."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -9,24 +9,24 @@ from course_pkg.site.prose import Prose, page_of
 
 
 def prose(prefix: str = "") -> Prose:
-    """Return a renderer that leaves code as it is."""
+    """Return a renderer that does not change code."""
     return Prose(lambda code, _language: code, prefix)
 
 
 def test_raw_html_is_shown_as_text() -> None:
-    """Prose has no HTML in it, so whatever looks like it is meant to be read."""
+    """HTML in prose is shown as text."""
     assert "&lt;script&gt;" in prose()("<script>alert(1)</script>")
     assert "&lt;b&gt;" in prose()("a <b>word</b>")
 
 
 @pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
 def test_a_link_cannot_run(link: str) -> None:
-    """An address that would run leads nowhere."""
+    """A link with a script as its address is removed."""
     assert link.partition(":")[0] not in prose()(f"[here]({link})")
 
 
 def test_headings_have_anchors_of_their_own() -> None:
-    """Two of one name are told apart, and a prefix tells the chapters of a book apart."""
+    """Two equal headings get different anchors, and a prefix separates the chapters of a book."""
     page = prose("c05-")
     page("# Ask, and wait\n\n## Again")
     page("## Again\n\n### `rosservice`?")
@@ -48,13 +48,13 @@ def test_headings_have_anchors_of_their_own() -> None:
     ],
 )
 def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
-    """Any other link stays what it is."""
+    """Other links are unchanged."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
 
 
 def test_a_formula_is_mathml() -> None:
-    """In a line or on its own it needs no script, and its marks are gone."""
+    """A formula in a line or on its own needs no script, and its delimiters are removed."""
     html = prose()("so $d_n = 2^n$ it is\n\n$$\n\\sum_{n=0}^{7} 2^n\n$$")
     assert html.count("<math ") == 2
     assert 'display="inline"' in html
@@ -67,11 +67,11 @@ def test_a_formula_is_mathml() -> None:
     "text", ["It costs $5, and then $7.", "`$A` and `$B`", "```\n$x$\n```", "It costs 5 $ or 6 $."]
 )
 def test_what_is_no_formula_stays_text(text: str) -> None:
-    """Dollars and shell variables stand in the course, too."""
+    """Dollar amounts and shell variables are not formulas."""
     assert "<math" not in prose()(text)
 
 
 def test_a_formula_with_a_slip_is_named() -> None:
-    """An author hears which one it is."""
+    """The error names the formula for its author."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

@@ -1,22 +1,23 @@
-"""Notebooks are run once for what they are."""
+"""A chapter runs again only if its code or the package has changed."""
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
 
-from course_pkg.errors import AuthoringError
+from course_pkg.authoring.cells import Notebook
 from course_pkg.site.runs import Runs
 from tests.authoring.books import code, text
-from tests.site.shelves import runs, shelf
+from tests.site.notebook_stores import runs, store
 
 COUNT = "from pathlib import Path\nruns = Path({!r})\nruns.write_text(runs.read_text() + 'x')"
 
 
 @pytest.fixture
 def counter(tmp_path: Path) -> Path:
-    """A file to which every run of a chapter adds a letter."""
+    """Return a file to which every run of a chapter adds a letter."""
     path = tmp_path / "runs.txt"
     path.write_text("")
     return path
@@ -24,25 +25,33 @@ def counter(tmp_path: Path) -> Path:
 
 def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "1 + 1") -> Path:
     """Write a chapter that counts its runs, and return its path."""
-    shelf(
+    store(
         root,
         _00_try=[text(prose, "prose"), code(COUNT.format(str(counter)), id="count"), code(last, id="last")],
     )
     return root / "solutions" / "00_try.ipynb"
 
 
+def executed(kept: Runs, path: Path) -> Notebook:
+    """Return the last run of a chapter, after a new run if one is necessary."""
+    assert kept.update([path]) == {}
+    notebook = kept.latest(path)
+    assert notebook is not None
+    return notebook
+
+
 def result(kept: Runs, path: Path) -> str:
-    """Return what the last cell of a chapter shows."""
-    return str(kept.of(path)["cells"][-1]["outputs"][0]["data"]["text/plain"])
+    """Return the output of a chapter's last cell."""
+    return str(executed(kept, path)["cells"][-1]["outputs"][0]["data"]["text/plain"])
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """Prose may change without one, and is new all the same; of two runs the later one is kept."""
+    """A change of prose is shown without a run; of two runs, the later one is kept."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
     assert result(runs(tmp_path / "cache"), path) == "2"
-    assert kept.of(path)["cells"][1]["source"] == "Other prose."
+    assert executed(kept, path)["cells"][1]["source"] == "Other prose."
     assert counter.read_text() == "x"
     assert result(kept, chapter(tmp_path, counter, last="1 + 2")) == "3"
     assert counter.read_text() == "xx"
@@ -50,20 +59,58 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_another_package_runs_it_again(tmp_path: Path, counter: Path) -> None:
-    """What a panel shows is the package's work; until then the latest run is there for who asks."""
+    """After a change of the package, the chapter runs again; until then the latest run is available."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
-    kept.of(path)
+    executed(kept, path)
     other = runs(tmp_path / "cache")
     other._shared = "another package"
-    assert other.latest(path) == kept.of(path)
+    assert other.latest(path) == executed(kept, path)
     assert counter.read_text() == "x"
-    other.of(path)
+    executed(other, path)
+    assert counter.read_text() == "xx"
+
+
+def test_a_change_of_a_chapter_it_imports_from_runs_it_again(
+    tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A chapter's key depends on the files of all its folders, as `folders_for` returns them."""
+    imported = tmp_path / "imported"
+    imported.mkdir()
+    monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])
+    kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
+    executed(kept, path)
+    (imported / "checks.py").write_text("")
+    executed(kept, path)
     assert counter.read_text() == "xx"
 
 
 def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
-    """It is told which cell stopped it, and there is no latest run to show."""
+    """The error names the cell that failed, and there is no run to show."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
-    with pytest.raises(AuthoringError, match="cell last stopped the run with ZeroDivisionError"):
-        kept.of(path)
+    errors = kept.update([path])
+    assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])
     assert kept.latest(path) is None
+
+
+def test_chapters_run_at_the_same_time_and_privately(tmp_path: Path) -> None:
+    """Two chapters run at the same time; neither uses the other's master, results or files."""
+    meet = (
+        "import time, pathlib, os, tempfile\n"
+        f"mine, other = [pathlib.Path({str(tmp_path)!r}, name) for name in NAMES]\n"
+        "mine.touch()\n"
+        "deadline = time.monotonic() + 60\n"
+        "while not other.exists() and time.monotonic() < deadline:\n    time.sleep(0.01)\n"
+        "assert other.exists()\n"
+        "[os.getcwd(), tempfile.gettempdir(), os.environ['COURSE_STATE'], os.environ['ROS_LOG_DIR'],"
+        " os.environ.get('ROS_MASTER_URI')]"
+    )
+    cells = {
+        name: [code(meet.replace("NAMES", repr(names)))]
+        for name, names in (("_00_one", ("a", "b")), ("_01_two", ("b", "a")))
+    }
+    paths = store(tmp_path, **cells).solutions()
+    kept = runs(tmp_path / "cache")
+    assert kept.update(paths) == {}
+    seen = [set(ast.literal_eval(result(kept, path))) for path in paths]
+    assert len(seen[0]) == len(seen[1]) == 5
+    assert seen[0] & seen[1] == {None}

@@ -1,27 +1,33 @@
-"""The front ends of the panels as one script."""
+"""The front ends of the panels, joined into one script."""
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
 from pathlib import Path
 
+import pytest
+
+from course_pkg.errors import SiteError
+from course_pkg.site.bundling import ASSETS, AXE, BUILT, BUNDLE, build
 from course_pkg.site.scripts import PANELS, fronts, panels_script, panels_sheet
 
 
 def test_every_panel_with_a_view_has_a_front_end() -> None:
-    """The page finds each by the name of its folder; a picture is HTML and needs none."""
+    """The page finds a front end by the name of its folder; a picture is HTML and needs none."""
     views = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(fronts()) == views - {"image"}
     assert set(re.findall(r"(\w+): _\w+", panels_script().rpartition("coursePanels")[2])) == set(fronts())
 
 
 def test_no_module_is_left_over() -> None:
-    """A page in a folder can load none, so nothing is imported or exported any more."""
+    """A page in a folder cannot load modules, so the script contains no import and no export."""
     assert re.findall(r"^(?:import|export)\b.*", panels_script(), re.MULTILINE) == []
 
 
 def test_each_module_stands_there_once(tmp_path: Path) -> None:
-    """After what it imports, under whatever name."""
+    """A module comes after the modules that it imports, under every name."""
     (tmp_path / "kit.js").write_text("export function h() {}\n")
     (tmp_path / "one").mkdir()
     (tmp_path / "one" / "part.js").write_text('import { h } from "../kit.js";\nexport const part = h;\n')
@@ -37,5 +43,36 @@ def test_each_module_stands_there_once(tmp_path: Path) -> None:
 
 
 def test_what_panels_share_comes_first() -> None:
-    """A panel's own rules stand below those that they refine."""
+    """A panel's own styles come after the shared styles that they override."""
     assert panels_sheet().startswith((PANELS / "look.css").read_text("utf-8"))
+
+
+HERE = Path(__file__).parent
+
+
+def test_it_is_what_the_sources_make(tmp_path: Path) -> None:
+    """Built again from the registry, with the versions of the lock file, the bundle has the same bytes."""
+    if not shutil.which("npm"):
+        pytest.skip("npm is not on this machine, so what it builds was not compared")
+    try:
+        build(tmp_path)
+    except SiteError as error:
+        if "ERESOLVE" in str(error) or "EINTEGRITY" in str(error) or "npm run" in str(error):
+            raise
+        pytest.skip(f"npm could not get what it needs, so what it builds was not compared: {error}")
+    assert [name for name in BUILT if (tmp_path / name).read_bytes() != (ASSETS / name).read_bytes()] == []
+    assert (tmp_path / AXE).read_bytes() == (HERE / AXE).read_bytes()
+
+
+def test_every_library_is_pinned_and_named() -> None:
+    """Each library is in package.json with a version, in the lock with a hash, and has its licence."""
+    package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
+    wanted = {**package["dependencies"], **package["devDependencies"]}
+    locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]
+    assert {name: locked[f"node_modules/{name}"]["version"] for name in wanted} == wanted
+    assert [name for name, about in locked.items() if name and not about.get("integrity")] == []
+    assert [name for name, about in locked.items() if "resolved" in about] == []
+    licences = (ASSETS / "LICENSES.txt").read_text("utf-8")
+    assert [
+        name for name, version in package["dependencies"].items() if f"{name} {version}" not in licences
+    ] == []

@@ -2,51 +2,53 @@
 
 from __future__ import annotations
 
+import re
 import statistics
 import subprocess
 import sys
+from contextlib import suppress
 from gzip import compress
 from pathlib import Path
 
 import pytest
 
-from course_pkg.authoring.shelf import Shelf
-from course_pkg.site.build import write_site
+from course_pkg.authoring.notebook_store import NotebookStore
+from course_pkg.errors import SiteError
+from course_pkg.site.build import Folder, Settings, write_site
 from course_pkg.site.check import faults
-from course_pkg.site.settings import Settings
 from tests.authoring.books import code, exercise, text
-from tests.site.shelves import runs, shelf
+from tests.site.notebook_stores import runs, store
 
 
 def test_the_course_has_no_fault(course: Path) -> None:
-    """Every link leads somewhere, every figure has words."""
+    """Each link leads to a target, and each figure has a description."""
     assert faults(course) == []
 
 
 def test_every_chapter_has_a_page_and_can_be_taken_along(course: Path) -> None:
-    """The page, the notebook beside it, and the ways from one to the next."""
-    for path in Shelf().solutions():
+    """Each chapter has a page, a notebook beside it, and links to the next and the previous chapter."""
+    for path in NotebookStore().solutions():
         page = (course / f"{path.stem}.html").read_text("utf-8")
         assert f'href="notebooks/{path.name}" download' in page
         assert (course / "notebooks" / path.name).read_bytes() == path.read_bytes()
-        assert ('rel="prev"' in page) == (path != Shelf().solutions()[0])
-        assert ('rel="next"' in page) == (path != Shelf().solutions()[-1])
+        assert ('rel="prev"' in page) == (path != NotebookStore().solutions()[0])
+        assert ('rel="next"' in page) == (path != NotebookStore().solutions()[-1])
 
 
 def test_pages_are_light(course: Path, panels: Path) -> None:
-    """What pages share is at most 170 KB over the wire; what is a page's own, 60 KB as it lies there."""
+    """Shared files are at most 170 kB compressed; a page is at most 60 kB, without its pictures."""
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
     assert shared <= 170_000
-    chapters = [path.stat().st_size for path in course.glob("[0-9]*.html")]
-    assert statistics.median(chapters) <= 60_000
+    pages = [path.read_text("utf-8") for path in course.glob("[0-9]*.html")]
+    assert statistics.median(len(re.sub(r'src="data:[^"]*"', "", page)) for page in pages) <= 60_000
     assert (panels / "00_panels.html").stat().st_size <= 60_000
 
 
 def test_a_chapter_that_fails_takes_no_other_along(tmp_path: Path) -> None:
-    """It is said, its page shows what was stored and says so, and the others are as they ran."""
+    """A chapter that fails is reported; its page shows the stored outputs, and the others are new."""
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
-    troubles = write_site(Settings(tmp_path / "site"), shelf(tmp_path, **chapters), runs(tmp_path / "cache"))
+    troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [
         "01_bad: The run failed: 01_bad: cell boom stopped the run with ZeroDivisionError: division by zero"
     ]
@@ -57,8 +59,8 @@ def test_a_chapter_that_fails_takes_no_other_along(tmp_path: Path) -> None:
 
 
 def test_a_students_site_holds_no_answer(tmp_path: Path) -> None:
-    """Neither the pages, nor the search, nor the notebook that can be taken along."""
-    books = shelf(tmp_path, _05_ask=[exercise("05.1", source="def secret_answer():\n    return 42")])
+    """Pages, search and the notebooks to download contain no answers."""
+    books = store(tmp_path, _05_ask=[exercise("05.1", source="def secret_answer():\n    return 42")])
     given = tmp_path / "notebooks" / "05_ask.ipynb"
     given.write_text(given.read_text("utf-8").replace("return 42", "..."), "utf-8")
     write_site(Settings(tmp_path / "site", student=True, execute=False), books, runs(tmp_path / "cache"))
@@ -68,8 +70,8 @@ def test_a_students_site_holds_no_answer(tmp_path: Path) -> None:
 
 
 def test_binder_is_offered_where_its_address_is_known(tmp_path: Path) -> None:
-    """And opens the notebook that students get; otherwise there is no link."""
-    books = shelf(tmp_path, _05_ask=[])
+    """A page links to Binder if an address is given; the link opens the students' notebook."""
+    books = store(tmp_path, _05_ask=[])
     for address in ("", "https://binder.example/v2/gh/a/b/main"):
         write_site(
             Settings(tmp_path / "site", execute=False, binder=address), books, runs(tmp_path / "cache")
@@ -80,8 +82,8 @@ def test_binder_is_offered_where_its_address_is_known(tmp_path: Path) -> None:
 
 
 def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
-    """To the byte, so that a site can be kept under version control."""
-    books, kept = shelf(tmp_path, _05_ask=[code("1")]), runs(tmp_path / "cache")
+    """Two builds have the same bytes, so that a site can be kept under version control."""
+    books, kept = store(tmp_path, _05_ask=[code("1")]), runs(tmp_path / "cache")
     for name in ("one", "two"):
         write_site(Settings(tmp_path / name, execute=False), books, kept)
     one, two = (
@@ -93,7 +95,7 @@ def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
 
 @pytest.mark.timeout(300)
 def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
-    """It says where the page is that a reader opens, and where the book is."""
+    """The output names the page to open first, and the book."""
     command = [
         sys.executable,
         "-m",
@@ -111,3 +113,56 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
     book, index = result.stdout.split()
     assert Path(book).read_bytes()[:5] == b"%PDF-"
     assert index == str(tmp_path / "index.html")
+
+
+def write(path: Path, *names: str) -> None:
+    """Write a site of these files."""
+    with Folder(path) as folder:
+        for name in names:
+            folder.write(name, name)
+
+
+def names(path: Path) -> set[str]:
+    """Return the files of a folder, except the list that the site keeps."""
+    return {str(file.relative_to(path)) for file in path.rglob("*") if file.is_file() and file.suffix} - {""}
+
+
+def test_what_an_earlier_site_left_goes(tmp_path: Path) -> None:
+    """The page of a removed chapter is deleted, because a search could still find it."""
+    write(tmp_path / "site", "a.html", "assets/b.js")
+    write(tmp_path / "site", "a.html", "c.html")
+    assert names(tmp_path / "site") == {"a.html", "c.html"}
+
+
+def test_what_is_no_site_is_left_alone(tmp_path: Path) -> None:
+    """A folder with other files is refused before anything is written."""
+    (tmp_path / "thesis.txt").write_text("mine")
+    with pytest.raises(SiteError, match="holds files that are no site"):
+        write(tmp_path, "a.html")
+    assert names(tmp_path) == {"thesis.txt"}
+
+
+def test_what_was_put_beside_a_site_stays(tmp_path: Path) -> None:
+    """A new site removes only files that a site has written."""
+    write(tmp_path / "site", "a.html")
+    (tmp_path / "site" / "own.txt").write_text("mine")
+    write(tmp_path / "site", "b.html")
+    assert names(tmp_path / "site") == {"b.html", "own.txt"}
+
+
+def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
+    """After a failed build, the previous pages are still there, and the next build finds them."""
+    write(tmp_path / "site", "a.html", "b.html")
+    with suppress(ZeroDivisionError), Folder(tmp_path / "site") as folder:
+        folder.write("a.html", "new")
+        raise ZeroDivisionError
+    assert names(tmp_path / "site") == {"a.html", "b.html"}
+    write(tmp_path / "site", "a.html")
+    assert names(tmp_path / "site") == {"a.html"}
+
+
+def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
+    """The error names the next step."""
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SiteError, match="Name another with --out"):
+        write(tmp_path / "file", "a.html")

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from course_pkg.graph import NodeProcess, PrivateMaster
+from course_pkg.ros import NodeProcess, PrivateMaster
 
 
 @pytest.fixture(scope="module")
 def simulator(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """`rosrun turtlesim turtlesim_node`, answering."""
+    """Run `rosrun turtlesim turtlesim_node` until it answers."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as process:
         process.wait_for_service("/spawn")
         yield process

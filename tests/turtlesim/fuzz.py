@@ -1,4 +1,4 @@
-"""Clients that behave badly: random calls and messages, odd numbers, odd names, connections cut off."""
+"""Clients that behave badly: random calls and messages, odd numbers and names, broken connections."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from std_srvs.srv import Empty
 from turtlesim.msg import Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
-from course_pkg.graph import MasterClient, Node, master_uri
+from course_pkg.ros import MasterClient, Node, master_uri
 
 ODD_NUMBERS = (math.nan, math.inf, -math.inf, 0.0, -0.0, 1e-45, 3.4e38, -3.4e38, math.pi, -math.pi)
 ODD_NAMES = (
@@ -42,7 +42,7 @@ MOST = 12  # turtles, before the world is reset
 
 
 class Fuzzer:
-    """Draws and does one thing after the other; `failures` counts the calls that were refused."""
+    """Draws random actions and executes them; `failures` counts the refused calls."""
 
     def __init__(self, node: Node, seed: int) -> None:
         self._node = node
@@ -52,7 +52,7 @@ class Fuzzer:
         self.refused = 0
 
     def step(self) -> None:
-        """Do one thing."""
+        """Execute one action."""
         deeds: list[Callable[[], None]] = [
             *(self._drive,) * 6,
             *(self._spawn, self._kill, self._pen, self._teleport, self._leap) * 2,
@@ -64,7 +64,7 @@ class Fuzzer:
         self._draw.choice(deeds)()
 
     def number(self) -> float:
-        """Return a number, odd in one case of three."""
+        """Return a number; one in three is unusual."""
         return self._draw.choice(ODD_NUMBERS) if self._draw.random() < 1 / 3 else self._draw.uniform(-20, 20)
 
     def _turtle(self) -> str:
@@ -116,7 +116,7 @@ class Fuzzer:
         self._publishers.clear()
 
     def _cut_off(self) -> None:
-        """Begin a call by hand, and leave in the middle of it."""
+        """Begin a call by hand, and close the connection in the middle of it."""
         pairs = [b"service=/spawn", b"callerid=/rude", b"md5sum=" + Spawn._md5sum.encode()]
         body = b"".join(struct.pack("<I", len(pair)) + pair for pair in pairs)
         request = struct.pack("<IfffI", 16, 1.0, 1.0, 0.0, 0)
@@ -136,7 +136,7 @@ class Fuzzer:
 
 
 def sane(node: Node) -> None:
-    """Hold the world to sense after a reset: turtle1 in the middle, and it obeys."""
+    """Assert after a reset that turtle1 is in the middle and obeys."""
     node.call("/reset", Empty, timeout=10)
     with node.subscribe("/turtle1/pose", Pose) as heard:
         heard.wait(1)
@@ -151,6 +151,6 @@ def sane(node: Node) -> None:
 
 
 def resident(pid: int) -> float:
-    """Return how much memory (MiB) a process holds."""
+    """Return the memory (MiB) of a process."""
     with open(f"/proc/{pid}/statm") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20

@@ -7,8 +7,8 @@ import subprocess
 
 import pytest
 
-from course_pkg.graph import NodeProcess, PrivateMaster, look
-from course_pkg.interfaces import message_type, service_type
+from course_pkg.ros import NodeProcess, PrivateMaster, look
+from course_pkg.types import message_type, service_type
 from tests.kernel import Kernel
 from tests.support import eventually
 
@@ -43,7 +43,7 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """A node that talks to a simulator with one turtle."""
+    """Return a node that is connected to a simulator with one turtle."""
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
@@ -58,15 +58,16 @@ def terminal(*command: str) -> str:
 
 @pytest.mark.parametrize("name", MD5)
 def test_the_types_are_those_of_the_real_package(name: str) -> None:
-    """Same MD5s, or no client would connect."""
+    """The MD5 sums are those of the real types, because clients compare them."""
     kind = message_type if name in ("Color", "Pose") else service_type
     assert kind(f"turtlesim/{name}").cls._md5sum == MD5[name]
 
 
 def test_what_the_node_offers(simulator: NodeProcess) -> None:
-    """The names of its topics and services, with their types, are the real one's."""
+    """Topics and services have the names and types of the real node."""
     seen = eventually(lambda: look() if look().service("/turtle1/teleport_absolute") else None)
-    services = {each.name: each.type for each in seen.served_by("/turtlesim") if "logger" not in each.name}
+    own = [each for each in seen.services if each.node == "/turtlesim"]
+    services = {each.name: each.type for each in own if "logger" not in each.name}
     assert services == {
         "/clear": "std_srvs/Empty",
         "/kill": "turtlesim/Kill",
@@ -83,13 +84,13 @@ def test_what_the_node_offers(simulator: NodeProcess) -> None:
 
 
 def test_parameters(simulator: NodeProcess) -> None:
-    """The background is a parameter of the node's own."""
+    """The background is a private parameter of the node."""
     shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
     assert shown == ["69", "86", "255"]
 
 
 def test_a_name_twice(client: Kernel, simulator: NodeProcess) -> None:
-    """The second spawn fails with an empty error, and the reason is in the node's log."""
+    """The second spawn fails with an empty error message, and the reason is in the node's log."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     assert said == "service [/spawn] responded with an error: b''"
@@ -97,27 +98,27 @@ def test_a_name_twice(client: Kernel, simulator: NodeProcess) -> None:
 
 
 def test_killing_nobody(client: Kernel, simulator: NodeProcess) -> None:
-    """So does killing a turtle that is not there."""
+    """Killing an unknown turtle fails in the same way."""
     said = client.run("result = words('/kill', Kill, 'nobody')")
     assert said == "service [/kill] responded with an error: b''"
     eventually(lambda: "Tried to kill turtle [nobody], which does not exist" in simulator.output())
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """A name that is none is refused with the character and its place, and makes no turtle."""
+    """An invalid name is refused with the character and its position, and no turtle is created."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
 
 
 def test_a_name_in_a_namespace(client: Kernel) -> None:
-    """a/b is accepted, and its topics are where the name says."""
+    """a/b is accepted, and its topics have this prefix."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'a/b')")
     assert client.run("result = round(pose('a/b').x, 3)") == 3.0
 
 
 def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
-    """Its topics and services go with it, and its name is free."""
+    """Its topics and services are removed with the turtle, and its name is free."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
     client.run("node.call('/kill', Kill, 'brief')")
     assert not look().service("/brief/set_pen")
@@ -125,7 +126,7 @@ def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
 
 
 def test_driving(client: Kernel) -> None:
-    """One message of x = 1 moves the turtle 1.008, as long as a second holds, a tick more or less."""
+    """One message of x = 1 moves the turtle 1.008 within a second, a tick more or less."""
     client.run("order = Twist(); order.linear.x = 1.0; before = pose().x")
     client.run("publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)")
     client.run(
@@ -140,7 +141,7 @@ def test_driving(client: Kernel) -> None:
 
 
 def test_teleport_and_colour(client: Kernel) -> None:
-    """The sensor reads the line that a teleport drew, in the pen's colour."""
+    """The sensor reads the colour of the line that a teleport drew."""
     client.run("node.call('/turtle1/set_pen', SetPen, 200, 100, 50, 9, 0)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 8, 8, 0)")
     client.run("node.call('/turtle1/teleport_relative', TeleportRelative, -0.5, 0)")
@@ -152,7 +153,7 @@ def test_teleport_and_colour(client: Kernel) -> None:
 
 
 def test_listeners_go_on_after_reset(client: Kernel) -> None:
-    """Whoever heard turtle1 before a reset hears it afterwards, from the middle."""
+    """Subscribers of turtle1 keep their connection through a reset, and receive poses from the middle."""
     client.run("heard = node.subscribe('/turtle1/pose', Pose)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 1, 1, 0); heard.wait()")
     client.run("node.call('/reset', Empty); count = heard.count")
@@ -163,7 +164,7 @@ def test_listeners_go_on_after_reset(client: Kernel) -> None:
 
 
 def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
-    """A world is never without turtle1 after a reset."""
+    """After each reset there is a turtle1."""
     client.run("node.call('/kill', Kill, 'turtle1'); node.call('/reset', Empty)")
     assert client.run("result = round(pose().x, 3)") == 5.544
 
@@ -177,14 +178,14 @@ def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
     ],
 )
 def test_numbers_that_are_none_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
-    """A place that is not finite is refused in words, and nothing moves."""
+    """A place that is not finite is refused with an error message, and the turtle does not move."""
     said = client.run(f"result = words('{name}', {kind}, {values})")
     assert "not finite" in said
     assert client.run("result = round(pose().x, 3)") == 5.544
 
 
 def test_a_velocity_that_is_none_is_ignored(client: Kernel) -> None:
-    """NaN on cmd_vel moves nothing and stops nothing."""
+    """NaN on cmd_vel has no effect."""
     client.run(
         "import time\norder = Twist(); order.angular.z = float('nan')\n"
         "publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)\n"
@@ -196,14 +197,14 @@ def test_a_velocity_that_is_none_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """In a namespace everything is the namespace's, turtles too."""
+    """In a namespace all names have the namespace, also those of turtles."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))
 
 
 def test_a_background_that_is_no_colour(client: Kernel) -> None:
-    """A parameter that holds no number is taken for the usual blue, and clear answers."""
+    """A parameter that is no number is replaced by the default blue, and clear works."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(
@@ -215,13 +216,13 @@ def test_a_background_that_is_no_colour(client: Kernel) -> None:
 
 
 def test_a_field_called_name_goes_by_its_name(client: Kernel) -> None:
-    """node.call takes the service's own name by position only, so that a request may have a field `name`."""
+    """node.call takes the service's own name by position only, so a request may have a field `name`."""
     made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
     assert made == "Named"
 
 
 def test_its_calls_are_recorded(client: Kernel) -> None:
-    """The simulator is a node of the course: a recording has its handlers, and the client's wait for them."""
+    """The simulator is a node of the course: a recording contains its handlers and the client's waiting."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"
@@ -230,3 +231,25 @@ def test_its_calls_are_recorded(client: Kernel) -> None:
     )
     assert ["handler", "/turtlesim"] in kinds
     assert ["wait", "/client"] in kinds
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_bad_clients_do_no_harm(seed: int, master: PrivateMaster, kernel: Kernel) -> None:
+    """After 400 random requests turtle1 still works; bench/turtle_fuzz.py makes 10,000."""
+    with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as simulator:
+        simulator.wait_for_service("/spawn")
+        refused = kernel.run(
+            f"""
+            from course_pkg import join
+            from tests.turtlesim.fuzz import Fuzzer, sane
+            node = join("fuzz")
+            fuzzer = Fuzzer(node, {seed})
+            for _ in range(400):
+                fuzzer.step()
+            sane(node)
+            result = fuzzer.refused
+            """,
+            patience=100,
+        )
+        assert refused > 20
+        assert simulator.running

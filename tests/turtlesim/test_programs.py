@@ -9,16 +9,16 @@ import subprocess
 
 import pytest
 
-from course_pkg.graph import NodeProcess
+from course_pkg.ros import NodeProcess
 from course_pkg.turtlesim.draw_square import SIDE, Walker
-from course_pkg.turtlesim.turtle_teleop_key import orders
+from course_pkg.turtlesim.turtle_teleop_key import commands
 from course_pkg.turtlesim.world import TICK, Velocity, World
 from tests.kernel import Kernel
 from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """Four sides and four corners bring the turtle back to within a few centimetres, whatever the pace."""
+    """Four sides and four corners bring the turtle back to within a few centimetres, at any rate."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0
@@ -39,7 +39,7 @@ def test_a_square_closes() -> None:
 
 
 def test_draw_square_walks(simulator: NodeProcess, kernel: Kernel) -> None:
-    """On the graph the turtle leaves the middle for the end of the first side."""
+    """On the graph the turtle moves from the middle to the end of the first side."""
     kernel.run(
         "from course_pkg import join\nfrom turtlesim.msg import Pose\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/pose', Pose)"
@@ -51,10 +51,10 @@ def test_draw_square_walks(simulator: NodeProcess, kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
 def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
-    """Keys come as escape codes, which may arrive in pieces; other keys do nothing, and q ends it."""
+    """Keys arrive as escape codes, possibly in pieces; other keys have no effect, and q ends the program."""
     reader, writer = os.pipe()
     found = []
-    keys = orders(reader)
+    keys = commands(reader)
     for chunk in chunks:
         os.write(writer, chunk)
     os.close(writer)
@@ -64,7 +64,7 @@ def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
 
 
 def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
-    """In a terminal, an arrow moves the turtle, q ends the node, and the terminal is as it was."""
+    """In a terminal, an arrow key moves the turtle, q ends the node, and the terminal's mode is restored."""
     kernel.run(
         "from course_pkg import join\nfrom geometry_msgs.msg import Twist\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/cmd_vel', Twist)"
@@ -91,7 +91,7 @@ def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
 
 
 def test_without_a_terminal_it_says_so() -> None:
-    """From a pipe there are no keys: one line and status 1."""
+    """With a pipe as input there are no keys: one line and status 1."""
     done = subprocess.run(
         ["rosrun", "turtlesim", "turtle_teleop_key"], input="", capture_output=True, text=True, timeout=30
     )

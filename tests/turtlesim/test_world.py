@@ -1,12 +1,14 @@
-"""The world of turtles by itself: no ROS, and a clock of the tests' own."""
+"""The world of turtles alone: without ROS, and with a clock that the tests control."""
 
 from __future__ import annotations
 
 import math
 import struct
+import time
 
 import pytest
 
+from course_pkg.turtlesim.canvas import SIDE, Canvas, Point
 from course_pkg.turtlesim.world import (
     BACKGROUND,
     HOME,
@@ -18,17 +20,19 @@ from course_pkg.turtlesim.world import (
     UnknownTurtle,
     Velocity,
     World,
-    wrapped,
+    normalized,
 )
+
+GROUND, LINE = (69, 86, 255), (1, 2, 3)
 
 
 def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
-    """Let time pass; return all warnings."""
-    return [words for tick in range(ticks) for words in world.tick(start + tick * TICK)]
+    """Run ticks; return all warnings."""
+    return [warning for tick in range(ticks) for warning in world.tick(start + tick * TICK)]
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world whose turtle has just been told a velocity."""
+    """Return a world whose turtle has just received a velocity."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)
@@ -36,7 +40,7 @@ def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tu
 
 
 def float32(value: float) -> float:
-    """Return what remains of a number on the wire."""
+    """Return a number as float32."""
     (kept,) = struct.unpack("<f", struct.pack("<f", value))
     return float(kept)
 
@@ -49,7 +53,7 @@ def test_the_first_turtle_stands_in_the_middle() -> None:
 
 
 def test_one_order_holds_for_a_second() -> None:
-    """An x of 1 moves the turtle 0.016 m a tick, 1.008 m in all, and then it stands."""
+    """An x of 1 moves the turtle 0.016 m per tick, 1.008 m in all, and then it stops."""
     world, turtle = driven(forward=1.0)
     world.tick(0.0)
     assert turtle.x - HOME == pytest.approx(0.016)
@@ -69,7 +73,7 @@ def test_an_arc() -> None:
 
 
 def test_sideways() -> None:
-    """linear.y moves to the left of where it looks, and the reported velocity is a magnitude."""
+    """linear.y moves the turtle to its left, and the reported velocity is a magnitude."""
     world, turtle = driven(forward=3.0, sideways=-4.0)
     world.tick(0.0)
     assert (turtle.x - HOME, turtle.y - HOME) == (pytest.approx(0.048), pytest.approx(-0.064))
@@ -77,7 +81,7 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """It is clamped, warned of at each tick with the place it would be at, and still tells its speed."""
+    """The position is limited, each tick warns with the position outside, and the velocity stays reported."""
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -89,13 +93,13 @@ def test_the_wall() -> None:
 @pytest.mark.parametrize(
     ("angle", "read"), [(math.pi, -3.141593), (-math.pi, 3.141593), (7.0, 0.716815), (-4.0, 2.283185), (0, 0)]
 )
-def test_theta_is_wrapped(angle: float, read: float) -> None:
-    """What comes as a float32 of +π reads -3.141593, and the other way round."""
-    assert round(wrapped(float32(angle)), 6) == read
+def test_theta_is_normalized(angle: float, read: float) -> None:
+    """A float32 of +π is reported as -3.141593, and the other way round."""
+    assert round(normalized(float32(angle)), 6) == read
 
 
 def test_spawn_outside_is_clamped() -> None:
-    """A turtle that is made far off stands at the wall a tick later."""
+    """A turtle that is spawned outside is at the wall one tick later."""
     world = World()
     turtle = world.spawn(-3.0, 99.0, 0.0, "far")
     assert len(world.tick(0.0)) == 1
@@ -103,7 +107,7 @@ def test_spawn_outside_is_clamped() -> None:
 
 
 def test_names_by_itself() -> None:
-    """turtle2, turtle3, …: names in use are skipped, those of the killed are not used again."""
+    """turtle2, turtle3, …: used names are skipped, and those of killed turtles are not used again."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -115,7 +119,7 @@ def test_names_by_itself() -> None:
 
 
 def test_a_name_is_given_once() -> None:
-    """A second turtle of a name is refused in the words of the real one, and so is killing nobody."""
+    """A second turtle with the same name and the killing of an unknown one give turtlesim's messages."""
     world = World()
     with pytest.raises(NameTaken, match=r"A turtled named \[turtle1\] already exists"):
         world.spawn(1, 1, 0, "turtle1")
@@ -123,41 +127,105 @@ def test_a_name_is_given_once() -> None:
         world.kill("nobody")
 
 
-def test_leap_turns_first() -> None:
-    """teleport_relative turns, then moves."""
+def test_teleport_relative_turns_first() -> None:
+    """teleport_relative turns first and then moves."""
     world, turtle = driven()
-    turtle.leap(world.paper, 2.0, math.pi / 2)
+    turtle.teleport_relative(world.canvas, 2.0, math.pi / 2)
     assert (turtle.x, turtle.y) == (pytest.approx(HOME), pytest.approx(HOME + 2))
 
 
 def test_the_sensor_reads_what_the_pens_drew() -> None:
-    """Over plain paper it reads the background, on a line its colour, with the pen up nothing new."""
+    """The sensor reads the background, or the colour of a line; with the pen up there is no new line."""
     world, turtle = driven()
     turtle.pen = Pen(colour=(10, 20, 30), width=6)
-    turtle.teleport(world.paper, HOME + 2, HOME, 0.0)
-    turtle.teleport(world.paper, HOME + 1, HOME, 0.0)
+    turtle.teleport(world.canvas, HOME + 2, HOME, 0.0)
+    turtle.teleport(world.canvas, HOME + 1, HOME, 0.0)
     world.tick(0.0)
     assert turtle.colour == (10, 20, 30)
     turtle.pen = Pen(down=False)
-    turtle.teleport(world.paper, 2.0, 2.0, 0.0)
+    turtle.teleport(world.canvas, 2.0, 2.0, 0.0)
     world.tick(TICK)
     assert turtle.colour == BACKGROUND
 
 
-def test_clear_keeps_turtles_and_takes_new_paper() -> None:
-    """After clear a line is gone, and the turtle stands where it stood."""
+def test_clear_keeps_turtles_and_erases_lines() -> None:
+    """After clear the lines are gone, and the turtle has not moved."""
     world, turtle = driven()
-    turtle.teleport(world.paper, 2.0, 2.0, 0.0)
+    turtle.teleport(world.canvas, 2.0, 2.0, 0.0)
     world.clear((1, 2, 3))
     world.tick(0.0)
     assert (turtle.x, turtle.colour) == (2.0, (1, 2, 3))
 
 
-@pytest.mark.parametrize("order", [(1e308, -1e308, 1e308), (-1e300, 1e-300, -1e300), (3e38, 3e38, 3e38)])
-def test_huge_orders_leave_the_world_sane(order: tuple[float, float, float]) -> None:
-    """A turtle may be told to go at any finite speed: it stays inside, at a finite angle."""
-    world, turtle = driven(*order)
+@pytest.mark.parametrize("command", [(1e308, -1e308, 1e308), (-1e300, 1e-300, -1e300), (3e38, 3e38, 3e38)])
+def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float]) -> None:
+    """At any finite speed a turtle stays inside, with a finite angle."""
+    world, turtle = driven(*command)
     run(world, 5)
     assert 0.0 <= turtle.x <= WIDTH
     assert 0.0 <= turtle.y <= WIDTH
     assert -math.pi <= turtle.theta <= math.pi
+
+
+def coloured(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
+    """Return the pixels that a line colours near its ends and between them."""
+    canvas = Canvas(GROUND)
+    canvas.line(start, end, LINE, width)
+    return {(x, y) for x in range(60) for y in range(60) if canvas.colour_at((x, y)) == LINE}
+
+
+def test_width() -> None:
+    """A level line of width 3 colours three rows, and half its width beyond each end."""
+    pixels = coloured((10.0, 20.0), (30.0, 20.0), 3)
+    assert {y for _, y in pixels} == {19, 20, 21}
+    assert (min(x for x, _ in pixels), max(x for x, _ in pixels)) == (9, 31)
+
+
+def test_width_0_draws_one_pixel() -> None:
+    """Width 0 gives the thinnest visible line."""
+    assert len({y for _, y in coloured((10.0, 20.0), (30.0, 20.0), 0)}) == 1
+
+
+@pytest.mark.parametrize("end", [(50.0, 12.0), (12.0, 50.0), (50.0, 50.0), (33.0, 47.0)])
+def test_a_slanted_line_has_no_gaps(end: Point) -> None:
+    """The pixels of a thin line touch each other."""
+    pixels = coloured((10.0, 10.0), end, 1)
+    reached, todo = set(), [min(pixels)]
+    while todo:
+        x, y = todo.pop()
+        if (x, y) in pixels - reached:
+            reached.add((x, y))
+            todo += [(x + dx, y + dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+    assert reached == pixels
+
+
+def test_a_point_is_a_square() -> None:
+    """A line without length is a dot with the width of the pen."""
+    assert len(coloured((20.5, 20.5), (20.5, 20.5), 4)) == 16
+
+
+def test_outside_is_cut_off() -> None:
+    """A line may leave the canvas on any side; outside, the sensor reads the edge."""
+    canvas = Canvas(GROUND)
+    canvas.line((-1000.0, 5.0), (1500.0, 5.0), LINE, 255)
+    assert canvas.colour_at((-7.0, 5.0)) == canvas.colour_at((SIDE + 50.0, 5.0)) == LINE
+    assert canvas.colour_at((250.0, 499.0)) == GROUND
+
+
+def test_a_fill_covers_all() -> None:
+    """fill() gives all pixels one colour."""
+    canvas = Canvas(GROUND)
+    canvas.line((0.0, 0.0), (499.0, 499.0), LINE, 9)
+    canvas.fill((9, 9, 9))
+    assert {canvas.colour_at((step, step)) for step in range(SIDE)} == {(9, 9, 9)}
+
+
+def test_the_widest_line_fits_into_a_tick() -> None:
+    """Across the canvas with the widest pen, a line takes much less processor time than a tick of 16 ms."""
+    canvas = Canvas(GROUND)
+    took = []
+    for _ in range(5):
+        started = time.process_time()
+        canvas.line((0.0, 0.0), (499.0, 499.0), LINE, 255)
+        took.append(time.process_time() - started)
+    assert min(took) < 0.016

@@ -1,4 +1,4 @@
-"""The frame of a page that stands alone: nothing is loaded or run, and only its own style is let in."""
+"""The frame of a complete page: it loads and runs nothing, and its policy permits only its own style."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import hashlib
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from course_pkg.examiner.report import Verdict
+from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 
-KINDS = {  # how a verdict is marked: in a class of the style, and by a sign beside the word
+KINDS = {  # the mark of a verdict: a class of the style, and a sign next to the word
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -19,7 +19,7 @@ KINDS = {  # how a verdict is marked: in a class of the style, and by a sign bes
 
 
 class Frame:
-    """The head that all pages share; its style is read once."""
+    """The head that all pages share; its style is read only once."""
 
     def __init__(self) -> None:
         style = Path(__file__).with_name("page.css").read_text("utf-8")
@@ -34,7 +34,7 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is HTML that is clean, `title` any text."""
+        """Return a page; `body` is clean HTML, `title` may be any text."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
@@ -46,14 +46,14 @@ def text(value: object, limit: int = clean.SHORT) -> str:
 
 
 def paragraph(value: object, kind: str = "") -> str:
-    """Return a paragraph of one text; nothing for an empty one."""
+    """Return a paragraph with one text, or nothing for an empty text."""
     shown = text(value, 1000)
     attribute = f' class="{kind}"' if kind else ""
     return f"<p{attribute}>{shown}</p>" if shown else ""
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return sentences that nobody should miss; nothing for none."""
+    """Return sentences in a conspicuous box, or nothing if there are none."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""
@@ -65,7 +65,7 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
     """Return a table; the first cell of a row is its header, the last `numbers` columns are numbers.
 
-    The cells of `rows` are HTML, `caption` and `head` any text.
+    The cells of `rows` are HTML; `caption` and `head` may be any text.
     """
     numeric = len(head) - numbers
 

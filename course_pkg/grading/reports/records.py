@@ -1,4 +1,4 @@
-"""The record of a grade: `results/<student>/NN.json`, from which every report is made."""
+"""The record of a grade, `results/<student>/NN.json`; every report is made from these records."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ RESULTS = "results"
 
 
 def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path:
-    """Return where the record of a grade lies; `origin` tells those apart that are of no chapter."""
+    """Return the path of a grade's record; `origin` distinguishes grades that belong to no chapter."""
     name = clean.file_name(chapter) if chapter else f"none-{hashlib.sha256(origin.encode()).hexdigest()[:10]}"
     return out / RESULTS / clean.file_name(student or "nobody") / f"{name}.json"
 
 
 def write_record(out: Path, grade: Grade) -> Path:
-    """Write the record of a grade, whole or not at all, with nothing harmful in it; return where."""
+    """Write the cleaned record of a grade, completely or not at all; return its path."""
     path = record_path(out, grade.student, grade.chapter, grade.origin)
-    write_json(path, clean.data(grade.as_dict()))
+    write_json(path, clean.record(grade.as_dict()))
     return path
 
 
@@ -35,11 +35,11 @@ def read_grades(out: Path) -> list[Grade]:
 
 
 def _read(path: Path, which: str) -> Grade:
-    """Return the grade in a record; a message says which it is without the student's name."""
+    """Return the grade in a record; an error message identifies the record without the student's name."""
     try:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
-            f"In {path.parents[1]}, in the order of paths, {which} ({path.name}) is none of a grade: "
-            f"{type(error).__name__}. Delete it, and grade once more."
+            f"In {path.parents[1]}, in the order of paths, {which} ({path.name}) is not a grade of this "
+            f"version of the course: {type(error).__name__}. Delete it, and grade again."
         ) from error

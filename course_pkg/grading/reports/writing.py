@@ -1,4 +1,4 @@
-"""All reports of a class, in one go."""
+"""Write all reports of a class."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from course_pkg.errors import GradingError
 from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports import formats
-from course_pkg.grading.reports.book import Book
+from course_pkg.grading.reports.gradebook import Book
 
 Writer = Callable[[Book, Path], None]
 
@@ -18,7 +18,8 @@ Writer = Callable[[Book, Path], None]
 def write_reports(grades: Sequence[Grade], out: Path) -> None:
     """Write every report about `grades` into the folder `out`.
 
-    Each module in `formats` is one of them: its `write(book, out)` is all that a further format needs.
+    Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
+    this.
     """
     book = Book(grades)
     try:
@@ -28,7 +29,7 @@ def write_reports(grades: Sequence[Grade], out: Path) -> None:
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written into {out}: {error.strerror or error}. Give another folder with "
-            "--out; what was graded is not lost."
+            "--out; the grades are not lost."
         ) from error
 
 

@@ -1,4 +1,4 @@
-"""The cases of the lab: their numbers, and what there is to choose from in each."""
+"""The cases of the lab: their numbers, the options of each, and the student's answers."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from course_pkg.faults.catalogue import every_fault, select
 from course_pkg.faults.fault import Fault
+from course_pkg.panels.store import Store
 
 OPTIONS = 5  # diagnoses to choose from, the right one included
 
@@ -22,20 +23,50 @@ class Case:
     remedies: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class CaseRecord:
+    """One case, by the name of its fault, and the number of answers to it.
+
+    `first` is whether the first answer was right, `solved` whether any was. `shown` is whether the student
+    looked at the solution before that.
+    """
+
+    key: str
+    tries: int = 0
+    first: bool = False
+    solved: bool = False
+    shown: bool = False
+
+    @property
+    def state(self) -> str:
+        """The state of the case: "new", "wrong", "shown" or "solved"."""
+        if self.solved:
+            return "solved"
+        return "shown" if self.shown else "wrong" if self.tries else "new"
+
+
+class CaseStore(Store[CaseRecord]):
+    """The answers in one file, by fault."""
+
+    record = CaseRecord
+    file = "cases.json"
+    what = "answers to cases"
+
+
 def cases(*chosen: str) -> tuple[Case, ...]:
-    """Return the cases for these faults and groups, all for none, by number. Raises UnknownFault.
+    """Return the cases for these faults and groups, or all cases, by number. Raises UnknownFault.
 
     A fault has the same number in every selection.
     """
     everything = every_fault()
     wanted = set(select(*chosen))
-    shuffled = sorted(everything, key=lambda fault: _chance("number", fault.name))
+    numbered = sorted(everything, key=lambda fault: _sort_key("number", fault.name))
     return tuple(
-        _case(number, fault, everything) for number, fault in enumerate(shuffled, start=1) if fault in wanted
+        _case(number, fault, everything) for number, fault in enumerate(numbered, start=1) if fault in wanted
     )
 
 
-def meant(diagnosis: str) -> Fault | None:
+def fault_with(diagnosis: str) -> Fault | None:
     """Return the fault with this diagnosis."""
     return next((fault for fault in every_fault() if fault.diagnosis == diagnosis), None)
 
@@ -43,27 +74,27 @@ def meant(diagnosis: str) -> Fault | None:
 def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
     alike = sorted(
         (other for other in everything if _could_be(fault, other)),
-        key=lambda other: (other.look != fault.look, _chance(fault.name, other.name)),
+        key=lambda other: (other.look != fault.look, _sort_key(fault.name, other.name)),
     )
     offered = [fault, *alike[: OPTIONS - 1]]
     return Case(
         number,
         fault,
-        _mixed(fault.name, [each.diagnosis for each in offered]),
-        _mixed(fault.name, [each.remedy for each in offered]),
+        _shuffled(fault.name, [each.diagnosis for each in offered]),
+        _shuffled(fault.name, [each.remedy for each in offered]),
     )
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Whether another fault has a symptom of the same kind, and a diagnosis that is wrong here."""
+    """Return whether another fault has a symptom of the same kind, and a diagnosis that is wrong here."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 
 
-def _mixed(salt: str, texts: Sequence[str]) -> tuple[str, ...]:
-    return tuple(sorted(dict.fromkeys(texts), key=lambda text: _chance(salt, text)))
+def _shuffled(salt: str, texts: Sequence[str]) -> tuple[str, ...]:
+    return tuple(sorted(dict.fromkeys(texts), key=lambda text: _sort_key(salt, text)))
 
 
-def _chance(salt: str, text: str) -> str:
-    """Return a text to sort by, the same in every run and without any meaning."""
+def _sort_key(salt: str, text: str) -> str:
+    """Return a key for an order that looks random, and is the same in every run."""
     return hashlib.sha256(f"{salt}: {text}".encode()).hexdigest()

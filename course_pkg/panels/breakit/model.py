@@ -1,4 +1,4 @@
-"""What the lab knows: no page and no kernel. How a fault is put on a stage is injected."""
+"""The state of the lab, without page or kernel: its caller causes the faults and uses the tools."""
 
 from __future__ import annotations
 
@@ -6,20 +6,75 @@ import threading
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
-from typing import Any, Protocol
+from typing import Generic, Literal, Protocol, TypedDict, TypeVar
 
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.probes import TOOLS
 from course_pkg.faults.program import Program, Seen
-from course_pkg.graph.explanations.explanation import taught
-from course_pkg.panels.breakit.cases import Case, meant
-from course_pkg.panels.breakit.store import CaseRecord, CaseStore
+from course_pkg.panels.breakit.cases import Case, CaseRecord, CaseStore, fault_with
 from course_pkg.panels.breakit.worker import Worker
+from course_pkg.ros.explain.explanation import taught
 
-REHEARSAL = 30.0  # s for each step of one
-LOG = 8  # looks that are kept on the page, besides the symptom
+STEP = 30.0  # s for each step of a case that is recorded
+LOG = 8  # uses of tools that stay on the page, besides the symptom
 
-State = dict[str, Any]
+
+class ToolUse(TypedDict):
+    """What a tool showed: what it printed, and whether it still waits for an answer."""
+
+    number: int
+    tool: str
+    shown: str
+    said: str
+    verdict: str
+    waiting: bool
+
+
+class Verdict(TypedDict, total=False):
+    """The verdict on an answer, or the solution, with the program of the server if there is one."""
+
+    state: Literal["right", "half", "wrong", "shown"]
+    words: str
+    reason: str
+    diagnosis: str
+    remedy: str
+    taught: str
+    server: str
+
+
+class CaseState(TypedDict, total=False):
+    """The open case: its story, what tools showed of it, the options, and the verdict."""
+
+    number: int
+    story: str
+    phase: Literal["causing", "ready", "looking", "over"]
+    looks: list[ToolUse]
+    tools: list[dict[str, str]]
+    diagnoses: list[str]
+    remedies: list[str]
+    verdict: Verdict
+
+
+class Listed(TypedDict):
+    """A case in the list."""
+
+    number: int
+    state: str
+
+
+class Score(TypedDict):
+    """How many cases are solved, and how many of these with the first answer, `of` all."""
+
+    solved: int
+    first: int
+    of: int
+
+
+class Overview(TypedDict):
+    """All cases, and the score."""
+
+    cases: list[Listed]
+    score: Score
 
 
 class Scene(Protocol):
@@ -34,12 +89,15 @@ class Scene(Protocol):
         """Undo it."""
 
 
-class LabModel:
-    """Causes the fault of a case, shows its symptom, lends tools, checks the answer, and undoes it.
+SceneType = TypeVar("SceneType", bound=Scene)
 
-    All that touches the graph happens on a thread of its own, one thing after the other. `changed` hears by
-    keyword, from any thread: `cases`, `score`, `case`, `trouble`. `stage` puts a fault on a stage, `use` uses
-    a tool there.
+
+class LabModel(Generic[SceneType]):
+    """Causes the fault of a case, shows its symptom, uses tools, checks the answer, and undoes the fault.
+
+    Everything that touches the graph runs on one thread, in its order. `changed` gets by keyword, from any
+    thread: `cases`, `score`, `case`, `trouble`. `stage` makes the scene of a fault, `use` uses a tool on
+    it.
     """
 
     def __init__(
@@ -48,8 +106,8 @@ class LabModel:
         store: CaseStore,
         changed: Callable[..., None],
         *,
-        stage: Callable[[Fault], Scene],
-        use: Callable[[Any, str], Seen],
+        stage: Callable[[Fault], SceneType],
+        use: Callable[[SceneType, str], Seen],
         turn: threading.RLock | None = None,
     ) -> None:
         self._cases = {case.number: case for case in cases}
@@ -59,25 +117,25 @@ class LabModel:
         self._use = use
         self._turn = turn or threading.RLock()
         self._worker = Worker(self._failed)
-        self._scene: Scene | None = None
+        self._scene: SceneType | None = None
         self._case: Case | None = None
-        self._state: State = {}
+        self._state: CaseState = {}
         self._looks = 0
 
-    def overview(self) -> State:
-        """Return all cases with how they stand, and the score."""
+    def overview(self) -> Overview:
+        """Return all cases with their states, and the score."""
         records = self._store.read()
-        stands = {case.number: records.get(case.fault.name) for case in self._cases.values()}
-        solved = [record for record in stands.values() if record and record.solved]
+        answers = {case.number: records.get(case.fault.name) for case in self._cases.values()}
+        solved = [record for record in answers.values() if record and record.solved]
         first = sum(record.first for record in solved)
         listed = [
-            {"number": number, "state": record.state if record else "new"}
-            for number, record in stands.items()
+            Listed(number=number, state=record.state if record else "new")
+            for number, record in answers.items()
         ]
         return {"cases": listed, "score": {"solved": len(solved), "first": first, "of": len(listed)}}
 
     def open(self, number: int) -> None:
-        """Undo what is there and cause case `number`; the symptom comes by `changed`."""
+        """Undo the present fault and cause that of case `number`; `changed` gets the symptom."""
         case = self._cases[number]
         with self._turn:
             if self._state.get("phase") in ("causing", "looking"):
@@ -93,7 +151,7 @@ class LabModel:
                 "remedies": list(case.remedies),
                 "verdict": {},
             }
-            self._tell(trouble="")
+            self._report(trouble="")
         self._worker.do(partial(self._begin, case))
 
     def use(self, tool: str) -> None:
@@ -102,49 +160,50 @@ class LabModel:
             if self._state.get("phase") != "ready" or tool not in TOOLS:
                 return
             self._state["phase"] = "looking"
-            self._tell()
+            self._report()
         self._worker.do(partial(self._look, tool))
 
     def answer(self, diagnosis: str, remedy: str) -> None:
-        """Check an answer, and keep how it was."""
+        """Check an answer, and store the result."""
         with self._turn:
             case = self._case
             if case is None or self._settled or diagnosis not in case.diagnoses:
                 return
             right = diagnosis == case.fault.diagnosis
-            helps = remedy == case.fault.remedy
+            right_remedy = remedy == case.fault.remedy
             record = self._record(case)
-            solved = right and helps
+            solved = right and right_remedy
             first = record.first or (solved and not record.tries and not record.shown)
-            self._keep(replace(record, tries=record.tries + 1, first=first, solved=record.solved or solved))
-            self._state["verdict"] = _verdict(case.fault, diagnosis, right=right, helps=helps)
+            tries, ever_solved = record.tries + 1, record.solved or solved
+            self._store.write(replace(record, tries=tries, first=first, solved=ever_solved))
+            self._state["verdict"] = _verdict(case.fault, diagnosis, right=right, right_remedy=right_remedy)
             if solved:
                 self._state["verdict"]["server"] = self._server()
-            self._tell(**self.overview())
+            self._report_all()
 
     def reveal(self) -> None:
-        """Show the answer; the case then counts as looked at."""
+        """Show the solution; the record of the case says so."""
         with self._turn:
             if self._case is None or self._settled:
                 return
             record = self._record(self._case)
-            self._keep(replace(record, shown=record.shown or not record.solved))
-            told = _told(self._case.fault, "shown", "This is it.")
-            self._state["verdict"] = {**told, "server": self._server()}
-            self._tell(**self.overview())
+            self._store.write(replace(record, shown=record.shown or not record.solved))
+            solution = _solution(self._case.fault, "shown", "This is it.")
+            self._state["verdict"] = {**solution, "server": self._server()}
+            self._report_all()
 
-    def perform(self, name: str, tools: Iterable[str]) -> None:
-        """Go through a case on this thread, by the name of its fault: cause, look, undo; for a saved page."""
+    def play(self, name: str, tools: Iterable[str]) -> None:
+        """Cause the named fault, use the tools, and undo the fault, on this thread; for a saved page."""
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
-        self._worker.finish(REHEARSAL)
+        self._worker.finish(STEP)
         for tool in tools:
             self.use(tool)
-            self._worker.finish(REHEARSAL)
+            self._worker.finish(STEP)
         self.close()
 
     def undo(self) -> None:
-        """Undo the fault that is there, after what is under way."""
+        """Undo the present fault, after the running job."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -152,7 +211,7 @@ class LabModel:
         self._worker.do(self._undo)
 
     def close(self, timeout: float = 15.0) -> None:
-        """Undo what is there, and return when it is, at most after `timeout` s."""
+        """Undo the present fault, and return when it is undone, or after `timeout` s."""
         self.undo()
         self._worker.finish(timeout)
 
@@ -177,13 +236,13 @@ class LabModel:
             looks = [*self._state["looks"], _shown(self._looks, tool, seen)]
             self._state["looks"] = [looks[0], *looks[1:][-LOG:]]
             self._state["phase"] = "ready"
-            self._tell()
+            self._report()
 
     def _undo(self) -> None:
         self._clear()
         with self._turn:
             self._state["phase"] = "over"
-            self._tell()
+            self._report()
 
     def _clear(self) -> None:
         scene, self._scene = self._scene, None
@@ -194,24 +253,25 @@ class LabModel:
         self._clear()
         with self._turn:
             self._state["phase"] = "over"
-            self._tell(trouble=f"{type(error).__name__}: {error}")
+            self._report(trouble=f"{type(error).__name__}: {error}")
+
+    def _report_all(self) -> None:
+        overview = self.overview()
+        self._report(cases=overview["cases"], score=overview["score"])
 
     def _server(self) -> str:
-        """Return the text of the program that serves in this case, "" where none does."""
+        """Return the text of the program that serves in this case, "" if none does."""
         keeper = self._scene.keeper if self._scene else None
         return keeper.shown.rstrip() if keeper else ""
 
     def _record(self, case: Case) -> CaseRecord:
         return self._store.read().get(case.fault.name, CaseRecord(case.fault.name))
 
-    def _keep(self, record: CaseRecord) -> None:
-        self._store.write(record)
-
-    def _tell(self, **more: Any) -> None:  # noqa: ANN401 -- plain data for the page
+    def _report(self, **more: list[Listed] | Score | str) -> None:
         self._changed(case=dict(self._state), **more)
 
 
-def _shown(number: int, tool: str, seen: Seen) -> State:
+def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
     return {
         "number": number,
         "tool": tool,
@@ -222,19 +282,19 @@ def _shown(number: int, tool: str, seen: Seen) -> State:
     }
 
 
-def _verdict(fault: Fault, diagnosis: str, *, right: bool, helps: bool) -> State:
-    """Return what there is to say to an answer; for a wrong one, how what it names would look."""
-    if right and helps:
-        return _told(fault, "right", "Right.")
+def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
+    """Return the verdict on an answer; for a wrong one, the symptom of the fault that it names."""
+    if right and right_remedy:
+        return _solution(fault, "right", "Right.")
     if right:
         words = "The diagnosis is right. Another remedy fits it better."
         return {"state": "half", "words": words, "reason": ""}
-    other = meant(diagnosis)
+    other = fault_with(diagnosis)
     reason = f"If it were that, this would hold: {other.reason}" if other else ""
     return {"state": "wrong", "words": "Not this.", "reason": reason}
 
 
-def _told(fault: Fault, state: str, words: str) -> State:
+def _solution(fault: Fault, state: Literal["right", "shown"], words: str) -> Verdict:
     return {
         "state": state,
         "words": words,

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from traitlets import Dict, List, Unicode
 
 from course_pkg.faults import Stage, probe
-from course_pkg.panels.breakit.cases import cases
+from course_pkg.panels.breakit.cases import CaseStore, cases
 from course_pkg.panels.breakit.model import LabModel
-from course_pkg.panels.breakit.store import CaseStore
-from course_pkg.panels.panel import Panel
+from course_pkg.panels.panel import PageMessage, Panel
 
 HERE = Path(__file__).parent
 
@@ -20,15 +19,15 @@ HERE = Path(__file__).parent
 class BreakIt(Panel):
     """Cases in which something is really broken, on the running graph: find out what, from the symptom.
 
-    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; none for all. A fault is
-    undone when another case begins, when no page shows the lab any more, and when the kernel ends. Which
-    fault a case has goes to the page only when it has been answered. Raises UnknownFault.
+    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; none for all. A fault
+    is undone when another case begins, when no page shows the lab any more, and when the kernel ends. The
+    page gets the fault of a case only after the answer. Raises UnknownFault.
     """
 
     front_end: ClassVar[Path] = HERE / "breakit.js"
     style_sheet: ClassVar[Path] = HERE / "breakit.css"
 
-    cases: List[Any] = List(help="the cases by number, and how each stands").tag(sync=True)
+    cases = List(Dict(), help="the cases by number, and the state of each").tag(sync=True)
     score = Dict(help="how many are solved, how many at the first try, of how many").tag(sync=True)
     case = Dict(help="the case that is open, what was seen of it, and the verdict").tag(sync=True)
     trouble = Unicode(help="why a case could not be set up").tag(sync=True)
@@ -42,18 +41,18 @@ class BreakIt(Panel):
         self.publish(**self._model.overview())
 
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
-        """Go through cases, with the tools to use in each, for a page with no kernel; the last one stays.
+        """Play cases, with the tools to use in each, for a page without a kernel; the last one stays.
 
         `cases` are names of faults with names of tools: {"stale": ["services", "ping"]}.
         """
         for name, tools in cases.items():
-            self._model.perform(name, tools)
+            self._model.play(name, tools)
 
     def hidden(self) -> None:
-        """Undo the fault that is there."""
+        """Undo the present fault."""
         self._model.undo()
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a click."""
         if kind == "open":
             self._model.open(int(content["case"]))
@@ -68,9 +67,9 @@ class BreakIt(Panel):
         self.send({"kind": "taken"})
 
     def close(self) -> None:
-        """Take the lab off every page and undo the fault that is there, which takes up to 0.3 s."""
+        """Take the lab off every page and undo the present fault, which takes up to 0.3 s."""
         super().close()
-        if hasattr(self, "_model"):  # the constructor may have refused what it was given
+        if hasattr(self, "_model"):  # the constructor may have raised an error
             self._model.close()
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""One thing after the other, off the thread that asks for it."""
+"""A thread for the jobs of the lab, such as causing a fault, which take longer than a page may wait."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Does jobs in their order on a thread that is there only while there are any.
+    """Does jobs in their order on a thread, which exists only while there are jobs.
 
-    `failed` hears of an error of a job, on that thread.
+    `failed` gets the error of a job, on that thread.
     """
 
     def __init__(self, failed: Callable[[Exception], None]) -> None:
@@ -20,7 +20,7 @@ class Worker:
         self._thread: threading.Thread | None = None
 
     def do(self, job: Callable[[], None]) -> None:
-        """Have `job` done, after those that were asked for before, and return at once."""
+        """Do `job` after the jobs before it; return at once."""
         with self._turn:
             self._jobs.append(job)
             if self._thread is None:
@@ -28,12 +28,12 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Forget the jobs that have not begun."""
+        """Drop the jobs that have not begun."""
         with self._turn:
             self._jobs.clear()
 
     def finish(self, timeout: float) -> bool:
-        """Wait until there is nothing left to do, at most `timeout` s; return whether that is so."""
+        """Wait until there are no jobs, at most `timeout` s; return whether there are none."""
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout)
@@ -50,5 +50,5 @@ class Worker:
         while (job := self._next()) is not None:
             try:
                 job()
-            except Exception as error:  # noqa: BLE001 -- a thread must not die in silence: its owner shows it
+            except Exception as error:  # noqa: BLE001 -- the thread must go on: its owner shows the error
                 self._failed(error)

@@ -18,12 +18,15 @@ class ChoicesView {
     this.model = model;
     this.live = true;
     this.asked = false; // whether the button was pressed while cases were open
+    /** @type {Map<number, string>} */
+    this.sent = new Map(); // options by case that the kernel has not confirmed yet
     this.rows = model.get("cases").map((/** @type {string} */ text, /** @type {number} */ number) => this.#row(text, number));
     this.status = h("p", { class: "ros-standing", role: "status", "aria-live": "polite", tabindex: "-1" });
     this.button = h("button", { type: "button", class: "ros-main", onclick: () => this.#press() });
     this.el = h("section", { class: "ros-panel ros-choices-panel", "aria-label": "Choices" },
       h("h3", {}, h("span", { class: "ros-tag", text: "Choose" }), " ", ...prose(model.get("question"))),
       h("ol", {}, ...this.rows.map((/** @type {any} */ row) => row.el)), h("div", { class: "ros-actions" }, this.button, this.status));
+    model.on("change:chosen", () => this.#confirm());
     for (const trait of ["chosen", "verdicts", "first", "notice"]) model.on(`change:${trait}`, () => this.#draw());
     this.#draw();
   }
@@ -31,7 +34,11 @@ class ChoicesView {
   /** @param {string} text @param {number} number */
   #row(text, number) {
     const id = freshId("ros-case");
-    const pick = (/** @type {string} */ option) => { send(this.model, { kind: "choose", case: number, option }); };
+    const pick = (/** @type {string} */ option) => {
+      this.sent.set(number, option);
+      send(this.model, { kind: "choose", case: number, option });
+      this.#draw();
+    };
     const inputs = this.model.get("options").map((/** @type {string} */ option) =>
       /** @type {HTMLInputElement} */ (h("input", { type: "radio", name: id, value: option, onchange: () => pick(option) })));
     const verdict = h("p", { class: "ros-verdict", id: `${id}-verdict` });
@@ -41,8 +48,18 @@ class ChoicesView {
     return { el, inputs, verdict };
   }
 
-  #draw() {
+  /** @returns {string[]} the option of each case, also those that the kernel has not confirmed yet */
+  #chosen() {
+    return this.model.get("chosen").map((/** @type {string} */ option, /** @type {number} */ number) => this.sent.get(number) ?? option);
+  }
+
+  #confirm() {
     const chosen = this.model.get("chosen");
+    for (const [number, option] of this.sent) if (chosen[number] === option) this.sent.delete(number);
+  }
+
+  #draw() {
+    const chosen = this.#chosen();
     /** @type {Verdict[]} */
     const verdicts = this.model.get("verdicts");
     this.rows.forEach((/** @type {any} */ row, /** @type {number} */ number) => this.#drawRow(row, chosen[number], verdicts[number]));
@@ -84,17 +101,21 @@ class ChoicesView {
   #press() {
     if (!this.live) return;
     const shown = this.model.get("verdicts").length > 0;
-    const open = this.model.get("chosen").indexOf("");
+    const open = this.#chosen().indexOf("");
     this.asked = !shown && open >= 0;
     if (this.asked) {
       this.#draw();
       this.rows[open].inputs[0].focus();
-    } else send(this.model, { kind: shown ? "again" : "compare" });
+      return;
+    }
+    if (shown) this.sent.clear();
+    send(this.model, { kind: shown ? "again" : "compare" });
   }
 
   /** @param {boolean} live */
   kernel(live) {
     this.live = live;
+    if (!live) this.sent.clear();
     this.#draw();
   }
 }

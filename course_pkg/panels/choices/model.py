@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from datetime import datetime, timezone
+from dataclasses import dataclass, field, replace
 
 from course_pkg.errors import NotAChoice
-from course_pkg.panels.choices.store import ChoiceRecord, ChoiceStore
+from course_pkg.panels.store import Store
+from course_pkg.state import now
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,44 @@ class Verdict:
     reason: str
 
 
-class ChoicesModel:
-    """One question about several cases, and the record of what was chosen.
+@dataclass(frozen=True)
+class ChoiceRecord:
+    """The choices for one table of cases; `chosen` and `first` hold an option by the text of the case.
 
-    Raises NotAChoice when a case expects what is no option, or stands there twice.
+    `first` are the choices at `compared`, the time (ISO 8601 in UTC, "" for not yet) at which the reasons
+    were first shown. These count: `fit` of them were the expected ones. `shown` is whether the reasons are
+    shown now.
+    """
+
+    key: str
+    question: str
+    cases: int = 0
+    chosen: dict[str, str] = field(default_factory=dict)
+    first: dict[str, str] = field(default_factory=dict)
+    fit: int = 0
+    compared: str = ""
+    shown: bool = False
+
+    @property
+    def standing(self) -> str:
+        """How many choices were made, or how many of the first choices fit, in one sentence."""
+        if not self.compared:
+            return f"{len(self.chosen)} of {self.cases} cases decided."
+        return f"{self.fit} of {len(self.first)} of your first choices fit."
+
+
+class ChoiceStore(Store[ChoiceRecord]):
+    """The choices in one file, by key; `choices.json` is the first edition's file, as with predictions."""
+
+    record = ChoiceRecord
+    file = "choices-2.json"
+    what = "choices"
+
+
+class ChoicesModel:
+    """A table of cases with the same options, and the record of the choices.
+
+    Raises NotAChoice if the answer of a case is not among the options, or if a case is given twice.
     """
 
     def __init__(
@@ -52,13 +86,13 @@ class ChoicesModel:
 
     @property
     def record(self) -> ChoiceRecord:
-        """What is kept now; a fresh record when nothing is."""
+        """The stored record; a fresh one if there is none."""
         fresh = ChoiceRecord(self.key, self.question)
         return replace(self._store.read().get(self.key, fresh), question=self.question, cases=len(self.cases))
 
     @property
     def chosen(self) -> list[str]:
-        """The option chosen for each case, "" where none is."""
+        """The option chosen for each case, "" for none."""
         kept = self.record.chosen
         return [kept[case.text] if kept.get(case.text) in self.options else "" for case in self.cases]
 
@@ -75,26 +109,22 @@ class ChoicesModel:
         record = self.record
         if record.shown or option not in self.options:
             return record
-        return self._keep(replace(record, chosen={**record.chosen, self.cases[number].text: option}))
+        return self._store.write(replace(record, chosen={**record.chosen, self.cases[number].text: option}))
 
     def compare(self) -> ChoiceRecord:
-        """Show the reasons, once every case is decided; the first time counts."""
+        """Show the reasons if every case is decided; the choices at the first time count."""
         record = self.record
         if "" in self.chosen:
             return record
         if not record.compared:
             decided = dict(zip((case.text for case in self.cases), self.chosen, strict=True))
             fit = sum(decided[case.text] == case.answer for case in self.cases)
-            record = replace(record, chosen=decided, first=decided, fit=fit, compared=_now())
-        return self._keep(replace(record, shown=True))
+            record = replace(record, chosen=decided, first=decided, fit=fit, compared=now())
+        return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Take the reasons out of sight and begin with an empty sheet; what counts stays."""
-        return self._keep(replace(self.record, chosen={}, shown=False))
-
-    def _keep(self, record: ChoiceRecord) -> ChoiceRecord:
-        self._store.write(record)
-        return record
+        """Hide the reasons and delete the choices; those that count stay."""
+        return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:
         texts = [case.text for case in self.cases]
@@ -116,14 +146,3 @@ def _case(key: str, given: tuple[str, str, str]) -> Case:
     except (TypeError, ValueError) as error:
         raise NotAChoice(f"choose({key!r}): {given!r} is no case. Give (case, answer, reason).") from error
     return Case(str(text), str(answer), str(reason))
-
-
-def standing(record: ChoiceRecord) -> str:
-    """Return how the choices stand, in one sentence."""
-    if not record.compared:
-        return f"{len(record.chosen)} of {record.cases} cases decided."
-    return f"{record.fit} of {len(record.first)} of your first choices fit."
-
-
-def _now() -> str:
-    return datetime.now(timezone.utc).isoformat(timespec="seconds")

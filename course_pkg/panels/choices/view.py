@@ -5,21 +5,35 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar, TypedDict
 
 from traitlets import Dict, List, Unicode
 
-from course_pkg.panels.choices.model import ChoicesModel
-from course_pkg.panels.choices.store import ChoiceStore
-from course_pkg.panels.panel import Panel
+from course_pkg.panels.choices.cases import CASES, OPTIONS, QUESTION
+from course_pkg.panels.choices.model import ChoicesModel, ChoiceStore
+from course_pkg.panels.panel import PageMessage, Panel
 
 HERE = Path(__file__).parent
 
 
-class Choices(Panel):
-    """A question about several cases: one of the same options for each, then the reasons.
+class _First(TypedDict, total=False):
+    """Of the first choices: how many fit, of how many, and whether they are the present ones."""
 
-    What is expected, and why, goes to the page only when it is to be shown.
+    fit: int
+    of: int
+    now: bool
+
+
+class _State(TypedDict):
+    chosen: list[str]
+    verdicts: list[dict[str, str | bool]]
+    first: _First
+
+
+class Choices(Panel):
+    """A table of cases: the student chooses an option for each, and then reads the reasons.
+
+    The page gets the expected options and the reasons only when it has to show them.
     """
 
     front_end: ClassVar[Path] = HERE / "choices.js"
@@ -29,9 +43,9 @@ class Choices(Panel):
     options = List(Unicode()).tag(sync=True)
     cases = List(Unicode()).tag(sync=True)
     chosen = List(Unicode(), help="an option for each case, or an empty text").tag(sync=True)
-    verdicts: List[Any] = List(help="for each case whether it fits, and why").tag(sync=True)
+    verdicts = List(Dict(), help="for each case whether the choice fits, and why").tag(sync=True)
     first = Dict(
-        help="how the first choices stood: how many fit, of how many, and whether they are in sight now"
+        help="of the first choices: how many fit, of how many, and whether they are the present ones"
     ).tag(sync=True)
 
     def __init__(
@@ -52,7 +66,7 @@ class Choices(Panel):
             **self._state(),
         )
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a click."""
         if kind == "choose":
             self._model.choose(int(content["case"]), str(content["option"]))
@@ -65,16 +79,22 @@ class Choices(Panel):
     def __repr__(self) -> str:
         return f"choose({self._model.key!r})"
 
-    def _state(self) -> dict[str, Any]:
+    def _state(self) -> _State:
         record = self._model.record
-        first = {"fit": record.fit, "of": len(record.first), "now": record.chosen == record.first}
+        first: _First = {"fit": record.fit, "of": len(record.first), "now": record.chosen == record.first}
         verdicts = [asdict(verdict) for verdict in self._model.verdicts]
         return {"chosen": self._model.chosen, "verdicts": verdicts, "first": first if record.compared else {}}
 
 
-def choose(key: str, question: str, options: Sequence[str], cases: Iterable[tuple[str, str, str]]) -> Choices:
+def choose(
+    key: str,
+    question: str = QUESTION,
+    options: Sequence[str] = OPTIONS,
+    cases: Iterable[tuple[str, str, str]] = CASES,
+) -> Choices:
     """Ask for one of `options` in each of the cases; a case is (case, answer, reason).
 
-    `key` is `chapter.name`. Words between backticks are shown as code. Raises NotAChoice.
+    `key` is `chapter.name`. Words between backticks are shown as code. Without other arguments, the student
+    decides ten cases between a topic, a service and an action. Raises NotAChoice.
     """
     return Choices(key, question, options, cases)

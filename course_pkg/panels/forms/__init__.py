@@ -1,1 +1,1 @@
-"""Forms: any message type as fields to fill in, whatever is then done with the message."""
+"""Forms: the fields of any message type, to be filled in."""

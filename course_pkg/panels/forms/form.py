@@ -1,37 +1,66 @@
-"""A message as one types it: a tree of texts, what is wrong with it, what it amounts to."""
+"""A message as a form holds it: a tree of strings, what is wrong with it, and its values as a table."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import islice
+from typing import TypeAlias, TypedDict
 
 from course_pkg.errors import FieldError
-from course_pkg.interfaces import MessageType
-from course_pkg.panels.forms.texts import Texts, compact
+from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-State = dict[str, Any]
-Commands = Callable[[Mapping[str, Any]], dict[str, str]]
+CONTROLS = 16  # an array with more elements is edited as one line of text, not with a control for each
+LIMIT = 200  # rows of a table
+ELEMENTS = 32  # of an array that a table shows
+_NANO = 10**9
+
+Draft: TypeAlias = dict[str, StringTree]  # what is typed into a form, by field
+Values: TypeAlias = Mapping[str, Plain]
+
+
+class Check(TypedDict, total=False):
+    """What a form's draft amounts to: the errors by field, or the commands that do the same as the form.
+
+    A page tells by `refused`, which counts up, that a click on a button was refused.
+    """
+
+    errors: dict[str, str]
+    refused: int
+    shell: str  # of a service
+    python: str
+    once: str  # of a topic
+    often: str
+
+
+class Row(TypedDict):
+    """A row of a table of values; `text` is empty if the value is in the next rows, one `depth` deeper."""
+
+    depth: int
+    name: str
+    type: str
+    text: str
 
 
 class MessageForm:
-    """The form for a message; `commands` makes of its values the lines that do the same by hand."""
+    """The form for a message; `commands` returns the commands that do the same with given values."""
 
-    def __init__(self, message: MessageType, commands: Commands) -> None:
+    def __init__(self, message: MessageType, commands: Callable[[Values], Check]) -> None:
         self.message = message
-        self.blank: Texts = self.texts(message.default())
+        self.blank: Draft = self.formatted(message.default())
         self._commands = commands
 
-    def errors(self, draft: Texts) -> dict[str, str]:
-        """Return what is allowed instead by the path of what is wrong; one for each top-level field."""
+    def errors(self, draft: Draft) -> dict[str, str]:
+        """Return what is wrong, by the path of the field; at most one error for each top-level field."""
         wrong: dict[str, str] = {}
+        given = {**self.blank, **draft}
         for name in self.blank:
             try:
-                self.message.parse({**self.blank, name: draft.get(name, self.blank[name])})
+                self.message.parse({**self.blank, name: given[name]})
             except FieldError as error:
                 wrong[error.field] = correction(error)
         return wrong
 
-    def checked(self, draft: Texts) -> State:
+    def checked(self, draft: Draft) -> Check:
         """Return the errors, or the commands that do the same as the form."""
         try:
             values = self.values(draft)
@@ -39,23 +68,94 @@ class MessageForm:
             return {"errors": self.errors(draft)}
         return {"errors": {}, **self._commands(values)}
 
-    def values(self, draft: Texts) -> dict[str, Any]:
+    def values(self, draft: Draft) -> dict[str, Plain]:
         """Return the plain values of the message. Raises FieldError."""
-        values: dict[str, Any] = self.message.parse({**self.blank, **draft})
-        return values
+        return self.message.parse({**self.blank, **draft})
 
-    def filled(self, draft: Texts, values: Mapping[str, Any]) -> Texts:
-        """Return the draft with plain values written into it. Raises FieldError where one does not fit."""
-        whole = self.message.check({**self.message.default(), **values})
-        texts = self.texts(whole)
-        return {**draft, **{name: texts[name] for name in values}}
+    def filled(self, draft: Draft, values: Values) -> Draft:
+        """Return the draft with plain values written into it. Raises FieldError if one does not fit."""
+        formatted = self.formatted(self.message.check({**self.message.default(), **values}))
+        return {**draft, **{name: formatted[name] for name in values}}
 
-    def texts(self, values: Mapping[str, Any]) -> Texts:
+    def formatted(self, values: Values) -> Draft:
         """Return plain values as the form shows them."""
         return compact(self.message.fields, self.message.format(values))
 
 
 def correction(error: FieldError) -> str:
-    """Return what is wrong with a field and what would be right; the field's name stands beside it."""
+    """Return what is wrong with a field and what would be right; the page shows it next to the field."""
     hint = f"; {error.hint}" if error.hint else ""
     return f"{error.problem[:1].upper()}{error.problem[1:]}. Give {error.allowed}{hint}."
+
+
+def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
+    """Return a string tree with each time in seconds, and each long array of plain values as one line."""
+    return {field.name: _compact(field, strings[field.name]) for field in fields}
+
+
+def _compact(field: Field, given: StringTree) -> StringTree:
+    if isinstance(given, str):
+        return given
+    if isinstance(given, Mapping):
+        if field.kind in (Kind.TIME, Kind.DURATION):
+            return _seconds(int(str(given["secs"])), int(str(given["nsecs"])))
+        return compact(field.fields, given)
+    item = _item(field)
+    if len(given) > CONTROLS and item.kind in (Kind.INTEGER, Kind.FLOAT, Kind.BOOL):
+        return f"[{', '.join(map(str, given))}]"
+    return [_compact(item, each) for each in given]
+
+
+def _item(field: Field) -> Field:
+    assert field.item is not None, "an array has an element"
+    return field.item
+
+
+def _seconds(secs: int, nsecs: int) -> str:
+    total = secs * _NANO + nsecs
+    whole, part = divmod(abs(total), _NANO)
+    fraction = f"{part:09d}".rstrip("0")
+    return f"{'-' if total < 0 else ''}{whole}{'.' if fraction else ''}{fraction}"
+
+
+def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int = LIMIT) -> list[Row]:
+    """Return a table of a string tree: a row for each value, at most `limit` rows."""
+    lines = list(islice(_fields(fields, strings, 0), limit + 1))
+    if len(lines) > limit:
+        lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more than is shown here")]
+    return lines
+
+
+def summary(lines: Sequence[Row], width: int = 72) -> str:
+    """Return the values of a table in one line of at most `width` characters."""
+    line = ", ".join(f"{row['name']} {row['text']}" for row in lines if row["text"])
+    return line if len(line) <= width else line[: width - 1] + "…"
+
+
+def _fields(fields: Sequence[Field], strings: Mapping[str, StringTree], depth: int) -> Iterator[Row]:
+    for field in fields:
+        yield from _value(field, field.name, strings[field.name], depth)
+
+
+def _value(field: Field, name: str, given: StringTree, depth: int) -> Iterator[Row]:
+    row = Row(depth=depth, name=name, type=field.type, text="")
+    if isinstance(given, str):
+        yield {**row, "text": given}
+    elif isinstance(given, Mapping):
+        yield row
+        yield from _fields(field.fields, given, depth + 1)
+    else:
+        yield from _elements(_item(field), row, given)
+
+
+def _elements(item: Field, row: Row, given: Sequence[StringTree]) -> Iterator[Row]:
+    strings = [each for each in given if isinstance(each, str)]
+    if len(strings) == len(given):
+        more = f", … ({len(given)} in all)" if len(given) > ELEMENTS else ""
+        yield {**row, "text": f"[{', '.join(strings[:ELEMENTS])}{more}]"}
+        return
+    yield row
+    for index, each in enumerate(given[:ELEMENTS]):
+        yield from _value(item, f"[{index}]", each, row["depth"] + 1)
+    if len(given) > ELEMENTS:
+        yield Row(depth=row["depth"] + 1, name="…", type="", text=f"{len(given)} elements in all")

@@ -13,7 +13,7 @@ export class Canvas {
     this.zoom = 0; // 0: by itself
     this.fresh = true; // nobody has scrolled it yet
     this.chosen = "";
-    /** @type {import("./words.js").Activity} */
+    /** @type {import("./sentences.js").Activity} */
     this.activity = {};
     this.clock = /** @type {number | null} */ (null);
     this.id = freshId("ros-canvas");
@@ -60,7 +60,7 @@ export class Canvas {
     this.el.firstElementChild?.classList.toggle("ros-some-chosen", some);
   }
 
-  /** @param {import("./words.js").Activity} activity @param {number | null} [clock] when that was, in s since the epoch;
+  /** @param {import("./sentences.js").Activity} activity @param {number | null} [clock] when that was, in s since the epoch;
    * none: it is now, and goes on */
   happen(activity, clock = null) {
     this.activity = activity;

@@ -3,7 +3,7 @@ import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 import { Replay, watch } from "../replay.js";
 import { Canvas } from "./canvas.js";
 import { recordingOf } from "./recording.js";
-import { pairs } from "./words.js";
+import { pairs } from "./sentences.js";
 
 const TICK = 250; // ms of a recording in which a line that fades is drawn once
 
@@ -93,8 +93,8 @@ class GraphView {
   }
 
   #drawList() {
-    /** @type {import("./words.js").Fact[]} */
-    const facts = this.#get("facts").filter((/** @type {import("./words.js").Fact} */ each) => each.kind !== "namespace");
+    /** @type {import("./sentences.js").Fact[]} */
+    const facts = this.#get("facts").filter((/** @type {import("./sentences.js").Fact} */ each) => each.kind !== "namespace");
     const said = JSON.stringify([facts, this.#activity().details, this.#activity().callers, this.live]);
     if (said === this.listed) return;
     this.listed = said;
@@ -104,7 +104,7 @@ class GraphView {
   }
 
   #drawDetails() {
-    const fact = this.#get("facts").find((/** @type {import("./words.js").Fact} */ each) => each.key === this.chosen);
+    const fact = this.#get("facts").find((/** @type {import("./sentences.js").Fact} */ each) => each.key === this.chosen);
     const some = this.#get("facts").length > 0;
     const now = this.#clock() ?? (this.live ? Date.now() / 1000 : null);
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
@@ -192,7 +192,7 @@ class GraphView {
     if (this.chosen.startsWith("service ")) this.#drawDetails();
   }
 
-  /** @returns {import("./words.js").Activity} */
+  /** @returns {import("./sentences.js").Activity} */
   #activity() {
     return this.#get("activity") ?? {}; // a panel that was saved by an older release has none
   }

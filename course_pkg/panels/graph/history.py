@@ -1,34 +1,48 @@
-"""What a graph panel showed, and when: what a page without a kernel plays again."""
+"""What a graph panel showed, and when: a page without a kernel can play it again."""
 
 from __future__ import annotations
 
 import json
 from collections import deque
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
-State = dict[str, Any]
+if TYPE_CHECKING:
+    from course_pkg.panels.graph.activity import ActivityState
+    from course_pkg.panels.graph.model import Scene
 
-SCENE = ("drawing", "facts", "spaces", "trouble")  # what is large and changes seldom
 MOMENTS = 150
 BYTES = 200_000  # of all that is kept, as JSON
 
 
-class _Scene(NamedTuple):
-    shown: State
+class HistoryState(TypedDict, total=False):
+    """What a page plays; empty if nothing changed.
+
+    `began` is the time of the first moment (s since the epoch), `length` that of all (ms). A moment is (ms
+    since `began`, index of the scene, activity).
+    """
+
+    began: float
+    length: int
+    scenes: list[Scene]
+    moments: list[tuple[int, int, ActivityState]]
+
+
+class _Sized(NamedTuple):
+    scene: Scene
     size: int
 
 
 class _Moment(NamedTuple):
     at: float
-    scene: _Scene
-    activity: State
+    sized: _Sized
+    activity: ActivityState
     size: int
 
 
 class History:
-    """The moments at which what is shown became another; the newest, as many as are let.
+    """The moments at which the panel changed: the newest, up to `moments` and `size` bytes.
 
-    Nothing is kept before start() and after stop().
+    Nothing is recorded before start() and after stop().
     """
 
     def __init__(self, moments: int = MOMENTS, size: int = BYTES) -> None:
@@ -36,63 +50,58 @@ class History:
         self._moments: deque[_Moment] = deque()
         self.running = False
 
-    def start(self, at: float, **shown: object) -> None:
-        """Begin anew at a time (s since the epoch), with what is shown then."""
+    def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
+        """Begin a new recording at `at` (s since the epoch) with what is shown then."""
         self._moments.clear()
         self.running = True
-        self.note(at, **shown)
+        self.add(at, scene, activity)
 
     def stop(self) -> None:
-        """Keep nothing more."""
+        """End the recording; what was recorded stays."""
         self.running = False
 
-    def note(self, at: float, **shown: object) -> None:
-        """Keep what is shown from this time (s since the epoch) on: the parts of SCENE, and `activity`."""
+    def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
+        """Record what is shown from `at` (s since the epoch) on."""
         if not self.running:
             return
-        scene = self._scene({name: shown[name] for name in SCENE})
-        activity: State = dict(shown["activity"] or {})  # type: ignore[call-overload]
+        sized = self._sized(scene)
         if self._moments:
             last = self._moments[-1]
-            if last.scene is scene and last.activity == activity:
+            if last.sized is sized and last.activity == activity:
                 return
             at = max(at, last.at)  # a clock may be set back
-        self._moments.append(_Moment(at, scene, activity, _size(activity)))
+        self._moments.append(_Moment(at, sized, activity, _size(activity)))
         while len(self._moments) > self._most or self._weight() > self._room:
             self._moments.popleft()
 
-    def state(self, until: float) -> State:
-        """Return what a page plays: {} where nothing changed before `until` (s since the epoch).
-
-        `began` is the time of the first moment (s since the epoch), `length` that of all (ms), `scenes` the
-        states that differ, `moments` a list of (ms since `began`, which scene, activity).
-        """
+    def state(self, until: float) -> HistoryState:
+        """Return what a page plays: {} if nothing changed before `until` (s since the epoch)."""
         if len(self._moments) < 2:
             return {}
         began, scenes = self._moments[0].at, self._scenes()
         return {
             "began": round(began, 1),
             "length": _milliseconds(max(until, self._moments[-1].at) - began),
-            "scenes": [each.shown for each in scenes],
+            "scenes": [each.scene for each in scenes],
             "moments": [
-                [_milliseconds(each.at - began), scenes.index(each.scene), each.activity]
+                (_milliseconds(each.at - began), scenes.index(each.sized), each.activity)
                 for each in self._moments
             ],
         }
 
-    def _scene(self, shown: State) -> _Scene:
-        same = (each.scene for each in reversed(self._moments) if each.scene.shown == shown)
-        return next(same, None) or _Scene(shown, _size(shown))
+    def _sized(self, scene: Scene) -> _Sized:
+        same = (each.sized for each in reversed(self._moments) if each.sized.scene == scene)
+        return next(same, None) or _Sized(scene, _size(scene))
 
-    def _scenes(self) -> list[_Scene]:
-        """Return each scene once, in the order in which they came."""
-        return list({id(each.scene): each.scene for each in self._moments}.values())
+    def _scenes(self) -> list[_Sized]:
+        """Return each scene once, in the order in which they were recorded."""
+        return list({id(each.sized): each.sized for each in self._moments}.values())
 
     def _weight(self) -> int:
         return sum(each.size for each in self._scenes()) + sum(each.size for each in self._moments)
 
 
-def _size(shown: State) -> int:
+def _size(shown: Scene | ActivityState) -> int:
     return len(json.dumps(shown))
 
 

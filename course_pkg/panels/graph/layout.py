@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypedDict
 
 from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
@@ -22,6 +22,21 @@ PER_INCH = 72.0
 WIDE, TALL = 1000.0, 1400.0  # px of a page
 
 Point = tuple[float, float]
+
+
+class _Object(TypedDict, total=False):
+    """A shape or a line (with `pos`) or a frame (with `bb`) in graphviz' JSON."""
+
+    name: str
+    id: str
+    pos: str
+    bb: str
+
+
+class _Drawn(TypedDict, total=False):
+    bb: str
+    objects: list[_Object]
+    edges: list[_Object]
 
 
 @dataclass(frozen=True)
@@ -109,7 +124,7 @@ def _drawn(picture: Picture, direction: str, timeout: float) -> Layout:
         raise DrawingFailed(f"graphviz failed ({detail}), so the graph is shown as a list.") from error
 
 
-def _parsed(drawn: dict[str, Any], picture: Picture) -> Layout:
+def _parsed(drawn: _Drawn, picture: Picture) -> Layout:
     """Return the layout from graphviz' JSON: points of 1/72 inch, which are our px, from the bottom left."""
     _, _, width, height = _numbers(drawn["bb"])
     shapes: list[Placed] = []

@@ -1,33 +1,119 @@
-"""What a graph panel knows, with no page and no ROS: snapshots come in, a drawing and its facts come out."""
+"""The state of a graph panel, without page or ROS: it turns snapshots into a drawing and facts."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, TypedDict
 
-from course_pkg.errors import DrawingFailed
-from course_pkg.panels.graph.doings import Doings
+from course_pkg.errors import DrawingFailed, InterfaceError
+from course_pkg.panels.graph.activity import ActivityState, GraphActivity
 from course_pkg.panels.graph.drawing import svg
-from course_pkg.panels.graph.facts import Describe, facts, fields_of
-from course_pkg.panels.graph.folding import folded, namespaces
 from course_pkg.panels.graph.layout import Layout, laid_out
-from course_pkg.panels.graph.picture import Kind, Picture, graph_text, picture
+from course_pkg.panels.graph.picture import (
+    Kind,
+    Picture,
+    Shape,
+    folded,
+    graph_text,
+    namespaces,
+    picture,
+    space,
+)
+from course_pkg.types import Field, message_type, service_type
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Activity, Snapshot
+    from course_pkg.ros import Activity, Snapshot
 
-State = dict[str, Any]
-REFUSED = "refused"  # of a node whose process has ended, and that is still registered
+REFUSED = "refused"  # the reach of a node that is still registered, though its process has ended
+SHOWN = 12  # fields of a type
+
+Pair = tuple[str, str]  # a label and its text
+Describe = Callable[[Kind, str], list[Pair]]
+
+
+class Fact(TypedDict):
+    """What is known of a shape: a click shows it, and the list below the drawing has it, too."""
+
+    key: str
+    kind: str
+    name: str
+    lost: bool
+    facts: list[Pair]
+
+
+class Space(TypedDict):
+    """A namespace that is shown, as a frame or folded into a box."""
+
+    name: str
+    folded: bool
+
+
+class Scene(TypedDict):
+    """The part of what is shown that is large and rarely changes."""
+
+    drawing: str
+    facts: list[Fact]
+    spaces: list[Space]
+    trouble: str
+
+
+def facts(picture: Picture, describe: Describe) -> list[Fact]:
+    """Return what is known of each shape of an unfolded picture, and of each namespace."""
+    spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
+    known: dict[Pair, list[Pair]] = {}
+    return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]
+
+
+def fields_of(kind: Kind, name: str) -> list[Pair]:
+    """Return the fields of a topic's or service's type as pairs of label and text."""
+    try:
+        if kind is Kind.TOPIC:
+            return [("fields", _field_list(message_type(name).fields))]
+        service = service_type(name)
+    except InterfaceError as error:
+        return [("fields", str(error).splitlines()[0])]
+    return [
+        ("request", _field_list(service.request.fields)),
+        ("response", _field_list(service.response.fields)),
+    ]
+
+
+def _fields(shape: Shape, describe: Describe, known: dict[Pair, list[Pair]]) -> list[Pair]:
+    name = dict(shape.facts).get("type", "")
+    if "/" not in name:
+        return []  # the type is unknown
+    what = (shape.kind.value, name)
+    if what not in known:
+        known[what] = describe(shape.kind, name)
+    return known[what]
+
+
+def _field_list(fields: Iterable[Field]) -> str:
+    named = [f"{each.type} {each.name}" for each in fields]
+    more = [f"and {len(named) - SHOWN} more"] if len(named) > SHOWN else []
+    return ", ".join(named[:SHOWN] + more) or "none"
+
+
+def _entry(shape: Shape, fields: list[Pair]) -> Fact:
+    kept = list(shape.facts)
+    # The fields follow directly after the type.
+    at = next((number for number, (label, _) in enumerate(kept, start=1) if label == "type"), 0)
+    return {
+        "key": shape.key,
+        "kind": shape.kind.value,
+        "name": shape.name,
+        "lost": not shape.reachable,
+        "facts": [*kept[:at], *fields, *kept[at:]],
+    }
 
 
 class GraphModel:
-    """Turns snapshots into a drawing, anew only when what is shown differs.
+    """Turns snapshots into a drawing, and draws again only if what is shown differs.
 
-    `changed` hears by keyword of `drawing` (SVG, "" when graphviz cannot draw), `facts` (one entry for
-    each shape and namespace), `spaces` (which namespaces there are, and whether they are folded), `activity`
-    (see Doings.told), and `trouble` (a sentence, "" when all is well). `own` is the kernel's node, which can
-    be hidden.
+    `changed` gets by keyword `drawing` (SVG, "" if graphviz cannot draw), `facts` (one for each shape and
+    namespace), `spaces` (the shown namespaces), `activity` (see ActivityState), and `trouble` (a sentence, ""
+    for none). `own` is the kernel's node, which can be hidden.
     """
 
     def __init__(
@@ -52,26 +138,28 @@ class GraphModel:
         self._whole = Picture()
         self._shown: Picture | None = None
         self._layout = Layout()
-        self._doings = Doings()
-        self._activity: State = {}
+        self._counts = GraphActivity()
+        self.scene: Scene = {"drawing": "", "facts": [], "spaces": [], "trouble": ""}
+        self.activity: ActivityState = {}
 
     def see(self, snapshot: Snapshot) -> None:
         """Take in how the graph looks now."""
         self.snapshot = snapshot
         self._draw()
 
-    def hear(self, activity: Activity) -> None:
+    def count(self, activity: Activity) -> None:
         """Take in what the nodes have counted until now; this never changes the drawing."""
         with self._turn:
-            self._doings.read(activity)
-            if self._shown is not None and (told := self._told()) != self._activity:
-                self._activity = told
-                self._changed(activity=told)
+            self._counts.read(activity)
+            if self._shown is not None and (state := self._activity_now()) != self.activity:
+                self.activity = state
+                self._changed(activity=state)
 
     def lose(self, reason: str) -> None:
-        """Keep the last picture, and say why it is old: the graph cannot be seen."""
+        """Keep the last picture, and show why it is old: the graph cannot be read."""
         with self._turn:
             self._shown = None
+            self.scene = {**self.scene, "trouble": reason}
             self._changed(trouble=reason)
 
     def choose(self, *, noise: bool, show_own: bool) -> None:
@@ -89,13 +177,14 @@ class GraphModel:
         """Return the drawing as a file of its own, with its style and the latest rates."""
         title = f"The ROS graph: {_counts(self._shown or Picture())}"
         words = graph_text(self.snapshot, noise=self.noise) if self.snapshot else ""
-        notes = self._activity.get("notes", {})
+        notes = self.activity.get("notes", {})
         return svg(self._layout, title=title, description=words, notes=notes, still=True)
 
     def _draw(self) -> None:
-        """Draw what is shown, if it is another than before.
+        """Draw what is shown, if it differs from before.
 
-        Graphviz is not waited for in a turn of its own: the page would wait, too. So it may be overtaken.
+        The lock is not held while graphviz runs, because the page would wait, too. If another drawing was
+        begun meanwhile, this one is dropped.
         """
         with self._turn:
             if self.snapshot is None:
@@ -112,33 +201,28 @@ class GraphModel:
             drawing = svg(layout, description=words) if shown.shapes else ""
         except DrawingFailed as error:
             trouble = str(error)
-        said = facts(whole, self._describe)
+        known = facts(whole, self._describe)
         with self._turn:
             if self._shown is not shown:
                 return
-            self._layout, self._activity = layout, self._told()
-            self._changed(
-                drawing=drawing,
-                facts=said,
-                spaces=_spaces(shown),
-                activity=self._activity,
-                trouble=trouble,
-            )
+            self._layout, self.activity = layout, self._activity_now()
+            self.scene = {"drawing": drawing, "facts": known, "spaces": _spaces(shown), "trouble": trouble}
+            self._changed(activity=self.activity, **self.scene)
 
-    def _told(self) -> State:
+    def _activity_now(self) -> ActivityState:
         assert self.snapshot is not None
         alive = {node.name for node in self.snapshot.nodes if node.reach != REFUSED}
-        return self._doings.told(self._whole, alive, self._box)
+        return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the shape in which one is drawn: its own, or that of a folded namespace."""
+        """Return the key of the shape in which `key` is drawn: its own, or that of a folded namespace."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)
 
 
-def _spaces(shown: Picture) -> list[State]:
-    """Return the namespaces that are to be seen, as a frame or as a box."""
+def _spaces(shown: Picture) -> list[Space]:
+    """Return the namespaces that are shown, as a frame or as a box."""
     frames = {each.name for each in shown.frames}
     boxes = {each.name for each in shown.shapes if each.kind is Kind.SPACE}
     return [{"name": name, "folded": name in boxes} for name in sorted(frames | boxes)]

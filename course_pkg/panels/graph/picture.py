@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Snapshot
+    from course_pkg.ros import Snapshot
 
-
+CROWD = 30  # shapes; with more than that, namespaces are folded at first
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Kind(str, Enum):
-    """What a shape stands for."""
+    """The kind of a shape."""
 
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
     SPACE = "namespace"  # folded into one box
+
+
+PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
 
 
 @dataclass(frozen=True)
@@ -36,13 +39,13 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """What tells it from all others: a topic and a service may have one name."""
+        """Kind and name: a topic and a service may have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
 @dataclass(frozen=True)
 class Line:
-    """A way that data goes between two shapes, by their keys; a service's goes both ways."""
+    """A connection between two shapes, by their keys; through a service, data goes both ways."""
 
     tail: str
     head: str
@@ -109,46 +112,46 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
         Shape(Kind.NODE, key.split(" ", 1)[1], reachable=False) for key in sorted(_ends(lines) - known)
     ]
     return Picture(
-        tuple(sorted((_with_deeds(each, lines) for each in shapes), key=lambda each: each.key)),
+        tuple(sorted((_with_roles(each, lines) for each in shapes), key=lambda each: each.key)),
         tuple(sorted(lines, key=lambda each: (each.tail, each.head))),
     )
 
 
-def _with_deeds(shape: Shape, lines: Iterable[Line]) -> Shape:
+def _with_roles(shape: Shape, lines: Iterable[Line]) -> Shape:
     """Return a node with what it publishes, subscribes and serves among its facts; others as they are."""
     if shape.kind is not Kind.NODE:
         return shape
-    deeds = _deeds(shape.key, lines)
+    roles = _roles(shape.key, lines)
     facts = [
-        (verb, ", ".join(key.split(" ", 1)[1] for done, key in deeds if done == verb))
+        (verb, ", ".join(key.split(" ", 1)[1] for role, key in roles if role == verb))
         for verb in ("publishes", "subscribes", "serves")
-        if any(done == verb for done, _ in deeds)
+        if any(role == verb for role, _ in roles)
     ]
     return replace(shape, facts=(*facts, *shape.facts))
 
 
 def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
-    """Return the graph in words, the same for the same graph: who publishes, subscribes, serves what."""
+    """Return what each node publishes, subscribes and serves, as text that is the same for the same graph."""
     shown = picture(snapshot, noise=noise)
     types = {shape.key: dict(shape.facts).get("type", "") for shape in shown.shapes}
     paragraphs = []
     for node in (shape for shape in shown.shapes if shape.kind is Kind.NODE):
         said = [
             f"  {verb:<10} {key.split(' ', 1)[1]}  ({types[key]})"
-            for verb, key in _deeds(node.key, shown.lines)
+            for verb, key in _roles(node.key, shown.lines)
         ]
         paragraphs.append("\n".join([node.name, *(said or ["  on its own"])]))
     return "\n".join(paragraphs) or "no nodes"
 
 
-def _deeds(node: str, lines: Iterable[Line]) -> list[tuple[str, str]]:
-    deeds = []
+def _roles(node: str, lines: Iterable[Line]) -> list[tuple[str, str]]:
+    roles = []
     for line in lines:
         if line.tail == node:
-            deeds.append(("serves" if line.both else "publishes", line.head))
+            roles.append(("serves" if line.both else "publishes", line.head))
         elif line.head == node:
-            deeds.append(("subscribes", line.tail))
-    return sorted(deeds)
+            roles.append(("subscribes", line.tail))
+    return sorted(roles)
 
 
 def _topic_facts(kind: str, publishers: list[str], subscribers: list[str]) -> tuple[tuple[str, str], ...]:
@@ -165,3 +168,77 @@ def _node(name: str) -> str:
 
 def _ends(lines: Iterable[Line]) -> set[str]:
     return {end for line in lines for end in (line.tail, line.head)}
+
+
+def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
+    """Return the picture with namespaces folded, and frames around the others.
+
+    `choices` says whether the reader wants a namespace folded. Without a choice it is folded if the picture
+    has more than `CROWD` shapes, unless it holds more than half of them.
+    """
+    spaces = namespaces(picture)
+    crowded = len(picture.shapes) > CROWD
+    closed = {
+        name
+        for name, members in spaces.items()
+        if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
+    }
+    # The shortest name comes last, and wins: a shape in two folded namespaces is in the box of the outer one.
+    box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
+
+    def shown(key: str) -> str:
+        return f"{Kind.SPACE.value} {box[key]}" if key in box else key
+
+    boxes = {name: space(name, picture, spaces[name]) for name in set(box.values())}
+    shapes = [each for each in picture.shapes if each.key not in box] + list(boxes.values())
+    frames = [Frame(name, members) for name, members in _open(spaces, closed, shown)]
+    return Picture(tuple(sorted(shapes, key=lambda each: each.key)), _lines(picture, shown), tuple(frames))
+
+
+def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
+    """Return the keys of the shapes in each namespace that holds two or more, such as "/turtle1/".
+
+    If several hold the same shapes, only the innermost counts.
+    """
+    found: dict[str, set[str]] = {}
+    for shape in picture.shapes:
+        parts = shape.name.strip("/").split("/")[:-1]
+        for depth in range(len(parts)):
+            found.setdefault(f"/{'/'.join(parts[: depth + 1])}/", set()).add(shape.key)
+    inner: dict[frozenset[str], str] = {}
+    for name in sorted(found, key=len):
+        if len(found[name]) > 1:
+            inner[frozenset(found[name])] = name
+    return {name: members for members, name in sorted(inner.items(), key=lambda each: each[1])}
+
+
+def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
+    """Return a namespace as one box; its facts say what is in it."""
+    inside = [each for each in picture.shapes if each.key in members]
+    kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
+    facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
+    # The details of a namespace name its topics with their rates (see activity.py).
+    facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
+    if lost := [each.name for each in inside if not each.reachable]:
+        facts.append(("does not answer", ", ".join(lost)))
+    return Shape(Kind.SPACE, name, tuple(facts), not lost)
+
+
+def _count(kind: Kind, count: int) -> str:
+    return f"{count} {kind.value if count == 1 else PLURALS[kind]}"
+
+
+def _open(
+    spaces: Mapping[str, frozenset[str]], closed: set[str], shown: Callable[[str], str]
+) -> Iterator[tuple[str, frozenset[str]]]:
+    """Yield the namespaces to be framed, with the shapes in each as they are shown."""
+    for name, members in spaces.items():
+        if name not in closed and not any(name.startswith(outer) for outer in closed):
+            yield name, frozenset(map(shown, members))
+
+
+def _lines(picture: Picture, shown: Callable[[str], str]) -> tuple[Line, ...]:
+    """Return the lines between the shown shapes, each once, without those inside one box."""
+    moved = {Line(shown(each.tail), shown(each.head), each.both) for each in picture.lines}
+    kept = (each for each in moved if each.tail != each.head)
+    return tuple(sorted(kept, key=lambda each: (each.tail, each.head, each.both)))

@@ -1,17 +1,71 @@
-"""Commit to an answer, compare it with what happened: no page, no kernel."""
+"""A prediction before the run, and its comparison with what happened: no page, no kernel."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
-from datetime import datetime, timezone
+from dataclasses import dataclass, replace
 
-from course_pkg.panels.prediction.store import PredictionStore, Record
-from course_pkg.panels.store import Row
+from course_pkg.panels.store import Store
+from course_pkg.state import now
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """A prediction with the student's answer and, after the comparison, the result.
+
+    Times are ISO 8601 in UTC, "" for not yet. `answer` is the latest answer. `first` is the answer at the
+    time of the comparison, so that a later change can be seen.
+    """
+
+    key: str
+    question: str
+    answer: str = ""
+    answered: str = ""
+    actual: str = ""
+    compared: str = ""
+    first: str = ""
+
+    @property
+    def changed_after(self) -> bool:
+        """Whether the answer was given or changed after the result was known."""
+        return bool(self.compared and self.answer != self.first)
+
+    @property
+    def right(self) -> bool:
+        """Whether the prediction came true: equal strings, or equal numbers."""
+        predicted, actual = self.first.strip().casefold(), self.actual.strip().casefold()
+        try:
+            return float(predicted) == float(actual)
+        except ValueError:
+            return predicted == actual
+
+    @property
+    def verdict(self) -> str:
+        """The comparison in one sentence."""
+        if not self.compared:
+            return "Not compared yet." if self.answer else "No prediction yet."
+        if not self.first:
+            late = f" Your answer {self.answer!r} came after the result." if self.answer else ""
+            return f"You had made no prediction.{late}"
+        changed = f" You changed it to {self.answer!r} after the result." if self.changed_after else ""
+        result = "and so it was" if self.right else "and it was otherwise: find out why before you go on"
+        return f"You predicted {self.first!r}, {result}.{changed}"
+
+
+class PredictionStore(Store[Prediction]):
+    """The predictions in one file, by key.
+
+    `predictions.json` is the first edition's file. In it, the keys begin with the chapters' first numbers, so
+    it is neither read nor changed: `08.…` was a prediction of another chapter.
+    """
+
+    record = Prediction
+    file = "predictions-2.json"
+    what = "predictions"
 
 
 class PredictionModel:
-    """One question and the record of its answer."""
+    """A prediction and the record of its answer."""
 
     def __init__(self, key: str, question: str, choices: Iterable[str], store: PredictionStore) -> None:
         self.key = key
@@ -20,57 +74,23 @@ class PredictionModel:
         self._store = store
 
     @property
-    def record(self) -> Record:
-        """What is kept now; a fresh record when nothing is."""
-        return self._store.read().get(self.key, Record(self.key, self.question))
+    def record(self) -> Prediction:
+        """The stored record; a fresh one if there is none."""
+        return self._store.read().get(self.key, Prediction(self.key, self.question))
 
-    def answer(self, answer: str) -> Record:
-        """Keep an answer; an empty one takes it back."""
+    def answer(self, answer: str) -> Prediction:
+        """Store an answer; an empty one takes it back."""
         answer = answer.strip()
-        return self._keep(
-            replace(self.record, question=self.question, answer=answer, answered=_now() if answer else "")
+        answered = now() if answer else ""
+        return self._store.write(
+            replace(self.record, question=self.question, answer=answer, answered=answered)
         )
 
-    def compare(self, actual: object) -> Record:
-        """Keep what really happened; the answer that stands now is the prediction for good."""
+    def compare(self, actual: object) -> Prediction:
+        """Store what really happened; the present answer is the prediction, and stays it."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record
-        return self._keep(
-            replace(record, question=self.question, actual=str(actual), compared=_now(), first=record.answer)
+        return self._store.write(
+            replace(record, question=self.question, actual=str(actual), compared=now(), first=record.answer)
         )
-
-    def _keep(self, record: Record) -> Record:
-        self._store.write(record)
-        return record
-
-
-def right(record: Record) -> bool:
-    """Whether the prediction came true: equal texts, or equal numbers."""
-    predicted, actual = record.first.strip().casefold(), record.actual.strip().casefold()
-    try:
-        return float(predicted) == float(actual)
-    except ValueError:
-        return predicted == actual
-
-
-def verdict(record: Record) -> str:
-    """Return the comparison in one sentence."""
-    if not record.compared:
-        return "Not compared yet." if record.answer else "No prediction yet."
-    if not record.first:
-        late = f" Your answer {record.answer!r} came after the result." if record.answer else ""
-        return f"You had made no prediction.{late}"
-    changed = f" You changed it to {record.answer!r} after the result." if record.changed_after else ""
-    said = "and so it was" if right(record) else "and it was otherwise: find out why before you go on"
-    return f"You predicted {record.first!r}, {said}.{changed}"
-
-
-def summary(records: Iterable[Row], chapter: str) -> list[Row]:
-    """Return the records of a chapter (`05` has `05.reply_none`), or all for "", by their keys."""
-    chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
-    return sorted(chosen, key=lambda each: each.key)
-
-
-def _now() -> str:
-    return datetime.now(timezone.utc).isoformat(timespec="seconds")

@@ -3,13 +3,15 @@ import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 
 /** @typedef {{question: string, predicted: string, actual: string, state: string, verdict: string, result?: string, fit?: number, cases?: number}} Shown */
 
+/** @typedef {{text: string, parts: {check: string, state: string, mark: string}[], next: string, problems: string[]}} Row */
+
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
   const ending = new AbortController();
   const part = model.get("part");
   if (part === "question") question(model, el, ending.signal);
   else if (part === "comparison") el.append(comparison(model.get("record")));
-  else el.append(table(model.get("records")));
+  else el.append(table(model.get("records"), model.get("row") ?? {}));
   return () => ending.abort();
 }
 
@@ -70,8 +72,8 @@ function side(label, text) {
   return h("p", {}, h("span", { class: "ros-muted", text: `${label} ` }), h("b", { text }));
 }
 
-/** @param {Shown[]} records */
-function table(records) {
+/** @param {Shown[]} records @param {Partial<Row>} row */
+function table(records, row) {
   const words = { open: "not compared yet", late: "no prediction", right: "as predicted", wrong: "otherwise" };
   const rows = records.map((shown) => h("tr", { class: `ros-${shown.state}` }, h("td", { text: shown.question }), h("td", { text: shown.predicted || "nothing" }),
     h("td", { text: shown.actual || "not yet seen" }), h("td", { class: "ros-result", text: shown.result || words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
@@ -84,7 +86,17 @@ function table(records) {
   const score = predicted + chosen || "No prediction has been compared yet. ";
   const text = records.length ? `${score}A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
   return h("section", { class: "ros-panel ros-predict", "aria-label": "Predictions" },
-    h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }));
+    h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }),
+    row.text ? progress(/** @type {Row} */ (row)) : "");
+}
+
+/** The student's progress in the chapter. @param {Row} row */
+function progress({ text, parts, next, problems }) {
+  const kinds = { "✓": "ros-right", "✗": "ros-wrong" };
+  const marks = parts.map(({ check, state, mark }) => h("li", { class: kinds[/** @type {keyof typeof kinds} */ (mark)] ?? "", title: `${check} ${state}` },
+    h("span", { "aria-hidden": "true", text: `${mark} ` }), check, h("span", { class: "ros-hidden", text: ` ${state}` })));
+  return h("section", { class: "ros-progress", "aria-label": "Progress in this chapter" }, h("p", {}, h("b", { text })),
+    h("ul", { class: "ros-marks" }, ...marks), h("p", { text: next }), ...problems.map((problem) => h("p", { class: "ros-problem", text: problem })));
 }
 
 export default { render };

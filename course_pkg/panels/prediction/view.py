@@ -1,35 +1,65 @@
 """Predictions as widgets.
 
-What they say in text/plain is the same for every student, so that notebooks can be compared; the
-personal part is in the widget alone.
+Their text/plain is the same for every student, so that notebooks can be compared. What the student answered
+is only in the widget.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar, TypedDict
 
 from traitlets import Bool, Dict, List, Unicode
 
-from course_pkg.panels.choices.model import standing
-from course_pkg.panels.choices.store import ChoiceRecord, ChoiceStore
-from course_pkg.panels.panel import Panel
-from course_pkg.panels.prediction.model import PredictionModel, right, summary, verdict
-from course_pkg.panels.prediction.store import PredictionStore, Record
+from course_pkg.panels.choices.model import ChoiceRecord, ChoiceStore
+from course_pkg.panels.panel import PageMessage, Panel
+from course_pkg.panels.prediction.model import Prediction, PredictionModel, PredictionStore
+from course_pkg.panels.store import of_chapter
 
 HERE = Path(__file__).parent
 
 
-class _Predict(Panel):
+class _Row(TypedDict):
+    question: str
+    predicted: str
+    actual: str
+    state: str
+    verdict: str
+
+
+class _ChoiceRow(_Row):
+    result: str
+    fit: int
+    cases: int
+
+
+class ChapterPart(TypedDict):
+    """A part of a chapter in the student's progress: its id, its state in words, and a mark for it."""
+
+    check: str
+    state: str
+    mark: str
+
+
+class ChapterRow(TypedDict):
+    """The student's progress in a chapter: the totals, the parts, what is next, and problems with records."""
+
+    text: str
+    parts: list[ChapterPart]
+    next: str
+    problems: list[str]
+
+
+class _PredictionPanel(Panel):
     front_end: ClassVar[Path] = HERE / "prediction.js"
     style_sheet: ClassVar[Path] = HERE / "prediction.css"
 
     part = Unicode(help="question, comparison or summary").tag(sync=True)
 
 
-class Prediction(_Predict):
-    """A question to answer before the run: one of `choices`, or free text when there are none."""
+class Question(_PredictionPanel):
+    """A prediction to enter before the run: one of `choices`, or free text if there are none."""
 
     question = Unicode().tag(sync=True)
     choices = List(Unicode()).tag(sync=True)
@@ -51,13 +81,13 @@ class Prediction(_Predict):
         )
 
     def compare(self, actual: object) -> Comparison:
-        """Set what was predicted beside what really happened, and keep both."""
+        """Store what really happened, and show it beside the prediction."""
         record = self._model.compare(actual)
         self.publish(compared=True)
         return Comparison(record)
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
-        """Keep an answer."""
+    def received(self, kind: str, content: PageMessage) -> None:
+        """Store an answer."""
         if kind == "answer":
             record = self._model.answer(str(content["answer"]))
             self.publish(answer=record.answer)
@@ -66,77 +96,75 @@ class Prediction(_Predict):
         return f"predict({self._model.key!r})"
 
 
-class Comparison(_Predict):
+class Comparison(_PredictionPanel):
     """What was predicted and what happened."""
 
     record = Dict().tag(sync=True)
 
-    def __init__(self, record: Record) -> None:
+    def __init__(self, record: Prediction) -> None:
         super().__init__()
         self._actual = record.actual
-        self.publish(part="comparison", record=_shown(record))
+        self.publish(part="comparison", record=_row(record))
 
     def __repr__(self) -> str:
         return f"What really happened: {self._actual}"
 
 
-class Predictions(_Predict):
-    """The predictions and choices of a chapter in a table."""
+class Predictions(_PredictionPanel):
+    """The predictions and choices of a chapter in a table, and `row`, the progress in the chapter."""
 
     chapter = Unicode().tag(sync=True)
-    records: List[Any] = List().tag(sync=True)
+    records = List(Dict()).tag(sync=True)
+    row = Dict(help="the progress in the chapter, if there is one").tag(sync=True)
 
     def __init__(
-        self, chapter: str = "", *, store: PredictionStore | None = None, choices: ChoiceStore | None = None
+        self,
+        chapter: str = "",
+        *,
+        store: PredictionStore | None = None,
+        choices: ChoiceStore | None = None,
+        row: ChapterRow | None = None,
     ) -> None:
         super().__init__()
-        predicted = summary((store or PredictionStore()).read().values(), chapter)
-        decided = summary((choices or ChoiceStore()).read().values(), chapter)
-        records = [*map(_shown, predicted), *map(_decided, decided)]
-        self.publish(part="summary", chapter=chapter, records=records)
+        predicted = of_chapter((store or PredictionStore()).read().values(), chapter)
+        chosen = of_chapter((choices or ChoiceStore()).read().values(), chapter)
+        records = [*map(_row, predicted), *map(_choice_row, chosen)]
+        self.publish(part="summary", chapter=chapter, records=records, row=dict(row or {}))
 
     def __repr__(self) -> str:
         return f"predictions({self.chapter!r})" if self.chapter else "predictions()"
 
 
-def predict(key: str, question: str, choices: Sequence[str] = ()) -> Prediction:
-    """Ask for an answer before the run; `key` is `chapter.name`. Without choices it is free text."""
-    return Prediction(key, question, choices)
+def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
+    """Ask for an answer before the run; `key` is `chapter.name`. Without choices the answer is free text."""
+    return Question(key, question, choices)
 
 
-def predictions(chapter: str = "") -> Predictions:
-    """Return the table of what was predicted and what happened, for one chapter or for all."""
-    return Predictions(chapter)
-
-
-def _shown(record: Record) -> dict[str, Any]:
-    state = (
-        "open"
-        if not record.compared
-        else "late"
-        if not record.first
-        else "right"
-        if right(record)
-        else "wrong"
-    )
+def _row(record: Prediction) -> _Row:
+    if not record.compared:
+        state = "open"
+    elif not record.first:
+        state = "late"
+    else:
+        state = "right" if record.right else "wrong"
     return {
         "question": record.question,
         "predicted": record.first if record.compared else record.answer,
         "actual": record.actual,
         "state": state,
-        "verdict": verdict(record),
+        "verdict": record.verdict,
     }
 
 
-def _decided(record: ChoiceRecord) -> dict[str, Any]:
-    seen = bool(record.compared)
+def _choice_row(record: ChoiceRecord) -> _ChoiceRow:
+    compared, of = bool(record.compared), len(record.first)
     return {
         "question": record.question,
-        "predicted": f"{len(record.first if seen else record.chosen)} of {record.cases} cases decided",
-        "actual": f"{record.fit} fit" if seen else "",
-        "state": "decided" if seen else "open",
-        "result": f"{record.fit} of {len(record.first)} fit" if seen else "",
+        "predicted": f"{of if compared else len(record.chosen)} of {record.cases} cases decided",
+        "actual": f"{record.fit} fit" if compared else "",
+        "state": "decided" if compared else "open",
+        "result": f"{record.fit} of {of} fit" if compared else "",
         "fit": record.fit,
-        "cases": len(record.first),
-        "verdict": standing(record),
+        "cases": of,
+        "verdict": record.standing,
     }

@@ -1,42 +1,50 @@
-"""What a service panel knows, with no page, no kernel and no ROS: who offers and who calls is injected."""
+"""The state of a service panel, without page, kernel or ROS: its caller finds and calls the services."""
 
 from __future__ import annotations
 
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol, TypedDict
 
-from course_pkg.errors import CallCancelled, CallUnderWay, CourseError, FieldError, NothingPicked
-from course_pkg.graph.explanations import known
-from course_pkg.interfaces import ServiceType, service_type
-from course_pkg.panels.forms.form import State, correction
-from course_pkg.panels.forms.rows import rows, summary
-from course_pkg.panels.forms.texts import Texts, compact
-from course_pkg.panels.service.form import DEADLINE, RequestForm, seconds
+from course_pkg.errors import CallCancelled, CallInProgress, CourseError, FieldError, NoServiceSelected
+from course_pkg.panels.forms.form import Check, Draft, Values, correction
+from course_pkg.panels.service.request import (
+    DEADLINE,
+    Call,
+    Entry,
+    FormState,
+    Outcome,
+    RequestForm,
+    seconds,
+)
+from course_pkg.types import ServiceType, service_type
 
-HISTORY = 20
-TOOLS = ("/get_loggers", "/set_logger_level")
+if TYPE_CHECKING:
+    import genpy
+
+HISTORY = 20  # calls
+LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Caller(Protocol):
     """Calls one service; `cancel` ends a call under way on another thread."""
 
-    def call(self, request: Any, /, *, timeout: float) -> Any:  # noqa: ANN401 - generated message classes
+    def call(self, request: genpy.Message, /, *, timeout: float) -> genpy.Message:
         """Send a request message and return the response message, within `timeout` s."""
 
     def cancel(self) -> None:
         """Make the call under way raise CallCancelled."""
 
     def close(self) -> None:
-        """Let go of what a call needs."""
+        """Close the connection to the service."""
 
 
 @dataclass(frozen=True)
 class Offer:
-    """A service on the graph: its name, its type by name ("" if nobody could say), who serves it."""
+    """A service on the graph: its name, its type by name ("" if it is unknown), and its node."""
 
     name: str
     type: str
@@ -45,14 +53,22 @@ class Offer:
     @property
     def tool(self) -> bool:
         """Whether it is one of the two services that every node brings for its logger."""
-        return self.name.endswith(TOOLS)
+        return self.name.endswith(LOGGER_SERVICES)
+
+
+class _Fresh(TypedDict):
+    """The state of a form that has just been made."""
+
+    form: FormState
+    draft: Draft
+    check: Check
 
 
 class ServiceModel:
-    """Picks a service, checks what is typed, calls, remembers.
+    """Picks a service, checks what is typed, calls, and keeps a history.
 
-    `changed` hears of every change, once for each phase, by keyword: `services`, `form`, `draft`, `check`,
-    `outcome`, `history`. `turn` is held while the state changes, never while a call is under way.
+    `changed` gets every change, once for each phase, by keyword: `services`, `form`, `draft`, `check`,
+    `outcome`, `history`. `turn` is held while the state changes, never during a call.
     """
 
     def __init__(
@@ -66,27 +82,30 @@ class ServiceModel:
         self.offers: tuple[Offer, ...] = ()
         self.service = ""
         self.form: RequestForm | None = None
-        self.draft: Texts = {}
-        self.response: Any = None
-        self.history: deque[State] = deque(maxlen=HISTORY)
+        self.draft: Draft = {}
+        self.response: genpy.Message | None = None
+        self.history: deque[Entry] = deque(maxlen=HISTORY)
         self._connect = connect
         self._changed = changed
         self._find_type = find_type
         self._turn = turn or threading.RLock()
         self._caller: Caller | None = None
-        self._under_way: _Call | None = None
+        self._under_way: Call | None = None
         self._refusals = 0
         self._calls = 0
         self._problem = ""
 
     def offer(self, offers: Iterable[Offer]) -> None:
-        """Take in the services that are on the graph now; what is picked stays picked when it has gone."""
+        """Take in the services that are on the graph now; the picked one stays picked even if it has gone."""
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
-            parts: State = {"services": [{**asdict(each), "tool": each.tool} for each in self.offers]}
-            if self.service:
-                parts |= self._followed()
-            self._changed(**parts)
+            services = [{**asdict(each), "tool": each.tool} for each in self.offers]
+            if not self.service:
+                self._changed(services=services)
+            elif self._type_changed():
+                self._changed(services=services, **self._fresh())
+            else:
+                self._changed(services=services, form=self._described())
 
     def pick(self, name: str) -> None:
         """Turn to a service by name; it need not be on the graph yet."""
@@ -97,15 +116,15 @@ class ServiceModel:
                 self.response = None
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
-    def edit(self, draft: Texts) -> None:
-        """Take in what is typed now and say what it amounts to."""
+    def edit(self, draft: Draft) -> None:
+        """Take in what is typed now; report its errors or the commands that do the same."""
         with self._turn:
             if self.form:
                 self.draft = draft
                 self._changed(check=self.form.checked(draft))
 
-    def fill(self, values: Mapping[str, Any]) -> None:
-        """Write plain values into the form; fields that are not named keep what they have.
+    def fill(self, values: Values) -> None:
+        """Write plain values into the form; the other fields stay as they are.
 
         Raises FieldError when a value does not fit, and leaves the form as it was.
         """
@@ -114,8 +133,8 @@ class ServiceModel:
             self.draft = form.filled(self.draft, values)
             self._changed(draft=self.draft, check=form.checked(self.draft))
 
-    def start(self, draft: Texts, deadline: str) -> None:
-        """Call on a thread of its own, unless a call is under way or the form is not right."""
+    def start(self, draft: Draft, deadline: str) -> None:
+        """Call on a new thread, unless a call is running or the form has an error."""
         with self._turn:
             if self._under_way or not self.form:
                 return
@@ -127,12 +146,12 @@ class ServiceModel:
                 return
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
-    def call(self, deadline: str) -> State:
-        """Call on this thread with what stands in the form. Raises what the call raises."""
+    def call(self, deadline: str) -> Outcome:
+        """Call on this thread with the request in the form. Raises what the call raises."""
         with self._turn:
             form = self._need_form()
             if self._under_way:
-                raise CallUnderWay(
+                raise CallInProgress(
                     f"{self.service} is being called already: wait for the answer, or cancel that call."
                 )
             call = self._begin(form, deadline)
@@ -141,9 +160,9 @@ class ServiceModel:
             raise call.error
         return outcome
 
-    def record(self, inputs: Iterable[Mapping[str, Any]], deadline: str) -> list[State]:
-        """Call once for each of the inputs and return what came back, for a page with no kernel."""
-        kept: list[State] = []
+    def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
+        """Call once for each of the inputs and return the outcomes, for a page without a kernel."""
+        kept: list[Entry] = []
         for values in inputs:
             with self._turn:
                 form = self._need_form()
@@ -155,26 +174,24 @@ class ServiceModel:
         return kept
 
     def cancel(self) -> None:
-        """End the call under way, if there is one."""
+        """End the running call, if there is one."""
         if self._under_way and self._caller:
             self._caller.cancel()
 
     def close(self) -> None:
-        """End what is under way and let go of the service."""
+        """End the running call and close the connection."""
         self.cancel()
         self._let_go()
 
     def _found(self) -> Offer | None:
         return next((each for each in self.offers if each.name == self.service), None)
 
-    def _followed(self) -> State:
-        """Return the form after a look at the graph: a new one only when the type is another."""
+    def _type_changed(self) -> bool:
+        """Return whether the service has another type than the form."""
         found = self._found()
-        if found and found.type and (self.form is None or self.form.type.name != found.type):
-            return self._fresh()
-        return {"form": self._described()}
+        return bool(found and found.type and (self.form is None or self.form.type.name != found.type))
 
-    def _fresh(self) -> State:
+    def _fresh(self) -> _Fresh:
         found = self._found()
         self._problem = ""
         before = self.form.type.name if self.form else ""
@@ -190,10 +207,10 @@ class ServiceModel:
             except CourseError as error:
                 self._problem = str(error)
         self.draft = self.form.blank if self.form else {}
-        check = self.form.checked(self.draft) if self.form else {"errors": {}}
+        check: Check = self.form.checked(self.draft) if self.form else {"errors": {}}
         return {"form": self._described(), "draft": self.draft, "check": check}
 
-    def _described(self) -> State:
+    def _described(self) -> FormState:
         found = self._found()
         problem = self._problem
         if not found:
@@ -202,16 +219,17 @@ class ServiceModel:
             )
         elif not found.type:
             problem = "Its node does not answer, so nobody can say of which type it is."
-        state = {"service": self.service, "node": found.node if found else "", "problem": problem}
-        return state | (self.form.described() if self.form else {})
+        node = found.node if found else ""
+        state: FormState = {"service": self.service, "node": node, "problem": problem}
+        return {**state, **self.form.described()} if self.form else state
 
     def _need_form(self) -> RequestForm:
         if not self.service:
-            raise NothingPicked(
+            raise NoServiceSelected(
                 "No service is picked. Pick one in the panel or name it: ServicePanel('/getGeometry')."
             )
         if not self.form:
-            raise NothingPicked(
+            raise NoServiceSelected(
                 f"{self.service}: {self._described()['problem'] or 'its type is not known here.'}"
             )
         return self.form
@@ -223,25 +241,25 @@ class ServiceModel:
         self._refusals += 1
         self._changed(check={"errors": errors, "refused": self._refusals})
 
-    def _begin(self, form: RequestForm, deadline: str) -> _Call:
-        limit = seconds(deadline)
+    def _begin(self, form: RequestForm, deadline: str) -> Call:
+        timeout = seconds(deadline)
         values = form.values(self.draft)
         self._calls += 1
-        call = self._under_way = _Call(self._calls, form, self.draft, values, limit)
+        call = self._under_way = Call(self._calls, form, self.draft, values, timeout)
         self._caller = self._caller or self._connect(self.service, form.type)
         self._changed(outcome={"phase": "running", "number": call.number})
         return call
 
-    def _finish(self, call: _Call) -> State:
+    def _finish(self, call: Call) -> Outcome:
         caller = self._caller
         began = time.perf_counter()
         try:
-            if caller:
-                call.response = caller.call(
-                    call.form.type.request.to_message(call.values), timeout=call.limit
-                )
-            outcome = call.answered(1000 * (time.perf_counter() - began))
-        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - it is what the panel shows
+            request = call.form.type.request.to_message(call.values)
+            if caller is None:
+                raise CallCancelled(f"The panel does not show {call.form.service} any more.")
+            response = caller.call(request, timeout=call.timeout)
+            outcome = call.answered(response, 1000 * (time.perf_counter() - began))
+        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - the panel shows it
             outcome = call.failed(error, 1000 * (time.perf_counter() - began))
         with self._turn:
             if self._under_way is call:
@@ -256,47 +274,3 @@ class ServiceModel:
         if self._caller:
             self._caller.close()
         self._caller = None
-
-
-@dataclass
-class _Call:
-    """One call, from the request as typed to what came of it."""
-
-    number: int
-    form: RequestForm
-    draft: Texts
-    values: dict[str, Any]
-    limit: float
-    response: Any = None
-    error: BaseException | None = None
-
-    def answered(self, milliseconds: float) -> State:
-        """Return the outcome for the page, with the response as lines of text."""
-        answer = self.form.type.response
-        lines = rows(answer.fields, compact(answer.fields, answer.format(answer.to_values(self.response))))
-        return self._outcome("done", milliseconds) | {"rows": lines}
-
-    def failed(self, error: BaseException, milliseconds: float) -> State:
-        """Return the outcome for the page: the error as it was worded, and what it means."""
-        self.error = error
-        name, words = type(error).__name__, str(error)
-        explanation = known(f"{name}: {words}")
-        said = {"name": name, "words": words} | (explanation.as_dict() if explanation else {})
-        phase = "cancelled" if isinstance(error, (CallCancelled, KeyboardInterrupt)) else "failed"
-        return self._outcome(phase, milliseconds) | {"error": said}
-
-    def _outcome(self, phase: str, milliseconds: float) -> State:
-        digits = 1 if milliseconds < 1000 else 0
-        at = time.strftime("%H:%M:%S")
-        return {"phase": phase, "number": self.number, "at": at, "ms": round(milliseconds, digits)}
-
-    def entry(self, outcome: State) -> State:
-        """Return the call as a line of the history: what was asked and what was said."""
-        answer = (
-            summary(outcome["rows"]) or "an empty response"
-            if self.error is None
-            else outcome["error"]["name"]
-        )
-        asked = summary(rows(self.form.type.request.fields, self.draft)) or "an empty request"
-        line = {key: outcome[key] for key in ("phase", "number", "at", "ms")}
-        return line | {"draft": self.draft, "asked": asked, "said": answer}

@@ -1,18 +1,23 @@
-"""The service panel as a widget: the model's state as traits, the page's clicks as calls to the model."""
+"""The service panel as a widget: the model's state as traits, the page's clicks as calls of the model."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from traitlets import Dict, List, Unicode
+from traitlets.utils.bunch import Bunch
 
-from course_pkg.graph import BoundedProxy, look
-from course_pkg.interfaces import ServiceType, service_type
-from course_pkg.panels.follower import Follower
-from course_pkg.panels.panel import Panel
+from course_pkg.panels.forms.form import Values
+from course_pkg.panels.panel import PageMessage, Panel
+from course_pkg.panels.poller import Poller
 from course_pkg.panels.service.model import Caller, Offer, ServiceModel
+from course_pkg.ros import BoundedProxy, look
+from course_pkg.types import Plain, ServiceType, service_type
+
+if TYPE_CHECKING:
+    import genpy
 
 HERE = Path(__file__).parent
 
@@ -22,65 +27,65 @@ class ServicePanel(Panel):
 
     `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. `kind` is
     for a type that was made in the notebook and is in no package. The panel follows the graph while a
-    page shows it. What goes wrong in a call from the page, the panel shows.
+    page shows it. It shows the error of a call that failed.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
     shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css",)
     style_sheet: ClassVar[Path] = HERE / "service.css"
 
-    services: List[Any] = List(help="what is on the graph").tag(sync=True)
-    trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
+    services = List(Dict(), help="the services on the graph").tag(sync=True)
+    trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
     form = Dict(help="the picked service and the fields of its type").tag(sync=True)
     draft = Dict(help="the request as typed: a tree of texts").tag(sync=True, echo_update=False)
     check = Dict(help="what is wrong with the draft, or the commands that equal it").tag(sync=True)
     deadline = Unicode(help="seconds, as typed").tag(sync=True, echo_update=False)
     outcome = Dict(help="the phase of the latest call and what came of it").tag(sync=True)
-    history: List[Any] = List(help="earlier calls, the latest first").tag(sync=True)
-    recording: List[Any] = List(help="requests with their outcomes, for a page with no kernel").tag(sync=True)
+    history = List(Dict(), help="earlier calls, the latest first").tag(sync=True)
+    recording = List(Dict(), help="requests with their outcomes, for a page without a kernel").tag(sync=True)
 
     def __init__(
         self, service: str | None = None, *, kind: ServiceType | None = None, deadline: float = 5.0
     ) -> None:
         super().__init__()
         self._model = ServiceModel(_connect, self.publish, find_type=_finder(kind), turn=self.turn)
-        self._follower = Follower(_look, self._saw, self._lost)
+        self._poller = Poller(_look, self._seen, self._failed)
         with self.turn, self.hold_sync():
             self.deadline = f"{deadline:g}"
             self.outcome = {"phase": "idle"}
-            self._follower.once()
+            self._poller.once()
             if service:
                 self._model.pick(service if service.startswith(("/", "~")) else f"/{service}")
         self.observe(self._edited, "draft")
 
     @property
-    def response(self) -> Any:  # noqa: ANN401 - a generated message class
+    def response(self) -> genpy.Message | None:
         """The response message of the latest call, or None."""
         return self._model.response
 
-    def fill(self, **values: object) -> None:
-        """Write plain values into the form, by field. Raises FieldError when one does not fit."""
+    def fill(self, **values: Plain) -> None:
+        """Write plain values into the form, by field. Raises FieldError if one does not fit."""
         self._model.fill(values)
 
-    def call(self, **values: object) -> Any:  # noqa: ANN401 - a generated message class
+    def call(self, **values: Plain) -> genpy.Message | None:
         """Fill the form, call in this cell and return the response message; raises what the call raises."""
         self._model.fill(values)
         self._model.call(self.deadline)
         return self.response
 
-    def record(self, inputs: Iterable[Mapping[str, Any]]) -> None:
-        """Call once for each of the inputs and keep the outcomes for a page with no kernel."""
+    def record(self, inputs: Iterable[Values]) -> None:
+        """Call once for each of the inputs and keep the outcomes for a page without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:
         """Follow the graph."""
-        self._follower.start()
+        self._poller.start()
 
     def hidden(self) -> None:
-        """Leave the graph alone."""
-        self._follower.stop()
+        """Stop following the graph."""
+        self._poller.stop()
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a click."""
         if kind == "pick":
             self._model.pick(str(content["service"]))
@@ -90,23 +95,23 @@ class ServicePanel(Panel):
             self._model.cancel()
 
     def close(self) -> None:
-        """Take the panel off every page, end a call under way and stop following the graph."""
+        """Take the panel off every page, end a running call and stop following the graph."""
         super().close()
         self._model.close()
 
     def __repr__(self) -> str:
         return f"ServicePanel({self._model.service!r})" if self._model.service else "ServicePanel()"
 
-    def _edited(self, change: dict[str, Any]) -> None:
+    def _edited(self, change: Bunch) -> None:
         if change["new"] != self._model.draft:
             self._model.edit(change["new"])
 
-    def _saw(self, offers: list[Offer]) -> None:
+    def _seen(self, offers: list[Offer]) -> None:
         with self.turn, self.hold_sync():
             self.trouble = ""
             self._model.offer(offers)
 
-    def _lost(self, error: Exception) -> None:
+    def _failed(self, error: Exception) -> None:
         with self.turn, self.hold_sync():
             self.trouble = str(error)
             self._model.offer([])

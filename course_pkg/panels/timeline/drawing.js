@@ -1,5 +1,5 @@
 /* A scene on a canvas: only what lies in view, with colours taken from the page's style sheet. */
-import { axis } from "../plot/axes.js";
+import { axis } from "../axes.js";
 import { bandsOf } from "./bands.js";
 import { cross, diamond, head, ring, tick, torn } from "./marks.js";
 
@@ -83,7 +83,7 @@ export class Drawing {
   #ticks() {
     const unit = this.view.to - this.view.from > 4e6 ? 1e6 : 1e3;
     const most = Math.max(2, Math.floor(this.width / 90));
-    return axis(this.view.from / unit, this.view.to / unit, most, { snug: true }).ticks
+    return axis(this.view.from / unit, this.view.to / unit, most, true).ticks
       .map(({ value, text }) => ({ x: this.x(value * unit), text: `${text} ${unit === 1e6 ? "s" : "ms"}` }));
   }
 

@@ -1,16 +1,19 @@
 """What a timeline draws, as plain data: events in columns of numbers, on the rows of their nodes.
 
-A page keeps it whole, so it is bounded: of more than 4,000 events the calls come first, then messages in the
-order of time, and what is left out is said.
+The saved page holds all of it, so it is bounded: of more than 4,000 events, calls are kept first, then
+messages in the order of time. A note says what is left out.
 """
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypedDict
 
-from course_pkg.graph.events import (
+from course_pkg.panels.timeline.waits import Waits, waits_of
+from course_pkg.ros.trace.recording import (
     CALLBACK,
     CONNECT,
     ERROR,
@@ -23,42 +26,79 @@ from course_pkg.graph.events import (
     WAIT,
     Event,
 )
-from course_pkg.panels.timeline.rows import rows_of
-from course_pkg.panels.timeline.waits import waits_of
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Recording
+    from course_pkg.ros import Recording
 
-MOST = 4000  # events; some 200 kB in a saved page
+MOST = 4000  # events; about 200 kB in a saved page
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
 TICKS = 1e6  # of the state's time in a second: it counts whole microseconds
-OPEN = -1  # the end of what had none; nothing else ends before the recording began
-
-State = dict[str, Any]
+OPEN = -1  # the end of an event that had not ended; no other event ends before the recording began
 
 
-class Words:
-    """Texts by number, each once."""
+class Lane(TypedDict):
+    """A node and the number of its rows."""
+
+    node: str
+    rows: int
+
+
+class Columns(TypedDict):
+    """The events, one list for each property; `name` to `note` are numbers of strings."""
+
+    kind: list[int]
+    lane: list[int]
+    row: list[int]
+    depth: list[int]
+    start: list[int]
+    end: list[int]
+    name: list[int]
+    peer: list[int]
+    key: list[int]
+    thread: list[int]
+    note: list[int]
+
+
+class TimelineState(TypedDict):
+    """A recording for the page; times are in µs from its start, `strings` are by number.
+
+    `arrows` are pairs of events. `idle` nodes did nothing, `unrecorded` ones have no record, for a reason.
+    """
+
+    length: int
+    kinds: list[str]
+    lanes: list[Lane]
+    columns: Columns
+    strings: list[str]
+    arrows: list[list[int]]
+    waits: Waits
+    idle: list[str]
+    unrecorded: list[list[str]]
+    notes: list[str]
+
+
+class StringTable:
+    """Strings by number, each once."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {"": 0}
 
     def number(self, text: str) -> int:
-        """Return the text's number."""
+        """Return the number of a string."""
         return self._numbers.setdefault(text, len(self._numbers))
 
     @property
-    def texts(self) -> list[str]:
-        """All texts, by number."""
+    def strings(self) -> list[str]:
+        """All strings, by number."""
         return list(self._numbers)
 
 
-def state(recording: Recording) -> State:
-    """Return all that the page needs; times are in µs from the start of the recording."""
+def state(recording: Recording) -> TimelineState:
+    """Return what the page needs of a recording."""
     events, left_out = _kept(recording.events)
     lanes = list(dict.fromkeys(event.node for event in events))
     rows, depths = rows_of(events)
-    words = Words()
+    table = StringTable()
     return {
         "length": _ticks(recording.length),
         "kinds": list(KINDS),
@@ -70,13 +110,13 @@ def state(recording: Recording) -> State:
             "depth": depths,
             "start": [_ticks(event.start) for event in events],
             "end": [OPEN if event.end is None else _ticks(event.end) for event in events],
-            "name": [words.number(event.name) for event in events],
-            "peer": [words.number(event.peer) for event in events],
-            "key": [words.number(event.key) for event in events],
-            "thread": [words.number(event.thread) for event in events],
-            "note": [words.number(event.note) for event in events],
+            "name": [table.number(event.name) for event in events],
+            "peer": [table.number(event.peer) for event in events],
+            "key": [table.number(event.key) for event in events],
+            "thread": [table.number(event.thread) for event in events],
+            "note": [table.number(event.note) for event in events],
         },
-        "words": words.texts,
+        "strings": table.strings,
         "arrows": arrows(events),
         "waits": waits_of(recording),
         "idle": [node for node in recording.nodes if node not in lanes],
@@ -85,8 +125,53 @@ def state(recording: Recording) -> State:
     }
 
 
+@dataclass
+class _Thread:
+    """The events of one thread of a node, by index."""
+
+    numbers: list[int] = field(default_factory=list)
+    start: float = math.inf
+    end: float = -math.inf
+
+    def take(self, number: int, event: Event) -> None:
+        self.numbers.append(number)
+        self.start = min(self.start, event.start)
+        self.end = max(self.end, _end(event))
+
+
+def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
+    """Return each event's row on its node, and how many events of its thread contain it.
+
+    A thread stays on one row, and a row holds one thread after another.
+    """
+    rows, depths = [0] * len(events), [0] * len(events)
+    nodes: dict[str, dict[str, _Thread]] = defaultdict(lambda: defaultdict(_Thread))
+    for number, event in enumerate(events):
+        nodes[event.node][event.thread].take(number, event)
+    for threads in nodes.values():
+        free: list[float] = []  # the time from which each row is free
+        for thread in sorted(threads.values(), key=lambda each: each.start):
+            row = next((row for row, end in enumerate(free) if end < thread.start), len(free))
+            free[row : row + 1] = [thread.end]
+            _place(thread, row, events, rows, depths)
+    return rows, depths
+
+
+def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
+    around: list[float] = []  # the ends of the events that contain the present one
+    for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
+        while around and around[-1] <= events[number].start:
+            around.pop()
+        rows[number], depths[number] = row, len(around)
+        around.append(_end(events[number]))
+
+
+def _end(event: Event) -> float:
+    return math.inf if event.end is None else event.end
+
+
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message that both ends have on record."""
+    """Return [from, to] for each request, response and message of which both ends were recorded."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)
@@ -97,8 +182,7 @@ def arrows(events: Sequence[Event]) -> list[list[int]]:
 def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[int]]:
     """Return the arrows of one exchange.
 
-    An answer goes from the end of the handler to the caller, also if it says no; a caller that has given up
-    got none.
+    A response or an error goes from the end of the handler to the caller. A caller that gave up got neither.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:
@@ -117,9 +201,9 @@ def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
     room = MOST - len(calls)
     messages = [event for event in events if event.kind not in OF_CALLS]
     kept = sorted([*calls, *messages[:room]], key=lambda event: event.start)
-    of_messages = room < len(messages)
-    first = messages[room].start if of_messages else events[MOST].start
-    what = "messages and callbacks" if of_messages else "events"
+    messages_left_out = room < len(messages)
+    first = messages[room].start if messages_left_out else events[MOST].start
+    what = "messages and callbacks" if messages_left_out else "events"
     count = len(events) - len(kept)
     return kept, [f"Drawn are {MOST:,} events: {count:,} {what} from {first:.4g} s on are left out."]
 

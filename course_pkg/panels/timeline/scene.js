@@ -1,6 +1,6 @@
 /* What a timeline consists of: events in typed columns, and where the lanes and rows lie. No page is needed. */
 
-/** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, words: string[],
+/** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, strings: string[],
  *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */
 
 const HEAD = 22; // px of a lane's name
@@ -16,7 +16,7 @@ export class Scene {
     this.length = recorded.length;
     this.count = columns.start?.length ?? 0;
     this.kinds = recorded.kinds;
-    this.words = recorded.words;
+    this.strings = recorded.strings;
     this.start = Float64Array.from(columns.start ?? []);
     this.end = Float64Array.from(columns.end ?? [], (end) => (end < 0 ? recorded.length : end));
     this.open = Array.from(columns.end ?? [], (end) => end < 0);
@@ -59,7 +59,7 @@ export class Scene {
 
   /** @param {number} each @param {"name" | "peer" | "key" | "thread" | "note"} column @returns {string} */
   word(each, column) {
-    return this.words[this[column][each]];
+    return this.strings[this[column][each]];
   }
 
   /** @param {number} each */

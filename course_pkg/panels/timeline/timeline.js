@@ -2,7 +2,7 @@
 import { freshId, h, prose, say, setAttribute } from "../kit.js";
 import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
-import { counted, duration, moment, parts, sentence, waiting } from "./words.js";
+import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
 const FINEST = 50; // µs across the page
 const HINT = "Drag to move. Ctrl + wheel zooms, and so do + and −; ← and → move, ↑ and ↓ go from event to event, 0 shows all.";

@@ -1,4 +1,4 @@
-"""The timeline as a widget: nothing but a recording on its way to the page."""
+"""The timeline as a widget: it only passes a recording to the page."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ from traitlets import Dict
 
 from course_pkg.panels.panel import Panel
 from course_pkg.panels.timeline.model import state
+from course_pkg.panels.timeline.waits import timeline_text
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Recording
+    from course_pkg.ros import Recording
 
 HERE = Path(__file__).parent
 
 
 class Timeline(Panel):
-    """A sequence diagram of what was really recorded: a lane for each node, time to the right.
+    """A sequence diagram of a recording: rows for each node, time to the right.
 
     Give it the recording of a block that has ended: `with node.record() as recording: …`.
     """
@@ -29,7 +30,13 @@ class Timeline(Panel):
 
     def __init__(self, recording: Recording) -> None:
         super().__init__()
+        self._recording = recording
         self.publish(recorded=state(recording))
+
+    @property
+    def text(self) -> str:
+        """Which nodes waited for which, as sentences that are the same in every run."""
+        return timeline_text(self._recording)
 
     def __repr__(self) -> str:
         return "Timeline()"

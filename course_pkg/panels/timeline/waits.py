@@ -1,42 +1,66 @@
-"""Who waited for whom, added up; and who did not, because nobody waits for a message."""
+"""Which nodes waited for which, in total: callers wait for servers, and publishers for nobody."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypedDict
 
-from course_pkg.graph.events import BLOCKED, CALLBACK, ERROR, MASTER, NOBODY, PUBLISH, Event
+from course_pkg.ros.trace.recording import BLOCKED, CALLBACK, ERROR, MASTER, NOBODY, PUBLISH, Event
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Recording
-
-State = dict[str, Any]
+    from course_pkg.ros import Recording
 
 
-def waits_of(recording: Recording) -> State:
-    """Return `calls`, one entry for each caller, service and server, and `streams`, one for each publisher.
+class Wait(TypedDict):
+    """The calls of a node to a service; `blocked` and `longest` are in s. `open` calls had not ended."""
 
-    Times are in s, those who waited longest come first. A wait that had not ended counts to the end of the
-    recording.
-    """
+    node: str
+    service: str
+    servers: list[str]
+    calls: int
+    blocked: float
+    longest: float
+    open: int
+    failed: int
+
+
+class Stream(TypedDict):
+    """The messages of a node on a topic; `alone` were published while no subscriber was connected."""
+
+    node: str
+    topic: str
+    published: int
+    alone: int
+    heard_by: list[str]
+
+
+class Waits(TypedDict):
+    """The calls, with the longest wait first, and the streams."""
+
+    calls: list[Wait]
+    streams: list[Stream]
+
+
+def waits_of(recording: Recording) -> Waits:
+    """Return the waits of a recording; one that had not ended counts to the end of the recording."""
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)
-    hearers: dict[str, set[str]] = defaultdict(set)
+    receivers: dict[str, set[str]] = defaultdict(set)
     for event in recording.events:
         if event.kind in BLOCKED or event.kind == ERROR:
             calls[event.node, event.name].append(event)
         elif event.kind == PUBLISH:
             streams[event.node, event.name].append(event)
         elif event.kind == CALLBACK:
-            hearers[event.key].add(event.node)
+            receivers[event.key].add(event.node)
     waits = [_wait(*who, events, recording.length) for who, events in calls.items()]
     return {
-        "calls": sorted(waits, key=lambda wait: -float(wait["blocked"])),
-        "streams": [_stream(*who, events, hearers) for who, events in streams.items()],
+        "calls": sorted(waits, key=lambda wait: -wait["blocked"]),
+        "streams": [_stream(*who, events, receivers) for who, events in streams.items()],
     }
 
 
-def _wait(node: str, service: str, events: list[Event], length: float) -> State:
+def _wait(node: str, service: str, events: list[Event], length: float) -> Wait:
     spans: dict[str, float] = defaultdict(float)
     for event in events:
         end = length if event.end is None else event.end
@@ -53,7 +77,48 @@ def _wait(node: str, service: str, events: list[Event], length: float) -> State:
     }
 
 
-def _stream(node: str, topic: str, events: list[Event], hearers: dict[str, set[str]]) -> State:
-    heard = {hearer for event in events for hearer in hearers[event.key]}
+def _stream(node: str, topic: str, events: list[Event], receivers: dict[str, set[str]]) -> Stream:
+    received = {receiver for event in events for receiver in receivers[event.key]}
     alone = sum(event.note == NOBODY for event in events)
-    return {"node": node, "topic": topic, "published": len(events), "alone": alone, "heard_by": sorted(heard)}
+    return {
+        "node": node,
+        "topic": topic,
+        "published": len(events),
+        "alone": alone,
+        "heard_by": sorted(received),
+    }
+
+
+def timeline_text(recording: Recording) -> str:
+    """Return which nodes waited for which: sorted sentences without times, one a line, calls first.
+
+    They are the same in every run that goes the same way.
+    """
+    return "\n".join(sentences(waits_of(recording)))
+
+
+def sentences(waits: Waits) -> list[str]:
+    """Return the sentences of `timeline_text` from the waits of a recording."""
+    lines = sorted(_called(each) for each in waits["calls"])
+    lines += sorted(_published(each) for each in waits["streams"])
+    return lines or ["Nothing was recorded."]
+
+
+def _called(wait: Wait) -> str:
+    servers = " and ".join(wait["servers"])
+    sentence = f"{wait['node']} called {wait['service']}" + (f" and waited for {servers}" if servers else "")
+    if wait["open"]:
+        return f"{sentence}{'' if servers else ' and waited'}, to the end of the recording."
+    if not servers:
+        return f"{sentence}, and reached nobody."
+    if wait["failed"] == wait["calls"]:
+        return f"{sentence}, in vain."
+    return f"{sentence}, at times in vain." if wait["failed"] else f"{sentence}."
+
+
+def _published(stream: Stream) -> str:
+    sentence = f"{stream['node']} published {stream['topic']} and waited for nobody"
+    if stream["heard_by"]:
+        return f"{sentence}; {' and '.join(stream['heard_by'])} heard it."
+    lost = stream["alone"] == stream["published"]
+    return f"{sentence}; {'nobody was connected' if lost else 'nobody on record heard it'}."

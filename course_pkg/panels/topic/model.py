@@ -1,4 +1,4 @@
-"""What a topic panel knows, with no page, no kernel and no ROS: a station is told, and reports."""
+"""The state of a topic panel, without page, kernel or ROS: a topic process takes commands and reports."""
 
 from __future__ import annotations
 
@@ -7,29 +7,82 @@ import re
 import shlex
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
-from typing import Any
+from dataclasses import asdict, dataclass, replace
+from typing import TypedDict
 
 from course_pkg.errors import CourseError, FieldError, NotATopic
-from course_pkg.graph.station.paths import numbers
-from course_pkg.interfaces import MessageType, message_type, publisher_lines, rostopic_line, schema
-from course_pkg.panels.forms.form import MessageForm, State, correction
-from course_pkg.panels.forms.texts import Texts
-from course_pkg.panels.topic.echo import Echo
-from course_pkg.panels.topic.settings import Settings
-from course_pkg.panels.topic.words import ANY, mismatches, published
+from course_pkg.panels.forms.form import Check, Draft, MessageForm, Values, correction
+from course_pkg.panels.topic.reports import (
+    FindType,
+    MessageLog,
+    PublisherState,
+    SubscriptionState,
+    mismatches,
+    published,
+)
+from course_pkg.ros.topic.connections import ANY
+from course_pkg.ros.topic.field_paths import measurement, numbers
+from course_pkg.ros.topic.reports import Connections, Report
+from course_pkg.types import MessageSchema, MessageType, message_type, publisher_lines, rostopic_line, schema
 
 BURST = 1000  # messages
 NAME = r"(/[A-Za-z]\w*)+"  # http://wiki.ros.org/Names
 ACTIONS = ("publish", "burst", "repeat")
+RATE, QUEUE = "@rate", "@queue"  # no field of a message can have these names
+SLOWEST, FASTEST = 0.1, 100.0  # 1/s
+LONGEST = 10_000  # messages in a queue
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How to publish, as typed: the rate, the queue size, and whether to latch.
+
+    `path` is the number that is drawn, "" for none.
+    """
+
+    rate: str = "10"
+    queue: str = "10"
+    latch: bool = False
+    path: str = ""
+
+    @classmethod
+    def of_page(cls, given: Mapping[str, str | bool]) -> Settings:
+        """Return what a page has sent."""
+        rate, queue, path = (str(given.get(name, "")) for name in ("rate", "queue", "path"))
+        return cls(rate, queue, bool(given.get("latch")), path)
+
+    @property
+    def hertz(self) -> float:
+        """The rate in 1/s. Raises FieldError."""
+        return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
+
+    @property
+    def size(self) -> int:
+        """The queue size in messages, 0 for no limit. Raises FieldError."""
+        allowed = f"a whole number from 0 (no limit) to {LONGEST}"
+        size = _number(QUEUE, self.queue, 0, LONGEST, allowed)
+        if size != int(size):
+            raise _wrong(QUEUE, self.queue, allowed)
+        return int(size)
+
+
+class About(TypedDict, total=False):
+    """The topic, why there is no form ("" if there is one), and the fields and numbers of its type."""
+
+    topic: str
+    problem: str
+    burst: int
+    listen: list[str]
+    message: MessageSchema
+    numbers: list[str]
 
 
 class TopicModel:
-    """One topic: its type, the message as typed, how it is published, and what is heard. Raises NotATopic.
+    """One topic: its type, the message as typed, how it is published, and what is received. Raises NotATopic.
 
-    `kind` is the type; None to take that of the topic as soon as somebody publishes it. `changed` hears of
-    every change by keyword: `about`, `settings`, `draft`, `check`, `around`, `spoken`, `heard`, `echo`,
-    `latest`, `curve`, `trouble`. `tell` tells the station, while there is one.
+    `kind` is the type; None to take the type of the first publisher. `changed` gets every change by
+    keyword: `about`, `settings`, `draft`, `check`, `connections`, `publisher`, `subscription`, `messages`,
+    `latest`, `curve`, `trouble`. `command` sends a command to the topic process, if there is one.
     """
 
     def __init__(
@@ -37,9 +90,9 @@ class TopicModel:
         topic: str,
         kind: MessageType | None,
         changed: Callable[..., None],
-        tell: Callable[..., None],
+        command: Callable[..., None],
         *,
-        find_type: Callable[[str], MessageType] = message_type,
+        find_type: FindType = message_type,
         turn: threading.RLock | None = None,
     ) -> None:
         if not re.fullmatch(NAME, topic, re.ASCII):
@@ -50,125 +103,127 @@ class TopicModel:
         self.topic = topic
         self.kind: MessageType | None = None
         self.settings = Settings()
-        self.draft: Texts = {}
+        self.draft: Draft = {}
         self._form: MessageForm | None = None
         self._changed = changed
-        self._tell = tell
+        self._command = command
         self._find_type = find_type
         self._turn = turn or threading.RLock()
-        self._around: State = {}
+        self._connections: Connections = {}
         self._own = ""
         self._problem = ""
         self._refusals = 0
-        self._heard: State = {"count": 0, "pace": {}}
-        self._echo = Echo()
+        self._subscription: SubscriptionState = {"count": 0, "statistics": {}}
+        self._log = MessageLog()
         if kind is not None:
             self._become(kind)
         else:
             self._changed(about=self._about(), settings=asdict(self.settings))
 
-    def station_began(self) -> None:
-        """Tell a new station what the one before knew."""
+    def process_began(self) -> None:
+        """Send a new topic process what the one before knew."""
         with self._turn:
-            self._own, self._echo, self._heard = "", Echo(), {"count": 0, "pace": {}}
-            self.see({**self._around, "sources": []})
-            self._changed(echo=[], latest=[], heard=self._heard, curve="", spoken={}, trouble="")
-            self._tell_type()
+            self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}
+            self.see({**self._connections, "sources": []})
+            empty = {"messages": [], "latest": [], "curve": "", "publisher": {}, "trouble": ""}
+            self._changed(subscription=self._subscription, **empty)
+            self._send_type()
 
-    def report(self, parts: Mapping[str, Any]) -> None:
-        """Take in what a station reports."""
+    def report(self, report: Report) -> None:
+        """Take in what the topic process reports."""
         with self._turn:
-            self._own = parts.get("node", self._own)
-            if "around" in parts:
-                self.see(parts["around"])
-            shown: State = {}
-            if "trouble" in parts:
-                shown["trouble"] = parts["trouble"]
-            if "spoken" in parts:
-                spoken = parts["spoken"]
-                shown["spoken"] = {**spoken, "words": published(spoken, self._own), "own": self._own}
-            if "curve" in parts:
-                shown["curve"] = json.dumps(parts["curve"])
-            heard = {name: parts[name] for name in ("count", "pace") if name in parts}
-            if heard:
-                shown["heard"] = self._heard = {**self._heard, **heard}
-            if "echo" in parts:
+            self._own = report.get("node", self._own)
+            if "connections" in report:
+                self.see(report["connections"])
+            if "trouble" in report:
+                self._changed(trouble=report["trouble"])
+            if "publisher" in report:
+                about = report["publisher"]
+                publisher: PublisherState = {**about, "words": published(about, self._own), "own": self._own}
+                self._changed(publisher=publisher)
+            if "curve" in report:
+                self._changed(curve=json.dumps(report["curve"]))
+            if "count" in report or "statistics" in report:
+                before = self._subscription
+                self._subscription = {
+                    "count": report.get("count", before["count"]),
+                    "statistics": report.get("statistics", before["statistics"]),
+                }
+                self._changed(subscription=self._subscription)
+            if "messages" in report:
                 if self.kind is None:
-                    self._find(parts["echo"][-1]["type"])
-                self._echo.take(parts["echo"], self.kind)
-                shown |= {"echo": self._echo.entries, "latest": self._echo.latest}
-            self._changed(**shown)
+                    self._find(report["messages"][-1]["type"])
+                self._log.add(report["messages"], self.kind)
+                self._changed(messages=self._log.entries, latest=self._log.latest)
 
-    def see(self, around: State) -> None:
+    def see(self, connections: Connections) -> None:
         """Take in who is on the topic now."""
         with self._turn:
-            self._around = around
+            self._connections = connections
             if self.kind is None:
-                self._find(self._type_around())
-            warnings = mismatches(self.kind, around, self._own, self._find_type) if self.kind else []
-            self._changed(around={**around, "own": self._own, "warnings": warnings}, about=self._about())
+                self._find(self._type_on_the_graph())
+            warnings = mismatches(self.kind, connections, self._own, self._find_type) if self.kind else []
+            seen = {**connections, "own": self._own, "warnings": warnings}
+            self._changed(connections=seen, about=self._about())
 
-    def edit(self, draft: Texts) -> None:
-        """Take in what is typed now and say what it amounts to."""
+    def edit(self, draft: Draft) -> None:
+        """Take in what is typed now; report its errors or the commands that do the same."""
         with self._turn:
             if self._form:
                 self.draft = draft
                 self._changed(check=self._checked())
 
     def set(self, settings: Settings) -> None:
-        """Take in how one wants to publish, and which number is to be drawn."""
+        """Take in how to publish, and which number to draw."""
         with self._turn:
             before, self.settings = self.settings, settings
             if settings.path != before.path:
                 self._changed(curve="")
-                self._tell("plot", path=settings.path)
+                self._command("plot", path=settings.path)
             self._changed(check=self._checked())
 
-    def act(self, action: str, draft: Texts, settings: Settings) -> None:
-        """Publish once, in a burst, or again and again, unless something typed is not right."""
+    def act(self, action: str, draft: Draft, settings: Settings) -> None:
+        """Publish once, in a burst, or at a rate, unless something typed has an error."""
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return
             self.draft = draft
             self.set(settings)
             errors = self._checked()["errors"]
-            needless = "@rate" if action != "repeat" else ""
-            if {field for field in errors if field != needless}:
-                self._refuse()
+            unused = RATE if action != "repeat" else ""
+            if {field for field in errors if field != unused}:
+                self._refusals += 1
+                self._changed(check=self._checked())
                 return
-            how: State = {"texts": self.draft, "latch": settings.latch, "queue": settings.size}
+            about = {"texts": self.draft, "latch": settings.latch, "queue": settings.size}
             if action == "repeat":
-                self._tell("repeat", **how, rate=settings.hertz)
+                self._command("repeat", **about, rate=settings.hertz)
             else:
-                self._tell("publish", **how, count=BURST if action == "burst" else 1)
+                self._command("publish", **about, count=BURST if action == "burst" else 1)
 
     def stop(self) -> None:
-        """Publish at no rate any more."""
-        self._tell("stop")
+        """Stop publishing at a rate."""
+        self._command("stop")
 
     def withdraw(self) -> None:
         """End the publisher."""
-        self._tell("withdraw")
+        self._command("withdraw")
 
-    def _refuse(self) -> None:
-        self._refusals += 1
-        self._changed(check=self._checked())
-
-    def _checked(self) -> State:
+    def _checked(self) -> Check:
         """Return what is wrong, or the commands that do the same by hand."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)
         wrong: dict[str, str] = {}
-        for read in ("hertz", "size"):
+        for setting in ("hertz", "size"):
             try:
-                getattr(self.settings, read)
+                getattr(self.settings, setting)
             except FieldError as error:
                 wrong[error.field] = correction(error)
         return {**check, "errors": {**check["errors"], **wrong}, "refused": self._refusals}
 
-    def _commands(self, values: Mapping[str, Any]) -> dict[str, str]:
-        """Return the lines that publish these values once and again and again; with what is not wrong."""
+    def _commands(self, values: Values) -> Check:
+        """Return the lines that publish these values once, and at a rate; none if a setting has an error."""
         assert self.kind is not None
         settings = self.settings
         try:
@@ -182,10 +237,11 @@ class TopicModel:
             "python": publisher_lines(self.topic, self.kind, values, latch=latch, queue_size=queue),
         }
 
-    def _type_around(self) -> str:
-        """Return the type that a publisher has, or else that which the master knows."""
-        types = [each["type"] for each in self._around.get("publishers", ())]
-        return next((each for each in (*types, self._around.get("type", "")) if each and each != ANY), "")
+    def _type_on_the_graph(self) -> str:
+        """Return the type of a publisher, or else the type that the master knows."""
+        types = [each["type"] for each in self._connections.get("publishers", ())]
+        known = (*types, self._connections.get("type", ""))
+        return next((each for each in known if each and each != ANY), "")
 
     def _find(self, name: str) -> None:
         self._problem = ""
@@ -199,25 +255,38 @@ class TopicModel:
         self.kind = kind
         self._form = MessageForm(kind, self._commands)
         self.draft = self._form.blank
-        paths = numbers(kind)
-        self.settings = replace(self.settings, path=paths[0] if paths else "")
+        self.settings = replace(self.settings, path=measurement(kind))
         self._changed(
             about=self._about(), draft=self.draft, check=self._checked(), settings=asdict(self.settings)
         )
-        self._tell_type()
+        self._send_type()
 
-    def _tell_type(self) -> None:
+    def _send_type(self) -> None:
         if self.kind is not None:
-            self._tell("type", name=self.kind.name, text="" if self.kind.built else self.kind.text)
-            self._tell("plot", path=self.settings.path)
+            self._command("type", name=self.kind.name, text="" if self.kind.built else self.kind.text)
+            self._command("plot", path=self.settings.path)
 
-    def _about(self) -> State:
+    def _about(self) -> About:
         listen = [f"rostopic {verb} {shlex.quote(self.topic)}" for verb in ("echo", "hz", "info")]
-        about: State = {"topic": self.topic, "problem": self._problem, "burst": BURST, "listen": listen}
+        about: About = {"topic": self.topic, "problem": self._problem, "burst": BURST, "listen": listen}
         if self.kind is None:
-            nobody = (
+            unknown = (
                 f"Nobody publishes {self.topic} yet, so its type is not known. Start a publisher, or give "
                 f"the type: TopicPanel({self.topic!r}, 'std_msgs/Float64')."
             )
-            return about | {"problem": self._problem or nobody}
-        return about | {"message": schema(self.kind), "numbers": numbers(self.kind)}
+            return {**about, "problem": self._problem or unknown}
+        return {**about, "message": schema(self.kind), "numbers": numbers(self.kind)}
+
+
+def _number(field: str, text: str, low: float, high: float, allowed: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = low - 1
+    if not low <= value <= high:
+        raise _wrong(field, text, allowed)
+    return value
+
+
+def _wrong(field: str, text: str, allowed: str) -> FieldError:
+    return FieldError(field, text, allowed, f"{text!r} cannot be taken here")

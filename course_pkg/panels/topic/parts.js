@@ -14,13 +14,13 @@ export function names(nodes, own, nobody) {
   return shown.length ? shown.join(", ") : nobody;
 }
 
-/** @param {any} spoken */
+/** @param {any} publisher */
 export function figures({ published, unheard, sent, dropped }) {
   const facts = { Published: published, "To nobody": unheard, Sent: sent, Dropped: dropped };
   return h("div", { class: "ros-facts" }, ...Object.entries(facts).map(([label, count]) => h("p", {}, h("span", { class: "ros-muted", text: label }), h("b", { text: count.toLocaleString("en") }))));
 }
 
-/** @param {any} spoken */
+/** @param {any} publisher */
 export function deliveries({ deliveries: rows, own, queue }) {
   if (!rows.length) return "";
   const head = ["Subscriber", "sent", "waiting", "dropped"].map((text) => h("th", { scope: "col", text }));

@@ -2,7 +2,7 @@
 import { FieldsForm } from "../forms/fields.js";
 import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
-import { Chart } from "../plot/chart.js";
+import { Chart } from "./chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
 const SETTLE = 120; // ms without a keystroke before what is typed is sent
@@ -30,8 +30,8 @@ class TopicView {
     this.chart = new Chart();
     this.#build();
     const draw = { about: this.#drawAbout, trouble: this.#drawBanner, notice: this.#drawBanner, draft: () => this.fields.fill(model.get("draft")),
-      settings: this.#drawSettings, check: this.#drawCheck, around: this.#drawAround, spoken: this.#drawSpoken, heard: this.#drawHeard,
-      echo: this.#drawEcho, latest: this.#drawLatest, curve: this.#drawCurve };
+      settings: this.#drawSettings, check: this.#drawCheck, connections: this.#drawConnections, publisher: this.#drawPublisher, subscription: this.#drawSubscription,
+      messages: this.#drawMessages, latest: this.#drawLatest, curve: this.#drawCurve };
     for (const [trait, part] of Object.entries(draw)) {
       model.on(`change:${trait}`, () => part.call(this));
       if (trait !== "draft") part.call(this);
@@ -79,9 +79,9 @@ class TopicView {
     this.figures = h("p", { class: "ros-figures" });
     this.agedText = h("span", { class: "ros-muted" });
     this.latest = h("div", { class: "ros-latest" });
-    this.echo = h("ol", { class: "ros-echo", "aria-label": "The last messages" });
+    this.messages = h("ol", { class: "ros-messages", "aria-label": "The last messages" });
     return h("section", { class: "ros-hearing", "aria-label": "Heard" }, h("div", { class: "ros-heading" }, h("h4", { text: "Heard" }), this.agedText),
-      this.figures, this.latest, this.echo);
+      this.figures, this.latest, this.messages);
   }
 
   #drawing() {
@@ -150,8 +150,8 @@ class TopicView {
     else this.fields.focus();
   }
 
-  #drawAround() {
-    const { publishers = [], subscribers = [], own = "", warnings = [] } = this.model.get("around");
+  #drawConnections() {
+    const { publishers = [], subscribers = [], own = "", warnings = [] } = this.model.get("connections");
     const said = [names(publishers, own, "nobody"), names(subscribers, own, "nobody")];
     if (!same(said, this.saidWho)) {
       this.saidWho = said;
@@ -163,32 +163,32 @@ class TopicView {
     this.warnings.replaceChildren(...warnings.map((/** @type {string} */ text) => h("li", { text })));
   }
 
-  #drawSpoken() {
-    const spoken = this.model.get("spoken");
-    say(this.words, spoken.problem || spoken.words || "Nothing is published yet. The first message makes the publisher.");
-    this.words.classList.toggle("ros-failed", Boolean(spoken.problem));
-    say(this.often, spoken.rate ? "Stop" : "Publish at a rate");
-    setAttribute(this.withdraw, "hidden", !spoken.advertised);
-    const facts = [spoken.published, spoken.unheard, spoken.sent, spoken.dropped, spoken.deliveries];
+  #drawPublisher() {
+    const publisher = this.model.get("publisher");
+    say(this.words, publisher.problem || publisher.words || "Nothing is published yet. The first message makes the publisher.");
+    this.words.classList.toggle("ros-failed", Boolean(publisher.problem));
+    say(this.often, publisher.rate ? "Stop" : "Publish at a rate");
+    setAttribute(this.withdraw, "hidden", !publisher.advertised);
+    const facts = [publisher.published, publisher.unheard, publisher.sent, publisher.dropped, publisher.deliveries];
     if (same(facts, this.counted)) return;
     this.counted = facts;
-    this.counts.replaceChildren(...(spoken.published ? [figures(spoken), deliveries(spoken)] : []));
+    this.counts.replaceChildren(...(publisher.published ? [figures(publisher), deliveries(publisher)] : []));
   }
 
-  #drawHeard() {
-    const { count = 0, pace = {} } = this.model.get("heard");
-    const regular = pace.rate ? ` at ${number(pace.rate)} Hz, with a jitter of ${number(1000 * pace.jitter)} ms` : "";
+  #drawSubscription() {
+    const { count = 0, statistics = {} } = this.model.get("subscription");
+    const regular = statistics.rate ? ` at ${number(statistics.rate)} Hz, with a jitter of ${number(1000 * statistics.jitter)} ms` : "";
     say(this.figures, count ? `${count.toLocaleString("en")} ${count === 1 ? "message" : "messages"}${regular}.` : this.live ? "Nothing heard yet." : "Nothing was heard.");
-    this.figures.title = pace.gaps ? `over the last ${pace.gaps + 1} messages; the longest gap was ${number(1000 * pace.longest)} ms` : "";
+    this.figures.title = statistics.gaps ? `over the last ${statistics.gaps + 1} messages; the longest gap was ${number(1000 * statistics.longest)} ms` : "";
   }
 
-  #drawEcho() {
+  #drawMessages() {
     /** @type {{number: number, ago: number, peer: string, line: string, understood: boolean}[]} */
-    const entries = this.model.get("echo");
+    const entries = this.model.get("messages");
     const now = performance.now();
     this.came = new Map(entries.map(({ number: each, ago }) => [each, this.came.get(each) ?? now - 1000 * ago]));
     this.lines = entries.map((entry) => ({ entry, age: h("span", { class: "ros-muted ros-age" }) }));
-    this.echo.replaceChildren(...this.lines.map(({ entry, age }) => h("li", { class: entry.understood ? "" : "ros-strange", title: `from ${entry.peer}` },
+    this.messages.replaceChildren(...this.lines.map(({ entry, age }) => h("li", { class: entry.understood ? "" : "ros-strange", title: `from ${entry.peer}` },
       h("span", { class: "ros-muted", text: `#${entry.number}` }), h("code", { text: entry.line }), age)));
     this.#age();
   }
@@ -211,8 +211,7 @@ class TopicView {
     const { points = [], count = 0, left_out: left = 0 } = JSON.parse(this.model.get("curve") || "{}");
     const last = points.at(-1)?.[0] ?? SPAN;
     say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or not there` : "");
-    this.chart.show({ kind: "line", log: false, x: "time since the panel listens (s)", y: this.path.value, title: "", empty: "Nothing to draw yet.",
-      series: [{ label: "", points, count }], window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
+    this.chart.show({ y: this.path.value, points, count, window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
   }
 
   #drawBanner() {
@@ -227,7 +226,7 @@ class TopicView {
   #kernel(live) {
     this.live = live;
     this.#drawBanner();
-    this.#drawHeard();
+    this.#drawSubscription();
     this.#age();
     for (const button of [this.once, this.often, this.burst, this.withdraw]) setAttribute(button, "aria-disabled", live ? null : "true");
   }
@@ -255,7 +254,7 @@ class TopicView {
   }
 
   #repeat() {
-    if (this.model.get("spoken").rate) this.#send({ kind: "stop" });
+    if (this.model.get("publisher").rate) this.#send({ kind: "stop" });
     else this.#act("repeat");
   }
 

@@ -1,4 +1,4 @@
-"""The topic panel as a widget: a station while a page shows it, the model's state as traits."""
+"""The topic panel as a widget: a topic process while a page shows it, the model's state as traits."""
 
 from __future__ import annotations
 
@@ -6,75 +6,70 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from traitlets import Dict, List, Unicode
+from traitlets.utils.bunch import Bunch
 
 from course_pkg.errors import GraphError
-from course_pkg.graph.master import master_uri
-from course_pkg.graph.rpc import MasterClient
-from course_pkg.graph.station.neighbours import look_around
-from course_pkg.graph.station.process import TopicStation
-from course_pkg.interfaces import message_type
-from course_pkg.panels.panel import Panel
-from course_pkg.panels.topic.model import TopicModel
-from course_pkg.panels.topic.settings import Settings
+from course_pkg.panels.panel import PageMessage, Panel
+from course_pkg.panels.topic.model import Settings, TopicModel
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.topic.connections import find_connections
+from course_pkg.ros.topic.topic_process import TopicProcess
+from course_pkg.types import MessageClass, MessageType, Plain, message_type
 
 HERE = Path(__file__).parent
 
 
 class TopicPanel(Panel):
-    """Publish on a topic from a form, once or at a rate, and hear what it carries.
+    """Publish on a topic from a form, once or at a rate, and see what it carries.
 
-    `kind` is the type, such as "std_msgs/Float64"; without it the panel takes the type of the topic as soon
-    as somebody publishes it. While a page shows it, the panel is a node of its own.
-    Raises UnknownType, NotATopic.
+    `kind` is the type, such as "std_msgs/Float64"; without it the panel takes the type of the first
+    publisher. While a page shows it, the panel is a node of its own. Raises UnknownType, NotATopic.
     """
 
     front_end: ClassVar[Path] = HERE / "topic.js"
-    shared_sheets: ClassVar[tuple[Path, ...]] = (
-        HERE.parent / "forms" / "forms.css",
-        HERE.parent / "plot" / "chart.css",
-    )
+    shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css", HERE / "chart.css")
     style_sheet: ClassVar[Path] = HERE / "topic.css"
 
     about = Dict(help="the topic, the fields of its type, the numbers in it").tag(sync=True)
-    trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
-    draft = Dict(help="the message as typed: a tree of texts").tag(sync=True, echo_update=False)
+    trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
+    draft = Dict(help="the message as typed: a tree of strings").tag(sync=True, echo_update=False)
     settings = Dict(help="rate, queue, latch, and the number that is drawn").tag(sync=True, echo_update=False)
     check = Dict(help="what is wrong, or the commands that equal the form").tag(sync=True)
-    around = Dict(help="who is on the topic, and whose type differs").tag(sync=True)
-    spoken = Dict(help="what became of what was published").tag(sync=True)
-    heard = Dict(help="how many messages came, and how evenly").tag(sync=True)
-    echo: List[Any] = List(help="the last messages, the latest first").tag(sync=True)
-    latest: List[Any] = List(help="the latest message, line by line").tag(sync=True)
+    connections = Dict(help="who is on the topic, and whose type differs").tag(sync=True)
+    publisher = Dict(help="what became of what was published").tag(sync=True)
+    subscription = Dict(help="how many messages came, and how evenly").tag(sync=True)
+    messages = List(Dict(), help="the last messages, the latest first").tag(sync=True)
+    latest = List(Dict(), help="the latest message, line by line").tag(sync=True)
     curve = Unicode(help="the points of the drawn number, as JSON").tag(sync=True)
 
-    def __init__(self, topic: str, kind: Any = None) -> None:  # noqa: ANN401 - a name, a class, a MessageType
+    def __init__(self, topic: str, kind: str | MessageType | MessageClass | None = None) -> None:
         found = message_type(kind) if kind is not None else None
         super().__init__()
         self._topic = topic if topic.startswith("/") else f"/{topic}"
-        self._station: TopicStation | None = None
+        self._process: TopicProcess | None = None
         with self.turn, self.hold_sync():
-            self._model = TopicModel(self._topic, found, self.publish, self._tell, turn=self.turn)
+            self._model = TopicModel(self._topic, found, self.publish, self._command, turn=self.turn)
             self._look()
         self.observe(self._edited, ["draft", "settings"])
 
     def shown(self) -> None:
         """Start the panel's node."""
         with self.turn:
-            if self._station is None:
-                self._station = TopicStation(self._topic, self._reported, self._lost)
-                self._model.station_began()
+            if self._process is None:
+                self._process = TopicProcess(self._topic, self._reported, self._lost)
+                self._model.process_began()
 
     def hidden(self) -> None:
-        """End it, and with it whatever it publishes."""
+        """End the node, and with it what it publishes."""
         with self.turn:
-            station, self._station = self._station, None
-        if station is not None:
-            station.end()
+            process, self._process = self._process, None
+        if process is not None:
+            process.end()
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a click."""
         if kind == "act":
-            settings = Settings.taken(content["settings"])
+            settings = Settings.of_page(content["settings"])
             self._model.act(str(content["action"]), content["draft"], settings)
         elif kind == "stop":
             self._model.stop()
@@ -86,34 +81,36 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """See who is there before any page shows the panel, for a page that never has a kernel."""
+        """See who is on the topic before a page shows the panel, for a page that never has a kernel."""
         try:
-            self._model.see(look_around(MasterClient(master_uri()), self._topic).as_dict())
+            self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:
             self.publish(trouble=str(error))
 
-    def _tell(self, do: str, **what: Any) -> None:  # noqa: ANN401 - plain data
-        if self._station is not None:
-            self._station.tell(do, **what)
+    def _command(self, do: str, **arguments: Plain) -> None:
+        if self._process is not None:
+            self._process.tell(do, **arguments)
 
-    def _edited(self, change: dict[str, Any]) -> None:
+    def _edited(self, change: Bunch) -> None:
         if change["name"] == "draft" and change["new"] != self._model.draft:
             self._model.edit(change["new"])
-        elif change["name"] == "settings" and (new := Settings.taken(change["new"])) != self._model.settings:
-            self._model.set(new)
+        elif change["name"] == "settings":
+            settings = Settings.of_page(change["new"])
+            if settings != self._model.settings:
+                self._model.set(settings)
 
-    def _reported(self, station: TopicStation, report: dict[str, Any]) -> None:
+    def _reported(self, process: TopicProcess, report: Any) -> None:  # noqa: ANN401 -- a Report, as JSON
         with self.turn, self.hold_sync():
-            if station is not self._station:
+            if process is not self._process:
                 return
-            if report.get("trouble") and station.master != master_uri():
+            if report.get("trouble") and process.master != master_uri():
                 self.hidden()  # the kernel has found another master since
                 self.shown()
             else:
                 self._model.report(report)
 
-    def _lost(self, station: TopicStation, words: str) -> None:
+    def _lost(self, process: TopicProcess, message: str) -> None:
         with self.turn:
-            if station is self._station:
-                self._station = None
-                self.publish(trouble=words)
+            if process is self._process:
+                self._process = None
+                self.publish(trouble=message)

@@ -1,7 +1,7 @@
 /* How a turtle looks. */
-import { SIDE, pixel } from "./film.js";
+import { SIDE, pixel } from "./recording.js";
 
-/** A turtle seen from above. @param {CanvasRenderingContext2D} pen @param {import("./film.js").Place} place @param {string} body
+/** A turtle seen from above. @param {CanvasRenderingContext2D} pen @param {import("./recording.js").Place} place @param {string} body
  * @param {string} name @param {boolean} dark */
 export function drawTurtle(pen, place, body, name, dark) {
   const [x, y] = pixel(place.x, place.y);

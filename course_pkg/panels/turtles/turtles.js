@@ -1,8 +1,8 @@
-/* The turtle panel: paper with trails, turtles on top of it, and a tape that can be played again. */
+/* The turtle panel: paper with trails, turtles on top of it, and a recording that can be played again. */
 import { h, kernelLink, say, send, setAttribute } from "../kit.js";
 import { Replay, watch } from "../replay.js";
 import { drawTurtle } from "./body.js";
-import { DELAY, Film, SIDE } from "./film.js";
+import { DELAY, Player, SIDE } from "./recording.js";
 
 const TABLE = 250; // ms between updates of the table
 const KEPT = 5000; // ms between states kept for a saved notebook
@@ -26,12 +26,12 @@ class TurtleView {
     this.visible = true;
     this.frame = 0;
     this.frames = 0;
-    this.lag = 0; // ms by which the tape's clock is ahead of the page's
+    this.lag = 0; // ms by which the recording's clock is ahead of the page's
     this.tabled = -TABLE;
     this.kept = 0;
     this.#build();
-    this.film = new Film(/** @type {CanvasRenderingContext2D} */ (this.paper.getContext("2d")));
-    this.film.load(copy(model.get("tape")));
+    this.player = new Player(/** @type {CanvasRenderingContext2D} */ (this.paper.getContext("2d")));
+    this.player.load(copy(model.get("recorded")));
     model.on("msg:custom", (/** @type {any} */ content) => this.#hear(content));
     model.on("change:notice", () => this.#drawBanner());
     this.#watch(signal);
@@ -76,17 +76,17 @@ class TurtleView {
 
   /** @param {any} content */
   #hear(content) {
-    if (content.kind === "tape") {
-      const at = this.following ? Infinity : this.film.time;
-      this.film.load(content.tape);
+    if (content.kind === "recording") {
+      const at = this.following ? Infinity : this.player.time;
+      this.player.load(content.recording);
       this.#clock(content.now);
-      if (at !== Infinity) this.film.goTo(at);
+      if (at !== Infinity) this.player.goTo(at);
     } else if (content.kind === "rows") {
-      const tape = this.film.tape;
-      if (content.start !== tape.rows.length) return void send(this.model, { kind: "resend" });
-      tape.rows.push(...content.rows);
-      tape.names = content.names;
-      tape.palette = content.palette;
+      const recording = this.player.recording;
+      if (content.start !== recording.rows.length) return void send(this.model, { kind: "resend" });
+      recording.rows.push(...content.rows);
+      recording.names = content.names;
+      recording.palette = content.palette;
       this.#clock(content.now);
     } else return;
     this.#run();
@@ -94,12 +94,12 @@ class TurtleView {
 
   /** @param {number} now */
   #clock(now) {
-    this.film.tape.length = Math.max(this.film.tape.length, now);
+    this.player.recording.length = Math.max(this.player.recording.length, now);
     const lag = now - performance.now();
     this.lag = Math.abs(lag - this.lag) > 1000 ? lag : Math.max(lag, this.lag - 1);
     if (performance.now() - this.kept > KEPT) {
       this.kept = performance.now();
-      this.model.set("tape", copy(this.film.tape)); // only here: this is what a saved notebook keeps
+      this.model.set("recorded", copy(this.player.recording)); // only here: this is what a saved notebook keeps
     }
   }
 
@@ -115,7 +115,7 @@ class TurtleView {
   #toEnd() {
     this.following = this.live;
     this.replay.stop();
-    this.film.goTo(this.film.tape.length);
+    this.player.goTo(this.player.recording.length);
     this.#draw();
   }
 
@@ -128,7 +128,7 @@ class TurtleView {
   /** Show a moment of what was. @param {number} time */
   #show(time) {
     this.following = false;
-    this.film.goTo(time);
+    this.player.goTo(time);
     this.#draw();
   }
 
@@ -142,11 +142,11 @@ class TurtleView {
   #step(now) {
     this.frame = 0;
     if (!this.el.isConnected && this.frames > 0) return;
-    const tape = this.film.tape;
-    const end = tape.rows.length ? tape.rows[tape.rows.length - 1][0] : 0;
-    if (this.following) this.film.goTo(Math.max(now + this.lag - DELAY, 0));
+    const recording = this.player.recording;
+    const end = recording.rows.length ? recording.rows[recording.rows.length - 1][0] : 0;
+    if (this.following) this.player.goTo(Math.max(now + this.lag - DELAY, 0));
     this.#draw();
-    if (this.following && this.film.time <= end + DELAY && this.visible) this.frame = requestAnimationFrame((next) => this.#step(next));
+    if (this.following && this.player.time <= end + DELAY && this.visible) this.frame = requestAnimationFrame((next) => this.#step(next));
   }
 
   #draw() {
@@ -155,17 +155,17 @@ class TurtleView {
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.drawImage(this.paper, 0, 0);
     pen.setTransform(this.scale, 0, 0, this.scale, 0, 0);
-    this.replay.be(this.film.time, this.film.tape.length, this.film.tape.rows.length > 0);
-    const places = this.film.places();
+    this.replay.be(this.player.time, this.player.recording.length, this.player.recording.rows.length > 0);
+    const places = this.player.places();
     const dark = this.#darkText();
-    for (const [turtle, place] of places) drawTurtle(pen, place, BODIES[turtle % BODIES.length], this.film.tape.names[turtle], dark);
+    for (const [turtle, place] of places) drawTurtle(pen, place, BODIES[turtle % BODIES.length], this.player.recording.names[turtle], dark);
     if (performance.now() - this.tabled > TABLE || !this.frame) this.#drawFacts(places);
   }
 
   /** @param {[number, Place][]} places */
   #drawFacts(places) {
     this.tabled = performance.now();
-    const names = this.film.tape.names;
+    const names = this.player.recording.names;
     const sorted = [...places].sort(([one], [other]) => names[one].localeCompare(names[other], undefined, { numeric: true }));
     while (this.body.rows.length > sorted.length) this.body.lastElementChild?.remove();
     while (this.body.rows.length < sorted.length)
@@ -180,11 +180,11 @@ class TurtleView {
     setAttribute(this.canvas, "aria-label", words.length ? `The turtles' world: ${words.join("; ")}` : "The turtles' world, empty");
     say(this.empty, words.length ? "x and y in metres from the lower left, θ in radians" : this.live
       ? "No turtle is on the graph. Start turtlesim_node; they appear here by themselves." : "No turtle was recorded.");
-    this.#drawTape();
+    this.#drawRecording();
     this.el.dataset.frames = String(this.frames);
   }
 
-  #drawTape() {
+  #drawRecording() {
     this.replay.show();
     setAttribute(this.now, "hidden", !this.live);
     setAttribute(this.now, "disabled", this.following);
@@ -197,12 +197,12 @@ class TurtleView {
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(notice));
     setAttribute(this.banner, "hidden", !text);
-    this.#drawTape();
+    this.#drawRecording();
   }
 
   /** Whether dark letters read better on this paper. */
   #darkText() {
-    const [red, green, blue] = this.film.tape.background;
+    const [red, green, blue] = this.player.recording.background;
     return 0.299 * red + 0.587 * green + 0.114 * blue > 140;
   }
 }

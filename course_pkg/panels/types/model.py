@@ -1,19 +1,91 @@
-"""What a type browser knows, with no page, no kernel and no ROS: which types there are, and which is open."""
+"""The state of a type browser, without page, kernel or ROS: which types there are, and which one is open."""
 
 from __future__ import annotations
 
 import threading
 from collections import defaultdict
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, TypedDict
 
-from course_pkg.interfaces import Half, list_message_types, list_service_types
-from course_pkg.panels.types.description import State, described
+from course_pkg.errors import InterfaceError
+from course_pkg.types import (
+    DefinitionKind,
+    Field,
+    Kind,
+    MessageType,
+    ServiceType,
+    definition_file,
+    list_message_types,
+    list_service_types,
+    message_type,
+    read_definition,
+    service_type,
+    type_in_file,
+)
 
 if TYPE_CHECKING:
-    from course_pkg.graph import Snapshot
+    from course_pkg.ros import Snapshot
 
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]  # service types, message types
+TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
+CHANGED = (
+    "The file has changed since the type was built: what is shown is what programs here still use. Build it "
+    "again with catkin_make, and restart the kernel."
+)
+UNBUILT = (
+    "Not built yet: ROS's tools show it from its file, but the import works only after catkin_make, in a "
+    "terminal or kernel that has sourced the workspace."
+)
+NO_FILE = "No file of it is on ROS_PACKAGE_PATH: it is known only as it was built."
+
+
+class FieldNode(TypedDict):
+    """A field; for a message, a time, or an array of these, `fields` are the fields inside it."""
+
+    name: str
+    type: str
+    help: str
+    fields: list[FieldNode]
+
+
+class Part(TypedDict):
+    """A request, a response or a message."""
+
+    title: str
+    help: str
+    fields: list[FieldNode]
+    constants: list[dict[str, str]]
+
+
+class TypeState(TypedDict):
+    """A type for the page; `problem` says why it cannot be read, `warning` what to consider.
+
+    A type that cannot be read still has its file and its text. `lines` are commands to copy.
+    """
+
+    name: str
+    half: DefinitionKind
+    problem: str
+    warning: str
+    parts: list[Part]
+    md5: str
+    built: bool
+    file: str
+    text: str
+    lines: list[dict[str, str]]
+
+
+class PackageTypes(TypedDict):
+    """A package with the short names of its service and message types."""
+
+    name: str
+    srv: list[str]
+    msg: list[str]
+
+
+Use = dict[str, str | list[str]]  # a service or topic: its name, and its nodes by what they do
+Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
 
 def catalogue() -> Catalogue:
@@ -21,37 +93,104 @@ def catalogue() -> Catalogue:
     return tuple(list_service_types()), tuple(list_message_types())
 
 
-class TypeModel:
-    """Lists types, shows one, and says who offers it now.
+def described(name: str, half: DefinitionKind) -> TypeState:
+    """Return what the page shows of a type."""
+    file = _file(name, half)
+    state: TypeState = {
+        "name": name,
+        "half": half,
+        "problem": "",
+        "warning": "",
+        "parts": [],
+        "md5": "",
+        "built": True,
+        "file": str(file or ""),
+        "text": read_definition(file) if file else "",
+        "lines": lines(name, half),
+    }
+    try:
+        found = service_type(name) if half == "srv" else message_type(name)
+    except InterfaceError as error:
+        return {**state, "problem": str(error)}
+    halves = (found,) if isinstance(found, MessageType) else (found.request, found.response)
+    titles = ("Fields",) if half == "msg" else ("Request", "Response")
+    return {
+        **state,
+        "md5": found.md5,
+        "built": found.built,
+        "text": state["text"] or found.text,
+        "parts": [_part(title, each) for title, each in zip(titles, halves, strict=True)],
+        "warning": _warning(found, half, file),
+    }
 
-    `changed` hears by keyword of `packages` (the types of each, by half), `described` (the open type, see
-    there), and `offers` (who has which type on the graph now, by half and type).
+
+def lines(name: str, half: DefinitionKind) -> list[dict[str, str]]:
+    """Return the lines to copy: for a terminal, and for Python."""
+    package, _, short = name.partition("/")
+    tool = TOOLS[half]
+    return [
+        {"label": "fields, in a terminal", "text": f"{tool} show {name}"},
+        {"label": "MD5, in a terminal", "text": f"{tool} md5 {name}"},
+        {"label": "import, in Python", "text": f"from {package}.{half} import {short}"},
+    ]
+
+
+def packages(known: Catalogue) -> list[PackageTypes]:
+    """Return the packages that have types, sorted by name."""
+    found: dict[str, PackageTypes] = {}
+    for half, names in zip(("srv", "msg"), known, strict=True):
+        for name in names:
+            package, _, short = name.partition("/")
+            types = found.setdefault(package, {"name": package, "srv": [], "msg": []})
+            types["srv" if half == "srv" else "msg"].append(short)
+    return [found[package] for package in sorted(found)]
+
+
+def offers(snapshot: Snapshot) -> Offers:
+    """Return what has which type now: for a service type its services, for a message type its topics."""
+    services: dict[str, list[Use]] = defaultdict(list)
+    topics: dict[str, list[Use]] = defaultdict(list)
+    for service in snapshot.services:
+        services[service.type].append({"name": service.name, "served by": [service.node]})
+    for topic in snapshot.topics:
+        published, subscribed = list(topic.publishers), list(topic.subscribers)
+        topics[topic.type].append(
+            {"name": topic.name, "published by": published, "subscribed by": subscribed}
+        )
+    return {"srv": {k: v for k, v in services.items() if k}, "msg": {k: v for k, v in topics.items() if k}}
+
+
+class TypeModel:
+    """Lists types, shows one, and says which nodes use it now.
+
+    `changed` gets by keyword `packages` (the types of each package), `described` (the open type), and
+    `offers` (what has which type on the graph now).
     """
 
     def __init__(
         self,
         changed: Callable[..., None],
         *,
-        describe: Callable[[str, Half], State] = described,
+        describe: Callable[[str, DefinitionKind], TypeState] = described,
         turn: threading.RLock | None = None,
     ) -> None:
         self._changed = changed
         self._describe = describe
         self._turn = turn or threading.RLock()
         self._known: Catalogue = ((), ())
-        self._open: tuple[str, Half] | None = None
-        self._described: State = {}
+        self._open: tuple[str, DefinitionKind] | None = None
+        self._described: TypeState | None = None
 
-    def know(self, known: Catalogue) -> None:
-        """Take in which types there are now; the open one is read again, since its file may have changed."""
+    def update(self, known: Catalogue) -> None:
+        """Take in which types there are now; read the open one again, because its file may have changed."""
         with self._turn:
             if known != self._known:
                 self._known = known
                 self._changed(packages=packages(known))
             self._show()
 
-    def open(self, name: str, half: Half | None = None) -> None:
-        """Show a type; without `half` a service type, or else a message type of this name."""
+    def open(self, name: str, half: DefinitionKind | None = None) -> None:
+        """Show a type; without `half` the service type of this name, or else the message type."""
         with self._turn:
             self._open = (name, half or self._half(name))
             self._show()
@@ -59,14 +198,14 @@ class TypeModel:
     @property
     def file(self) -> str:
         """The file of the open type, "" if it has none or no type is open."""
-        return str(self._described.get("file", ""))
+        return self._described["file"] if self._described else ""
 
     def see(self, snapshot: Snapshot) -> None:
         """Take in who is on the graph now."""
         with self._turn:
             self._changed(offers=offers(snapshot))
 
-    def _half(self, name: str) -> Half:
+    def _half(self, name: str) -> DefinitionKind:
         services, messages = self._known
         return "msg" if name in messages and name not in services else "srv"
 
@@ -79,23 +218,35 @@ class TypeModel:
             self._changed(described=now)
 
 
-def packages(known: Catalogue) -> list[State]:
-    """Return the packages that have types, sorted, each with the short names of its types."""
-    found: dict[str, dict[str, list[str]]] = defaultdict(lambda: {"srv": [], "msg": []})
-    for half, names in zip(("srv", "msg"), known, strict=True):
-        for name in names:
-            package, _, short = name.partition("/")
-            found[package][half].append(short)
-    return [{"name": package, **found[package]} for package in sorted(found)]
+def _file(name: str, half: DefinitionKind) -> Path | None:
+    try:
+        return definition_file(name, half)
+    except InterfaceError:
+        return None  # not the name of a type at all
 
 
-def offers(snapshot: Snapshot) -> State:
-    """Return who has which type now: for a service type its services, for a message type its topics."""
-    services: dict[str, list[Any]] = defaultdict(list)
-    topics: dict[str, list[Any]] = defaultdict(list)
-    for service in snapshot.services:
-        services[service.type].append({"name": service.name, "served by": [service.node]})
-    for topic in snapshot.topics:
-        ends = {"published by": list(topic.publishers), "subscribed by": list(topic.subscribers)}
-        topics[topic.type].append({"name": topic.name, **ends})
-    return {"srv": {k: v for k, v in services.items() if k}, "msg": {k: v for k, v in topics.items() if k}}
+def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path | None) -> str:
+    if not found.built:
+        return UNBUILT
+    if file is None:
+        return NO_FILE
+    try:
+        return CHANGED if type_in_file(found.name, half).md5 != found.md5 else ""
+    except InterfaceError as error:
+        return f"{CHANGED} As it is now, it cannot be built: {error}"
+
+
+def _part(title: str, message: MessageType) -> Part:
+    constants = [
+        {"name": each.name, "type": each.type, "value": str(each.value)} for each in message.constants
+    ]
+    return {"title": title, "help": message.help, "fields": _tree(message.fields), "constants": constants}
+
+
+def _tree(fields: Sequence[Field]) -> list[FieldNode]:
+    return [_node(each) for each in fields]
+
+
+def _node(field: Field) -> FieldNode:
+    inner = field.item if field.kind is Kind.ARRAY and field.item else field
+    return {"name": field.name, "type": field.type, "help": field.help, "fields": _tree(inner.fields)}

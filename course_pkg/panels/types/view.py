@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from traitlets import Dict, List, Unicode
 
-from course_pkg.graph import Snapshot, look
-from course_pkg.panels.follower import Follower
-from course_pkg.panels.panel import Panel
+from course_pkg.panels.panel import PageMessage, Panel
+from course_pkg.panels.poller import Poller
 from course_pkg.panels.types.model import Catalogue, TypeModel, catalogue
+from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
-CALM = 3.0  # s between two looks at the files
-SHARE = 50  # a look at a thousand packages takes long: it is to cost no more than a 50th of the time
+PAUSE = 3.0  # s between two looks at the files
+SHARE = 50  # listing a thousand packages takes long, so it may take a 50th of the time and no more
 
-Sight = tuple[Catalogue, int]
+Files = tuple[Catalogue, int]  # the types, and the time at which the file of the open one was written (ns)
 
 
 class TypeBrowser(Panel):
@@ -31,10 +31,10 @@ class TypeBrowser(Panel):
     shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css",)
     style_sheet: ClassVar[Path] = HERE / "types.css"
 
-    packages: List[Any] = List(help="the packages with their types, by half").tag(sync=True)
+    packages = List(Dict(), help="the packages with their types").tag(sync=True)
     described = Dict(help="the type that is open").tag(sync=True)
-    offers = Dict(help="who has which type on the graph now").tag(sync=True)
-    trouble = Unicode(help="why the graph cannot be seen").tag(sync=True)
+    offers = Dict(help="what has which type on the graph now").tag(sync=True)
+    trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
 
     def __init__(self, name: str | None = None) -> None:
         super().__init__()
@@ -42,8 +42,8 @@ class TypeBrowser(Panel):
         self._known: Catalogue = ((), ())
         self._not_before = 0.0  # s of time.monotonic()
         self._model = TypeModel(self.publish, turn=self.turn)
-        self._graph: Follower[Snapshot] = Follower(look, self._saw, self._lost)
-        self._files: Follower[Sight] = Follower(self._list, self._know, self.complain, every=CALM)
+        self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)
+        self._files: Poller[Files] = Poller(self._list, self._listed, self.complain, every=PAUSE)
         with self.turn, self.hold_sync():
             self._files.once()
             if name is not None:
@@ -56,11 +56,11 @@ class TypeBrowser(Panel):
         self._graph.start()
 
     def hidden(self) -> None:
-        """Leave both alone."""
+        """Stop following both."""
         self._files.stop()
         self._graph.stop()
 
-    def received(self, kind: str, content: dict[str, Any]) -> None:
+    def received(self, kind: str, content: PageMessage) -> None:
         """Answer a click on a type."""
         if kind == "open":
             self._model.open(str(content["name"]), "msg" if content["half"] == "msg" else "srv")
@@ -68,22 +68,22 @@ class TypeBrowser(Panel):
     def __repr__(self) -> str:
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
-    def _list(self) -> Sight:
-        """Look at which types there are, and when the file of the open one was written."""
+    def _list(self) -> Files:
+        """Return which types there are, and when the file of the open one was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()
             self._not_before = began + SHARE * (time.monotonic() - began)
         return self._known, _written(self._model.file)
 
-    def _know(self, sight: Sight) -> None:
-        self._model.know(sight[0])
+    def _listed(self, files: Files) -> None:
+        self._model.update(files[0])
 
-    def _saw(self, snapshot: Snapshot) -> None:
+    def _seen(self, snapshot: Snapshot) -> None:
         self.publish(trouble="")
         self._model.see(snapshot)
 
-    def _lost(self, error: Exception) -> None:
+    def _failed(self, error: Exception) -> None:
         self.publish(trouble=str(error), offers={})
 
 

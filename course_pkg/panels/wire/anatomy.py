@@ -1,4 +1,4 @@
-"""The bytes of TCPROS taken apart: connection headers, requests, replies.
+"""The bytes of TCPROS taken apart: the frames of a stream, and the pieces of a header, a request and a reply.
 
 http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte), http://wiki.ros.org/ROS/Connection%20Header (the
 fields), http://wiki.ros.org/msg (how the fields of a message lie in memory). All numbers are little-endian.
@@ -7,18 +7,79 @@ fields), http://wiki.ros.org/msg (how the fields of a message lie in memory). Al
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from course_pkg.interfaces import Field, Kind, MessageType
-from course_pkg.interfaces.fields import integer_range
-from course_pkg.interfaces.numbers import float32
-from course_pkg.panels.wire.pieces import BAD, KEY, LENGTH, MD5, OK, RAW, VALUE, WORDS, Reader, ShortOfBytes
+from course_pkg.panels.wire.pieces import (
+    BAD,
+    KEY,
+    LENGTH,
+    MD5,
+    OK,
+    RAW,
+    TEXT,
+    VALUE,
+    PieceState,
+    Reader,
+    ShortOfBytes,
+)
+from course_pkg.ros.protocol.probe import header_fields
+from course_pkg.types import Field, Kind, MessageType
+from course_pkg.types.fields import integer_range
+from course_pkg.types.numbers import float32
 
-ERROR = 400  # characters of an error's words
+ERROR = 400  # characters of an error message
 ITEMS = 8  # elements of an array that are shown one by one
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}  # of struct, for signed integers; in capitals for unsigned ones
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 
-Pieces = list[dict[str, object]]
+Pieces = list[PieceState]
+
+
+class Frame(NamedTuple):
+    """One message; `at` is its offset in the stream. One that was cut off ends where the bytes end."""
+
+    at: int
+    data: bytes
+
+
+def the_header(stream: bytes) -> Frame | None:
+    """Return the connection header with its length, or None if the stream is empty."""
+    return _frame(stream, 0, 0)
+
+
+def header_values(stream: bytes) -> dict[str, str]:
+    """Return the fields of the connection header."""
+    header = the_header(stream)
+    return header_fields(header.data) if header else {}
+
+
+def requests(stream: bytes) -> Iterator[Frame]:
+    """Yield what a client sent after its header."""
+    yield from _frames(stream, 0)
+
+
+def replies(stream: bytes) -> Iterator[Frame]:
+    """Yield what a server sent after its header, each reply with its ok byte."""
+    yield from _frames(stream, 1)
+
+
+def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
+    header = the_header(stream)
+    at = len(header.data) if header else 0
+    while frame := _frame(stream, at, extra):
+        yield frame
+        at += len(frame.data)
+
+
+def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
+    """Return the frame at `at`, whose length comes after `extra` bytes."""
+    if at >= len(stream):
+        return None
+    if at + extra + 4 > len(stream):
+        return Frame(at, stream[at:])
+    (length,) = struct.unpack_from("<I", stream, at + extra)
+    return Frame(at, stream[at : at + extra + 4 + length])
 
 
 def header_pieces(data: bytes) -> Pieces:
@@ -29,7 +90,7 @@ def header_pieces(data: bytes) -> Pieces:
         while reader.rest:
             _header_field(reader)
     except ShortOfBytes:
-        pass  # what is left is shown as it is
+        pass  # close() shows the rest
     return reader.close()
 
 
@@ -45,7 +106,7 @@ def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
 
 
 def reply_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Take a reply apart: the ok byte, a length, and the response's fields or the words of the error."""
+    """Take a reply apart: the ok byte, a length, and the response's fields or the error message."""
     reader = Reader(data)
     try:
         worked = data[:1] == b"\1"
@@ -69,7 +130,7 @@ def _header_field(reader: Reader) -> None:
     role = {"md5sum": MD5, "error": BAD}.get(name, KEY)
     at = reader.at
     reader.take(count, role, name, "name=value")
-    reader.say(at, value, ERROR if role == BAD else WORDS)
+    reader.say(at, value, ERROR if role == BAD else TEXT)
 
 
 def _body(reader: Reader, kind: MessageType | None) -> None:

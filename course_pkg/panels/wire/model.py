@@ -1,42 +1,78 @@
 """What the wire view shows, as plain data: the steps of a call, each with the pieces of its bytes.
 
-Knows no master and no page; it takes what graph/wiretap.py took down.
+It needs no master and no page: its input is what ros/wire/capture.py recorded.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypedDict
 
 from course_pkg.errors import CourseError
-from course_pkg.interfaces import MessageType, ServiceType, service_type
-from course_pkg.panels.wire.anatomy import Pieces, header_pieces, reply_pieces, request_pieces
-from course_pkg.panels.wire.frames import Frame, replies, requests, said_first, the_header
+from course_pkg.panels.wire.anatomy import (
+    Frame,
+    Pieces,
+    header_pieces,
+    header_values,
+    replies,
+    reply_pieces,
+    request_pieces,
+    requests,
+    the_header,
+)
 from course_pkg.panels.wire.pieces import shortened
+from course_pkg.types import MessageType, ServiceType, service_type
 
 if TYPE_CHECKING:
-    from course_pkg.graph.relay import Conversation
-    from course_pkg.graph.wiretap import Wire
+    from course_pkg.ros.wire.capture import Wire
+    from course_pkg.ros.wire.relay import RelayedConnection
 
-STEPS = 60  # of a tap that many calls went through
-XML = 900  # characters of what the master is asked and answers
+STEPS = 60  # of a capture of many calls
+XML = 900  # characters of a request to the master, or of its response
 
-State = dict[str, Any]
-Step = dict[str, Any]
-Find = Callable[[str], ServiceType]
+FindType = Callable[[str], ServiceType]
+
+_Ends = TypedDict("_Ends", {"from": str, "to": str})
 
 
-def state(wire: Wire, find: Find = service_type) -> State:
-    """Return all that the page needs; times are in ms from the first thing that happened.
+class Step(_Ends):
+    """A step of a call, `ms` after the first; `says` explains it, `bad` marks an error.
+
+    `pieces` are those of its `size` bytes; the look-up has a `text` instead. `connection` is 0 if there is
+    only one.
+    """
+
+    title: str
+    ms: float
+    says: str
+    size: int
+    pieces: Pieces
+    text: str
+    bad: bool
+    connection: int
+
+
+class WireState(TypedDict):
+    """A captured call for the page, with the names of client, server and master; `outcome` is its error."""
+
+    service: str
+    names: dict[str, str]
+    steps: list[Step]
+    outcome: str
+    notes: list[str]
+
+
+def state(wire: Wire, find: FindType = service_type) -> WireState:
+    """Return what the page needs of a capture.
 
     `find` returns the type of a name, for connections whose type only their headers tell.
     """
-    begun = min((each.opened for each in _all(wire)), default=0.0)
-    steps = list(_look_up(wire, begun))
-    for number, conversation in enumerate(wire.conversations, start=1):
-        of_several = number if len(wire.conversations) > 1 else 0
-        steps += _Spoken(conversation, of_several, wire, begun, find).steps()
+    start = min((each.opened for each in _all(wire)), default=0.0)
+    steps = list(_look_up(wire, start))
+    for number, connection in enumerate(wire.connections, start=1):
+        of_several = number if len(wire.connections) > 1 else 0
+        steps += _ConnectionSteps(connection, of_several, wire, start, find).steps()
     return {
         "service": wire.service,
         "names": _names(wire),
@@ -46,16 +82,16 @@ def state(wire: Wire, find: Find = service_type) -> State:
     }
 
 
-def _all(wire: Wire) -> list[Conversation]:
-    return [*([wire.lookup] if wire.lookup else []), *wire.conversations]
+def _all(wire: Wire) -> list[RelayedConnection]:
+    return [*([wire.lookup] if wire.lookup else []), *wire.connections]
 
 
 def _names(wire: Wire) -> dict[str, str]:
-    """Return who is at both ends, as they call themselves in the first headers that say so."""
+    """Return the names of both ends, as their first connection headers have them."""
     names = {"client": "the client", "server": "the server", "master": "master"}
-    for conversation in reversed(wire.conversations):
+    for connection in reversed(wire.connections):
         for end, by_client in (("client", True), ("server", False)):
-            said = said_first(conversation.said(by_client=by_client)).get("callerid")
+            said = header_values(connection.data(from_client=by_client)).get("callerid")
             names[end] = said or names[end]
     return names
 
@@ -63,28 +99,50 @@ def _names(wire: Wire) -> dict[str, str]:
 def _notes(wire: Wire, steps: int) -> Iterator[str]:
     if steps > STEPS:
         yield f"Shown are the first {STEPS} of {steps} steps."
-    if wire.missed:
-        yield f"{wire.missed} more connections were passed on and not taken down."
+    if wire.skipped:
+        yield f"{wire.skipped} more connections were passed on and not taken down."
     if lost := sum(each.lost for each in _all(wire)):
         yield f"{lost:,} bytes more were passed on and not taken down."
 
 
-def _step(title: str, source: str, to: str, seconds: float, **more: Any) -> Step:  # noqa: ANN401
-    blank = {"says": "", "size": 0, "pieces": [], "text": "", "bad": False, "connection": 0}
-    return {"title": title, "from": source, "to": to, "ms": round(seconds * 1000, 3), **blank, **more}
+def _step(
+    title: str,
+    source: str,
+    to: str,
+    seconds: float,
+    says: str,
+    *,
+    size: int = 0,
+    pieces: Pieces | None = None,
+    text: str = "",
+    bad: bool = False,
+    connection: int = 0,
+) -> Step:
+    return {
+        "title": title,
+        "from": source,
+        "to": to,
+        "ms": round(seconds * 1000, 3),
+        "says": says,
+        "size": size,
+        "pieces": pieces or [],
+        "text": text,
+        "bad": bad,
+        "connection": connection,
+    }
 
 
-def _look_up(wire: Wire, begun: float) -> Iterator[Step]:
-    spoken = wire.lookup
-    if spoken is None:
+def _look_up(wire: Wire, start: float) -> Iterator[Step]:
+    connection = wire.lookup
+    if connection is None:
         return
-    asked, answered = spoken.said(by_client=True), spoken.said(by_client=False)
-    offset = spoken.opened - begun
+    asked, answered = connection.data(from_client=True), connection.data(from_client=False)
+    offset = connection.opened - start
     yield _step(
         f"Look-up: where is {wire.service}?",
         "client",
         "master",
-        offset + spoken.since(0, by_client=True),
+        offset + connection.since(0, from_client=True),
         says="XML-RPC: a method and its arguments as XML, sent by HTTP. Only the look-up goes to the master.",
         size=len(asked),
         text=_xml(asked),
@@ -94,7 +152,7 @@ def _look_up(wire: Wire, begun: float) -> Iterator[Step]:
         f"It is at {wire.uri}" if there else "Nobody serves it",
         "master",
         "client",
-        offset + spoken.since(0, by_client=False),
+        offset + connection.since(0, from_client=False),
         says=(
             "The address of the server, and nothing else: from here on the master has no part in the call."
             if there
@@ -112,31 +170,43 @@ def _xml(http: bytes) -> str:
     return shortened(re.sub(r"\s*\n\s*", "", body).replace("><", ">\n<"), XML)
 
 
-class _Spoken:
+class _ConnectionSteps:
     """One connection, as steps."""
 
-    def __init__(self, conversation: Conversation, number: int, wire: Wire, begun: float, find: Find) -> None:
-        self._spoken = conversation
+    def __init__(
+        self, connection: RelayedConnection, number: int, wire: Wire, start: float, find: FindType
+    ) -> None:
+        self._connection = connection
         self._number = number
         self._wire = wire
-        self._offset = conversation.opened - begun
+        self._offset = connection.opened - start
         self._find = find
-        self._sent = conversation.said(by_client=True)
-        self._came = conversation.said(by_client=False)
-        self._asked, self._answered = said_first(self._sent), said_first(self._came)
+        self._sent = connection.data(from_client=True)
+        self._came = connection.data(from_client=False)
+        self._asked, self._answered = header_values(self._sent), header_values(self._came)
 
     def steps(self) -> list[Step]:
         """Return all of them, in order."""
         return [*self._opening(), *self._headers(), *self._calls(), *self._ending()]
 
-    def _at(self, title: str, by_client: bool, at: int, **more: Any) -> Step:  # noqa: ANN401
+    def _at(
+        self,
+        title: str,
+        by_client: bool,
+        at: int,
+        says: str,
+        *,
+        size: int = 0,
+        pieces: Pieces | None = None,
+        bad: bool = False,
+    ) -> Step:
         ends = ("client", "server") if by_client else ("server", "client")
-        seconds = self._offset + self._spoken.since(at, by_client=by_client)
-        return _step(title, *ends, seconds, connection=self._number, **more)
+        seconds = self._offset + self._connection.since(at, from_client=by_client)
+        return _step(title, *ends, seconds, says, size=size, pieces=pieces, bad=bad, connection=self._number)
 
     def _opening(self) -> Iterator[Step]:
         where = self._wire.uri.rpartition("/")[2] or "the server"
-        refused = self._spoken.refused
+        refused = self._connection.refused
         title = f"Nobody takes the connection at {where}" if refused else f"Connects to {where}"
         says = (
             f"{refused}. Somebody was there once, and the master still has the address."
@@ -156,8 +226,8 @@ class _Spoken:
             refused = "error" in self._answered
             title = "The server refuses the connection" if refused else "Connection header of the server"
             says = (
-                "A header with the one field error: the reason in words. Then the server hangs up, and no "
-                "request is ever sent."
+                "A header with one field, error: the reason as text. Then the server closes the "
+                "connection, and the client sends no request."
                 if refused
                 else "Who answers, and of which type the service is. The MD5 is the same: a request may come."
             )
@@ -199,21 +269,23 @@ class _Spoken:
             "Response" if worked else "Error", False, reply, pieces, says=says, bad=not worked
         )
 
-    def _framed(self, title: str, by_client: bool, frame: Frame, pieces: Pieces, **more: Any) -> Step:  # noqa: ANN401
-        return self._at(title, by_client, frame.at, size=len(frame.data), pieces=pieces, **more)
+    def _framed(
+        self, title: str, by_client: bool, frame: Frame, pieces: Pieces, says: str, bad: bool = False
+    ) -> Step:
+        return self._at(title, by_client, frame.at, says, size=len(frame.data), pieces=pieces, bad=bad)
 
     def _ending(self) -> Iterator[Step]:
-        if not self._spoken.closed_by:
+        if not self._connection.closed_by:
             return
-        by_client = self._spoken.closed_by == "client"
+        by_client = self._connection.closed_by == "client"
         lost = self._unanswered()
         title = "The connection is closed"
         if lost:
-            title = "The client gives up" if by_client else "The server hangs up without an answer"
-        says = self._farewell(lost)
-        yield self._at(title, by_client or not lost, 1 << 62, says=says, bad=lost)
+            title = "The client gives up" if by_client else "The server closes without a response"
+        says = self._ending_says(lost)
+        yield self._at(title, by_client or not lost, 1 << 62, says, bad=lost)
 
-    def _farewell(self, lost: bool) -> str:
+    def _ending_says(self, lost: bool) -> str:
         if lost and not self._came:
             return "Not one byte came back. Somebody took the connection, and did not speak."
         if lost:

@@ -1,6 +1,6 @@
-"""The pieces that bytes consist of, each with its place, what it is called, and what it says; and a reader.
+"""The pieces that bytes consist of, each with its place, name and value; and a reader that finds them.
 
-Whatever is long is folded: a page shows the beginning of it, and says how much there is.
+A long piece is folded: a page shows its beginning and its length.
 """
 
 from __future__ import annotations
@@ -9,17 +9,31 @@ import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import TypedDict
 
 SHOWN = 144  # bytes of one piece
 MOST = 160  # pieces of one message
-WORDS = 80  # characters of a value
+TEXT = 80  # characters of a value
 
 LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "bad", "value", "raw", "group"
 
 
+class PieceState(TypedDict):
+    """A piece for the page."""
+
+    role: str
+    at: int
+    size: int
+    depth: int
+    name: str
+    type: str
+    value: str
+    hex: str
+
+
 @dataclass(frozen=True)
 class Piece:
-    """Bytes that say one thing; a GROUP has none of its own, and heads those that lie within it.
+    """Bytes with one meaning; a GROUP has no bytes of its own, and is the heading of the pieces inside it.
 
     `at` is the offset in the message, `size` the bytes it has there; `depth` how far it is indented.
     """
@@ -33,15 +47,22 @@ class Piece:
     depth: int = 0
     size: int = -1
 
-    def as_dict(self) -> dict[str, object]:
-        """Return it as data for the page."""
-        size = len(self.data) if self.size < 0 else self.size
-        plain = {"role": self.role, "at": self.at, "size": size, "depth": self.depth, "name": self.name}
-        return plain | {"type": self.type, "value": self.value, "hex": self.data[:SHOWN].hex()}
+    def state(self) -> PieceState:
+        """Return it for the page."""
+        return {
+            "role": self.role,
+            "at": self.at,
+            "size": len(self.data) if self.size < 0 else self.size,
+            "depth": self.depth,
+            "name": self.name,
+            "type": self.type,
+            "value": self.value,
+            "hex": self.data[:SHOWN].hex(),
+        }
 
 
 class ShortOfBytes(Exception):
-    """The bytes end before what they have to hold."""
+    """The bytes end before the piece that is to be read."""
 
 
 class Reader:
@@ -53,7 +74,7 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # where the pieces begin that are too many
+        self._folded: int | None = None  # the offset from which there are too many pieces
 
     @property
     def rest(self) -> int:
@@ -76,8 +97,8 @@ class Reader:
         self.say(at, str(number))
         return int(number)
 
-    def say(self, at: int, value: str, most: int = WORDS) -> None:
-        """Give the piece that was read last, if it begins at `at` and is kept, its value."""
+    def say(self, at: int, value: str, most: int = TEXT) -> None:
+        """Set the value of the piece that was read last, if it begins at `at` and is kept."""
         if self.pieces and self.pieces[-1].at == at and not self._silent:
             self.pieces[-1] = replace(self.pieces[-1], value=shortened(value, most))
 
@@ -96,7 +117,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """Make one piece of all that is read in the block."""
+        """Make one piece of everything that is read in the block."""
         start = self.at
         self._silent += 1
         try:
@@ -106,14 +127,14 @@ class Reader:
             if self.at > start:
                 self._keep(Piece(RAW, start, self.data[start : self.at], name, "", "", self.depth))
 
-    def close(self) -> list[dict[str, object]]:
-        """Return all pieces for the page; bytes that nobody read are the last one."""
+    def close(self) -> list[PieceState]:
+        """Return all pieces for the page; bytes that were not read are the last one."""
         if self.rest:
             self.take(self.rest, RAW, "the rest", "", "bytes that do not belong to anything before")
         if self._folded is not None:
             data = self.data[self._folded : self.at]
             self.pieces.append(Piece(RAW, self._folded, data, "and so on, folded"))
-        return [piece.as_dict() for piece in self.pieces]
+        return [piece.state() for piece in self.pieces]
 
     def _keep(self, piece: Piece) -> None:
         if self._silent:
@@ -124,6 +145,6 @@ class Reader:
             self._folded = piece.at
 
 
-def shortened(text: str, most: int = WORDS) -> str:
+def shortened(text: str, most: int = TEXT) -> str:
     """Return a text in at most `most` characters."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,28 +1,29 @@
-"""The wire view as a widget: nothing but a recorded call on its way to the page."""
+"""The wire view as a widget: it only passes a recorded call to the page."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from traitlets import Dict
 
 from course_pkg.panels.panel import Panel
 from course_pkg.panels.wire.model import state
+from course_pkg.types import Plain, ServiceClass, ServiceType
 
 if TYPE_CHECKING:
-    from course_pkg.graph.wiretap import Wire
+    from course_pkg.ros.wire.capture import Wire
 
 HERE = Path(__file__).parent
 
 
 class WireView(Panel):
-    """A real call, byte by byte: look-up, connection headers, request and reply, each piece beside its value.
+    """A real call, byte by byte: look-up, connection headers, request and reply, each piece with its value.
 
-    `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows it, also one that
+    `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows it, even if it
     fails. `kind` is a type other than the server's own, `headers` are more fields for the connection header.
-    `WireView(wire)` shows what a `Wiretap` took down. The protocol: http://wiki.ros.org/ROS/TCPROS and
+    `WireView(wire)` shows a recorded call. The protocol: http://wiki.ros.org/ROS/TCPROS and
     http://wiki.ros.org/ROS/Connection%20Header.
     """
 
@@ -35,24 +36,43 @@ class WireView(Panel):
     def __init__(
         self,
         call: str | Wire,
-        kind: Any = None,  # noqa: ANN401 -- a generated class, a ServiceType or a name
+        kind: str | ServiceType | ServiceClass | None = None,
         headers: Mapping[str, str] | None = None,
         /,
-        **fields: Any,  # noqa: ANN401 -- the fields of a request
+        **fields: Plain,
     ) -> None:
         self.wire = _recorded(call, kind, headers, fields) if isinstance(call, str) else call
         super().__init__()
         self.publish(exchange=state(self.wire))
 
-    def error_words(self) -> str:
-        """Return how the call failed, where the panel itself has not."""
-        return super().error_words() or str(self.exchange.get("outcome", ""))
+    @property
+    def from_client(self) -> bytes:
+        """The bytes that the client sent to the server; empty if there was no connection."""
+        return self._bytes(client=True)
+
+    @property
+    def from_server(self) -> bytes:
+        """The bytes that the server sent to the client; empty if there was no connection."""
+        return self._bytes(client=False)
+
+    def error_message(self) -> str:
+        """Return the error of the panel itself, or else that of the call."""
+        return super().error_message() or str(self.exchange.get("outcome", ""))
+
+    def _bytes(self, *, client: bool) -> bytes:
+        return b"".join(each.data(from_client=client) for each in self.wire.connections)
 
     def __repr__(self) -> str:
         return f"WireView({self.wire.service!r})"
 
 
-def _recorded(name: str, kind: Any, headers: Mapping[str, str] | None, fields: Mapping[str, Any]) -> Wire:  # noqa: ANN401
-    from course_pkg.graph.wiretap import record_call  # rospy, which a page of recorded calls does not need
+def _recorded(
+    name: str,
+    kind: str | ServiceType | ServiceClass | None,
+    headers: Mapping[str, str] | None,
+    fields: Mapping[str, Plain],
+) -> Wire:
+    # It imports rospy, which a page of recorded calls does not need.
+    from course_pkg.ros.wire.capture import record_call
 
     return record_call(name, kind, headers, fields)

@@ -1,7 +1,7 @@
 """canvas.csv, which the gradebook of Canvas imports.
 
-Canvas finds a student by the ID, else by one of the SIS columns; a column of points with a name that it does
-not know it offers as a new assignment. The second row holds the points that are possible.
+Canvas finds a student by the ID, else by one of the SIS columns; if it does not know the name of a column, it
+offers to create an assignment for it. The second row contains the highest possible points.
 """
 
 from __future__ import annotations
@@ -9,16 +9,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from course_pkg.grading import clean
-from course_pkg.grading.naming import CANVAS, number_of
-from course_pkg.grading.reports.book import Book, name_of, points
+from course_pkg.grading.intake.naming import CANVAS, number_of
 from course_pkg.grading.reports.files import put_table
+from course_pkg.grading.reports.gradebook import Book, name_of, points
 
 HEAD = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
 
 
 def write(book: Book, out: Path) -> None:
-    """Write canvas.csv; what was not handed in is empty, which leaves Canvas's own grade alone."""
-    suffix = "" if book.walls else ", run without walls"
+    """Write canvas.csv; a cell for a missing submission is empty, so Canvas keeps its own grade."""
+    suffix = "" if book.sandboxed else ", run without a sandbox"
     rows = [
         [*HEAD, *(f"Chapter {clean.line(chapter)}{suffix}" for chapter in book.chapters)],
         [

@@ -1,4 +1,4 @@
-"""class.html: how a class did, part by part, which hints it was given, and who needs a look."""
+"""class.html: the results of each part, the most frequent hints, and who needs attention."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from course_pkg.examiner.report import Verdict
+from course_pkg.checking.report import Verdict
+from course_pkg.files import write_atomically
 from course_pkg.grading import clean
-from course_pkg.grading.reports.book import (
-    WITHOUT_WALLS,
+from course_pkg.grading.reports.gradebook import (
+    WITHOUT_SANDBOX,
     Book,
     Column,
     attention,
@@ -19,37 +20,36 @@ from course_pkg.grading.reports.book import (
     points,
     report_of,
 )
-from course_pkg.grading.reports.files import put
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, table, text
 
 HINTS = 12
-UNWALLED = (
-    "Run without walls: nothing kept submissions from this machine, from their examiner or from one another. "
-    "Its points prove little."
+UNSANDBOXED = (
+    "Run without a sandbox: submissions had access to this machine, to their checks and to each other. "
+    "So the points may be wrong."
 )
 ABSENT = "\N{EN DASH}"
 
 
 def write(book: Book, out: Path) -> None:
     """Write class.html."""
-    put(out / "class.html", Frame().page("How the class did", _body(book)))
+    write_atomically(out / "class.html", Frame().page("Results of the class", _body(book)))
 
 
 def _body(book: Book) -> Iterator[str]:
-    yield "<h1>How the class did</h1>"
+    yield "<h1>Results of the class</h1>"
     yield paragraph(_summary(book), "lead")
-    yield "" if book.walls else banner("Not safe to rely on", [UNWALLED])
+    yield "" if book.sandboxed else banner("Not reliable", [UNSANDBOXED])
     if not book.grades:
         yield paragraph("Nothing was handed in, so there is nothing to show.")
         return
-    yield "<h2>Part by part</h2>"
+    yield "<h2>Results of each part</h2>"
     yield _key()
     for chapter in book.chapters:
         for column in book.columns_of(chapter):
             yield _spread(book, column)
-    yield "<h2>Hints given most often</h2>"
+    yield "<h2>Most frequent hints</h2>"
     yield _hints(book)
-    yield "<h2>Who needs a look</h2>"
+    yield "<h2>Students who need attention</h2>"
     yield _looks(book)
     yield "<h2>Everybody</h2>"
     yield _everybody(book)
@@ -71,7 +71,7 @@ def _key() -> str:
 
 
 def _spread(book: Book, column: Column) -> str:
-    """Return how a part went: a bar for the eye, the numbers in words."""
+    """Return the results of a part as a bar and as text."""
     reports = [report_of(book.grade(student, column.chapter), column.check) for student in book.students]
     verdicts = Counter(report.verdict for report in reports if report)
     there = sum(verdicts.values())
@@ -97,36 +97,37 @@ def _rects(verdicts: Counter[Verdict], there: int) -> str:
 
 
 def _hints(book: Book) -> str:
-    """Return the hints that most students were given, and the rules that had none to give."""
+    """Return the most frequent hints, and the failed assertions without a hint."""
     counts = Counter(
         hint
         for student in book.students
         for hint in {
-            (report.check, clean.line(rule.hint or f"(no hint) {rule.text}"))
+            (report.check, clean.line(assertion.hint or f"(no hint) {assertion.text}"))
             for grade in book.of(student)
             for report in grade.reports
-            for rule in report.rules
-            if not rule.holds
+            for assertion in report.assertions
+            if not assertion.holds
         }
     )
     if not counts:
-        return paragraph("None: every rule that was looked at holds.")
+        return paragraph("None: all assertions passed.")
     ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:HINTS]
     rows = [(text(check), text(hint), str(count)) for (check, hint), count in ranked]
-    return table("Each student counts once for each hint.", ["Part", "Hint", "Students"], rows, 1)
+    return table("Each student is counted once for each hint.", ["Part", "Hint", "Students"], rows, 1)
 
 
 def _looks(book: Book) -> str:
-    """Return who needs a look, the gravest first; then, folded away, notes about the others."""
+    """Return the students who need attention, the most serious first.
+
+    Then, collapsed, notes about the others.
+    """
     found = [(student, attention(book, student)) for student in book.students]
     grave = {student: reasons for student, reasons in found if reasons}
     ranked = sorted(grave, key=lambda student: (-_gravity(book, student), student))
     items = "".join(
         f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
     )
-    looks = (
-        f'<ul class="looks">{items}</ul>' if items else paragraph("Nobody: everything went its ordinary way.")
-    )
+    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("Nobody: there were no special cases.")
     others = [student for student in book.students if student not in grave and _known(book, student)]
     if not others:
         return looks
@@ -144,7 +145,7 @@ def _gravity(book: Book, student: str) -> int:
 
 
 def _known(book: Book, student: str) -> list[str]:
-    return [note for note in notes(book, student) if note != WITHOUT_WALLS]
+    return [note for note in notes(book, student) if note != WITHOUT_SANDBOX]
 
 
 def _listed(reasons: Sequence[str]) -> str:
@@ -152,7 +153,7 @@ def _listed(reasons: Sequence[str]) -> str:
 
 
 def _link(student: str) -> str:
-    """Return a link to the feedback page, whose name holds no letter that a link could misread."""
+    """Return a link to the feedback page; the name of the page needs no escapes."""
     return f'<a href="feedback/{clean.file_name(student or "nobody")}.html">{text(name_of(student))}</a>'
 
 

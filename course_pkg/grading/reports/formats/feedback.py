@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from course_pkg.examiner.report import Report, Rule, Verdict
+from course_pkg.checking.report import Assertion, Report, Verdict
+from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.reports.book import Book, about_lateness, name_of, of_points
-from course_pkg.grading.reports.files import put
+from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
 CELLS = 20  # of nbval's run that are listed
@@ -23,7 +23,7 @@ def write(book: Book, out: Path) -> None:
         grades = [grade.for_student() for grade in book.of(student)]
         title = f"Feedback for {name_of(student)}"
         path = out / "feedback" / f"{clean.file_name(student or 'nobody')}.html"
-        put(path, frame.page(title, _body(title, grades)))
+        write_atomically(path, frame.page(title, _body(title, grades)))
 
 
 def _body(title: str, grades: list[Grade]) -> Iterator[str]:
@@ -41,7 +41,7 @@ def _chapter(grade: Grade) -> Iterator[str]:
     yield f"<h2>{text(title + score)}</h2>"
     yield paragraph(about_lateness(grade))
     yield banner("This could not be graded", [grade.problem])
-    yield banner("About what you handed in", grade.notes)
+    yield banner("About your submission", grade.notes)
     for report in grade.reports:
         yield _part(replace(report, note="") if report.note == grade.problem else report)
     yield from _cells(grade)
@@ -50,22 +50,24 @@ def _chapter(grade: Grade) -> Iterator[str]:
 def _part(report: Report) -> str:
     kind, sign = KINDS[report.verdict]
     score = of_points(report.points, report.possible) if report.possible else ""
-    rules = "".join(map(_rule, report.rules))
+    assertions = "".join(map(_assertion, report.assertions))
     head = f"<h3>{text(report.check)} <span>{sign} {report.verdict.value}</span></h3>"
     return (
         f'<article class="part {kind}"><header>{head}<span class="muted">{score}</span></header>'
-        f"{paragraph(report.goal)}{f'<ul class=rules>{rules}</ul>' if rules else ''}"
+        f"{paragraph(report.goal)}{f'<ul class=assertions>{assertions}</ul>' if assertions else ''}"
         f"{paragraph(report.note)}{_printed(report)}</article>"
     )
 
 
-def _rule(rule: Rule) -> str:
-    kind, sign, word = ("holds", "✓", "holds") if rule.holds else ("broken", "✗", "does not hold")
-    pairs = "".join(f"<dt>{label}</dt><dd>{_value(label, value)}</dd>" for label, value in rule.details())
+def _assertion(assertion: Assertion) -> str:
+    kind, sign, word = ("holds", "✓", "holds") if assertion.holds else ("broken", "✗", "failed")
+    pairs = "".join(
+        f"<dt>{label}</dt><dd>{_value(label, value)}</dd>" for label, value in assertion.details()
+    )
     details = f"<dl>{pairs}</dl>" if pairs else ""
     return (
         f'<li class="{kind}"><span class="mark" aria-hidden="true">{sign}</span>'
-        f'<span class="unseen">{word}: </span>{text(rule.text, 600)}{details}</li>'
+        f'<span class="unseen">{word}: </span>{text(assertion.text, 600)}{details}</li>'
     )
 
 
@@ -76,11 +78,12 @@ def _value(label: str, value: str) -> str:
 def _printed(report: Report) -> str:
     if report.verdict is Verdict.PASSED or not report.printed.strip():
         return ""
-    return f"<details><summary>Printed meanwhile</summary><pre>{clean.html(report.printed)}</pre></details>"
+    shown = clean.html(report.printed)
+    return f"<details><summary>Printed during the check</summary><pre>{shown}</pre></details>"
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield how the notebook ran from top to bottom, and which cells went otherwise than in the reference."""
+    """Yield how the notebook ran, and which cells had another result than the reference."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]
@@ -88,8 +91,9 @@ def _cells(grade: Grade) -> Iterator[str]:
     yield "<h3>Your answers in the whole notebook</h3>"
     yield paragraph(
         f"The chapter's notebook was run from top to bottom with your answers in it. {passed} of "
-        f"{len(grade.cells)} cells did what they do with the right answers. This earns no points; it shows "
-        "where an answer matters later on."
+        f"{len(grade.cells)} cells gave the same result as with the right answers. This earns no points; it "
+        f"shows "
+        "where an answer affects a later cell."
     )
     for cell in others[:CELLS]:
         yield (
@@ -97,4 +101,4 @@ def _cells(grade: Grade) -> Iterator[str]:
             f"<pre>{clean.html(cell.words or 'Nothing was recorded.', 2000)}</pre></details>"
         )
     if len(others) > CELLS:
-        yield paragraph(f"{len(others) - CELLS} more cells did not.", "muted")
+        yield paragraph(f"{len(others) - CELLS} more cells gave another result.", "muted")

@@ -7,29 +7,30 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
-from course_pkg.examiner.report import Report, Verdict
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.reports.book import Book, about_lateness
-from course_pkg.grading.reports.files import put
+from course_pkg.grading.reports.gradebook import Book, about_lateness
+from course_pkg.types.fields import Plain
 
 
 def write(book: Book, out: Path) -> None:
-    """Write one file a student, all chapters in it."""
+    """Write one file for each student, with all chapters."""
     for student in book.students:
         grades = [grade.for_student() for grade in book.of(student)]
         path = out / "gradescope" / clean.file_name(student or "nobody") / "results.json"
-        put(path, json.dumps(_results(grades), indent=1, ensure_ascii=False) + "\n")
+        write_atomically(path, json.dumps(_results(grades), indent=1, ensure_ascii=False) + "\n")
 
 
-def _results(grades: list[Grade]) -> dict[str, Any]:
+def _results(grades: list[Grade]) -> dict[str, Plain]:
     words = [
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        "score": round(sum(grade.earned for grade in grades), 2),  # outranks the sum: lateness is taken off
+        # this total is used instead of the sum, because lateness is taken off
+        "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",
         "visibility": "visible",
@@ -38,7 +39,7 @@ def _results(grades: list[Grade]) -> dict[str, Any]:
     }
 
 
-def _test(report: Report) -> dict[str, Any]:
+def _test(report: Report) -> dict[str, Plain]:
     return {
         "number": clean.line(report.check, 20),
         "name": clean.line(report.goal or report.check, 200),

@@ -1,6 +1,6 @@
-"""junit.xml: a suite a submission, a case a part, for whatever shows the results of tests.
+"""junit.xml: a suite for each submission and a case for each part, for programs that show test results.
 
-A part that was not examined is an error, never a case that was skipped: those are easily overlooked.
+A part that was not examined is an error and not a skipped case, because skipped cases are easily overlooked.
 """
 
 from __future__ import annotations
@@ -8,11 +8,11 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree
 
-from course_pkg.examiner.report import Report, Verdict
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.reports.book import Book, name_of
-from course_pkg.grading.reports.files import put
+from course_pkg.grading.reports.gradebook import Book, name_of
 
 
 def write(book: Book, out: Path) -> None:
@@ -24,7 +24,7 @@ def write(book: Book, out: Path) -> None:
         root.set(key, str(sum(int(suite.get(key, "0")) for suite in root)))
     ElementTree.indent(root, " ")
     text = ElementTree.tostring(root, encoding="unicode")
-    put(out / "junit.xml", f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n')
+    write_atomically(out / "junit.xml", f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n')
 
 
 def _suite(grade: Grade) -> ElementTree.Element:

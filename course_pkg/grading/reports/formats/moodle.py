@@ -1,8 +1,8 @@
-"""moodle.csv, for Grades, Import, CSV file: Moodle asks which column is which.
+"""moodle.csv, for Grades, Import, CSV file: Moodle asks for the meaning of each column.
 
-Map `username` or `email` (or, for whoever was named by a download of Moodle's, `full name`), each chapter to
-its grade item, and its feedback to "Feedback for": Moodle drops the grades of an item whose feedback comes
-alone.
+Map the column `username` or `email` to the student (or `full name`, if the names come from a download from
+Moodle). Map each chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle
+deletes the grade of an item if only its feedback is imported.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from __future__ import annotations
 from html import escape
 from pathlib import Path
 
-from course_pkg.examiner.report import Report, Verdict
+from course_pkg.checking.report import Report, Verdict
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.naming import MOODLE, number_of
-from course_pkg.grading.reports.book import Book, about_lateness, name_of, points
+from course_pkg.grading.intake.naming import MOODLE, number_of
 from course_pkg.grading.reports.files import put_table
+from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, points
 
 LONG = 3_000  # characters of feedback
 
@@ -52,5 +52,5 @@ def _cells(grade: Grade) -> tuple[str, str]:
 def _sentence(report: Report) -> str:
     if report.verdict is Verdict.PASSED:
         return f"{report.headline()}."
-    hints = [rule.hint or rule.text for rule in report.rules if not rule.holds]
+    hints = [assertion.hint or assertion.text for assertion in report.assertions if not assertion.holds]
     return f"{report.headline()}. {' '.join([*hints, report.note])}"

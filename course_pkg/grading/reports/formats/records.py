@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from course_pkg.grading.reports.book import Book
+from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.reports.records import write_record
 
 

@@ -1,16 +1,24 @@
-"""grades.csv: a row a student, a column a part, for a spreadsheet."""
+"""grades.csv, for a spreadsheet: a row for each student, a column for each part."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from course_pkg.grading import clean
-from course_pkg.grading.reports.book import Book, about_lateness, attention, name_of, notes, points, report_of
 from course_pkg.grading.reports.files import put_table
+from course_pkg.grading.reports.gradebook import (
+    Book,
+    about_lateness,
+    attention,
+    name_of,
+    notes,
+    points,
+    report_of,
+)
 
 
 def write(book: Book, out: Path) -> None:
-    """Write grades.csv; its mark at the beginning tells a spreadsheet that it is UTF-8."""
+    """Write grades.csv; the mark at its beginning tells a spreadsheet that the file is UTF-8."""
     head = ["student"]
     for chapter in book.chapters:
         head += [
@@ -24,7 +32,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _row(book: Book, student: str) -> list[str]:
-    """Return a student's row; what was not handed in is empty, lateness is taken off the totals alone."""
+    """Return a student's row; missing submissions are empty, and lateness is taken off only in the totals."""
     cells = [clean.cell(name_of(student))]
     for chapter in book.chapters:
         grade = book.grade(student, chapter)

@@ -1,0 +1,112 @@
+"""A notebook without what differs from run to run and from front end to front end.
+
+Addresses, ports, times and process ids in the text of an output stay: they are the author's words.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+
+from course_pkg.authoring.cells import (
+    Cell,
+    CellMetadata,
+    Notebook,
+    NotebookMetadata,
+    Output,
+    check_of,
+    code_cells,
+    exercise_of,
+)
+from course_pkg.authoring.widgets import VIEW
+from course_pkg.ros.notebook.tracebacks import HEADER
+
+VALID_ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
+METADATA: NotebookMetadata = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
+
+
+def tidy(notebook: Notebook) -> None:
+    """Normalise `notebook` in place; doing it twice changes nothing more."""
+    notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
+    title = notebook["metadata"].get("title")
+    notebook["metadata"] = {**METADATA, "title": title} if title else {**METADATA}
+    _name(notebook["cells"])
+    for cell in notebook["cells"]:
+        cell["metadata"] = _kept(cell["metadata"])
+    written = [cell for cell in code_cells(notebook) if cell["source"].strip()]
+    for number, cell in enumerate(written, 1):
+        _number(cell, number)
+        cell["outputs"] = _merged([_output(output) for output in cell["outputs"]])
+
+
+def strip(notebook: Notebook) -> None:
+    """Take every output and execution count out of `notebook`."""
+    for cell in code_cells(notebook):
+        cell["outputs"], cell["execution_count"] = [], None
+
+
+def _name(cells: list[Cell]) -> None:
+    """Give each cell a valid, unique id, which is the same in each run."""
+    taken: set[str] = set()
+    for cell in cells:
+        wanted = _wanted_id(cell)
+        name, number = wanted, 2
+        while name in taken:
+            name, number = f"{wanted[:60]}-{number}", number + 1
+        taken.add(name)
+        cell["id"] = name
+
+
+def _wanted_id(cell: Cell) -> str:
+    if part := exercise_of(cell):
+        return f"exercise-{part.replace('.', '-')}"
+    if part := check_of(cell):
+        return f"check-{part.replace('.', '-')}"
+    name = str(cell.get("id", ""))
+    if VALID_ID.fullmatch(name):
+        return name
+    return f"cell-{hashlib.sha256(cell['source'].encode()).hexdigest()[:8]}"
+
+
+def _kept(metadata: CellMetadata) -> CellMetadata:
+    kept = CellMetadata()
+    if "course" in metadata:
+        kept["course"] = metadata["course"]
+    if "tags" in metadata:
+        kept["tags"] = metadata["tags"]
+    return kept
+
+
+def _number(cell: Cell, number: int) -> None:
+    """Give a cell that was run the number of its place, so that a run with a detour leaves no trace."""
+    if cell["execution_count"] is None and not cell["outputs"]:
+        return
+    cell["execution_count"] = number
+    for output in cell["outputs"]:
+        if output["output_type"] == "execute_result":
+            output["execution_count"] = number
+
+
+def _output(output: Output) -> Output:
+    if output["output_type"] == "error" and output["traceback"][:1] != [HEADER]:
+        # IPython's own traceback names the files of one machine; that of the course names cells.
+        output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
+    if "data" in output:
+        output["data"] = {kind: data for kind, data in output["data"].items() if kind != VIEW}
+        output["metadata"] = {kind: data for kind, data in output["metadata"].items() if kind != VIEW}
+    return output
+
+
+def _merged(outputs: list[Output]) -> list[Output]:
+    """Join the chunks in which one stream happened to arrive."""
+    merged: list[Output] = []
+    for output in outputs:
+        last = merged[-1] if merged else Output()
+        if output["output_type"] == "stream" and output["name"] == last.get("name"):
+            last["text"] += output["text"]
+        else:
+            merged.append(output)
+    return merged

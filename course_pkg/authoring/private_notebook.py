@@ -1,0 +1,47 @@
+"""A plug-in of pytest: each notebook that nbval runs gets its own master, folder, workspace and results.
+
+So notebooks can run at the same time, on several workers of pytest-xdist with `--dist loadfile`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator
+from contextlib import ExitStack
+from unittest.mock import patch
+
+import pytest
+
+from course_pkg.authoring.execute import surroundings
+
+OPENED = pytest.StashKey[ExitStack]()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item: pytest.Item) -> Generator[None]:
+    """Change environment and folder before nbval starts the kernel, which it does for the first cell.
+
+    nbval starts a kernel in the folder of its notebook. So the notebook has another path for that moment.
+    """
+    notebook = item.parent
+    if not hasattr(item, "cell") or not isinstance(notebook, pytest.File) or OPENED in notebook.stash:
+        return (yield)
+    with ExitStack() as stack:
+        folder, environment = stack.enter_context(surroundings())
+        stack.enter_context(patch.dict(os.environ, environment, clear=True))
+        notebook.stash[OPENED] = stack.pop_all()
+    with patch.object(notebook, "path", folder / notebook.path.name):
+        return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Generator[None]:
+    """Restore the environment and remove the folders after nbval has ended the kernel."""
+    try:
+        return (yield)
+    finally:
+        notebook = item.parent
+        over = nextitem is None or nextitem.parent is not notebook
+        if over and notebook is not None and OPENED in notebook.stash:
+            notebook.stash[OPENED].close()
+            del notebook.stash[OPENED]

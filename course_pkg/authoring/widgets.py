@@ -1,0 +1,43 @@
+"""The widgets of an executed notebook: which output shows which panel, and the panel's last state."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from course_pkg.authoring.cells import Notebook, Output
+from course_pkg.types.fields import Plain
+
+VIEW = "application/vnd.jupyter.widget-view+json"
+STATES = "application/vnd.jupyter.widget-state+json"
+OF_THE_COURSE = re.compile(r"course_pkg\.panels\.(?P<panel>\w+)\.view\.\w+")
+PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets
+
+
+class SavedPanel(NamedTuple):
+    """A panel of the course: its folder in `course_pkg.panels`, and the traits that a page reads."""
+
+    name: str
+    state: dict[str, Plain]
+
+
+class SavedPanels:
+    """The panels of an executed notebook, as nbclient saves them in its metadata."""
+
+    def __init__(self, notebook: Notebook) -> None:
+        widgets = notebook["metadata"].get("widgets", {})
+        self._models = widgets[STATES]["state"] if STATES in widgets else {}
+
+    def of(self, output: Output) -> SavedPanel | None:
+        """Return the panel that an output shows; None for another output, and for any other widget."""
+        view = output.get("data", {}).get(VIEW)
+        if not isinstance(view, Mapping):
+            return None
+        model = self._models.get(str(view["model_id"]), {})
+        state = model.get("state", {})
+        found = OF_THE_COURSE.fullmatch(str(state.get("_anywidget_id", "")))
+        if not found or model.get("buffers"):
+            return None
+        read = {name: value for name, value in state.items() if name[0] != "_" and name not in PRIVATE}
+        return SavedPanel(found["panel"], read)

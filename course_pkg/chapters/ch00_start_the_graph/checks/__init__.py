@@ -1,0 +1,265 @@
+"""The checks of chapter 00: read the graph, call a service, receive from a topic."""
+
+from math import prod
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.plain_values import of_kind
+from course_pkg.ros.protocol.json_channel import Json
+
+NOT_RECEIVED = [
+    (
+        matches("^ROSException.*timeout|^TimesUp"),
+        "No message arrived, although 33 numbers per second are published. Receive from the "
+        "topic whose name is in `topic`, with the type UInt32.",
+    )
+]
+
+
+@part(
+    "00.1",
+    points=1,
+    goal="Name the node that measures boxes, the service that it offers, and the type of this service.",
+    needs=["name_of_node", "name_of_service", "name_of_type"],
+)
+def read_the_graph(context: CheckContext) -> None:
+    """Compare the names with the names on the graph."""
+    context.expect(
+        "the name of the node",
+        expected="/SERVER_NODE",
+        actual=context.read("name_of_node"),
+        hints=[
+            ("SERVER_NODE", "The name is almost right, but names on the graph start with a slash."),
+            (
+                matches("^/?server$"),
+                "That is the program. The command rosnode list shows the names of the nodes.",
+            ),
+            (
+                matches("^/chapter"),
+                "That is the node of this notebook, which is the client. The server is another node.",
+            ),
+            (matches("getGeometry"), "That is a service. The node is the program that offers it."),
+            (
+                matches("^/server_node/?$"),
+                "Compare letter by letter: upper and lower case are different, and this name "
+                "has a slash only at its start.",
+            ),
+        ],
+    )
+    context.expect(
+        "the name of the service",
+        expected="/getGeometry",
+        actual=context.read("name_of_service"),
+        hints=[
+            ("getGeometry", "The name is almost right, but names on the graph start with a slash."),
+            (matches("logger"), "Every node has this service. Find the service that only /SERVER_NODE has."),
+            (matches("^/?SERVER_NODE$"), "That is the node. The command rosservice list shows the services."),
+            (
+                matches("course_pkg"),
+                "That is the type. Use the name that you write after rosservice call.",
+            ),
+            (
+                matches("^/getgeometry/?$"),
+                "Compare letter by letter: upper and lower case are different, and this name "
+                "has a slash only at its start.",
+            ),
+        ],
+    )
+    context.expect(
+        "the type of the service",
+        expected="course_pkg/geometry",
+        actual=context.read("name_of_type"),
+        hints=[
+            (matches("^geometry$"), "The name of a type includes the package: it has the form package/type."),
+            (
+                matches("^/course_pkg"),
+                "A type does not start with a slash, because it is not a name on the graph.",
+            ),
+            (
+                matches(r"object|course_pkg\.srv"),
+                "That is the Python class of the type. Write the name of the type as a string "
+                "of the form package/type.",
+            ),
+            (
+                matches("getGeometry"),
+                "That is the name of the service. The command rosservice type shows its type.",
+            ),
+            (matches("(?-i:course_pkg/Geometry)"), "This type is written with a small g."),
+        ],
+    )
+
+
+@part(
+    "00.2",
+    points=2,
+    goal="Return the volume from the response of a service.",
+    needs=["ask_for_volume"],
+)
+def ask_a_question(context: CheckContext) -> None:
+    """Respond with random volumes, so that only a call returns the right one."""
+    for _ in range(2):
+        name = f"/{context.random.word()}"
+        length, width, height = context.random.numbers(3, 0.5, 9.0)
+        area, volume = (
+            whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
+        )  # exact as a float32
+        server = context.serve(
+            name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
+        )
+        returned = context.run("ask_for_volume", name, length, width, height).returned()
+        context.require(
+            "the given service is called",
+            holds=bool(server.requests),
+            expected=f"a call of {name}",
+            actual="no call",
+            hints=[
+                (
+                    ANYTHING,
+                    "The given service was not called. Pass the name in `service` to rospy.ServiceProxy.",
+                )
+            ],
+        )
+        context.expect(
+            "the sides are sent in the order length, width, height",
+            expected={"length": length, "width": width, "height": height},
+            actual=server.requests[0],
+            near=1e-4,
+            hints=[
+                (
+                    lambda actual: 0.0 in actual.values(),
+                    "One side arrived as 0: a field that the client does not set is 0. Send all three sides.",
+                ),
+                (
+                    ANYTHING,
+                    "The order of the sides is wrong. Compare it with rossrv show course_pkg/geometry.",
+                ),
+            ],
+        )
+        context.expect(
+            "the volume of the response is returned",
+            expected=volume,
+            actual=returned,
+            near=1e-6,
+            hints=_no_volume(area, volume, (length, width, height)),
+        )
+
+
+def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
+    """Return hints for a value that is not the `volume` of the response; `area` is the response's area."""
+    multiplied = (
+        "You multiplied the sides. This server returns different numbers, so return the volume "
+        "from its response."
+    )
+    return [
+        (None, NO_RETURN),
+        (area, "That is the area. Return the volume."),
+        (area * sides[2], multiplied),
+        (prod(sides), multiplied),
+        (int(volume), "That is the volume without the digits after the decimal point. Don't round it."),
+        (lambda actual: "volume" in actual, "That is the whole response. Return only its field `volume`."),
+        (lambda actual: volume in actual, "That is more than the volume. Return only the volume."),
+        (lambda actual: str(volume) in actual, "That is the volume as a string. Return the number."),
+        (ANYTHING, "Return the volume of the response unchanged."),
+    ]
+
+
+@part(
+    "00.3",
+    points=2,
+    goal="Return a number, a later number, and how many numbers were published between the two.",
+    needs=["count_missed"],
+    deadline=25.0,
+)
+def count_what_was_missed(context: CheckContext) -> None:
+    """Publish consecutive numbers on a new topic, twice, with a different pause each time."""
+    for _ in range(2):
+        topic = f"/{context.random.word()}"
+        first = context.random.integer(1000, 9000)
+        numbers = [{"data": first + step} for step in range(1000)]
+        publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=0.03)
+        pause = context.random.number(0.25, 0.4)
+        done = context.run("count_missed", topic, pause, within=4.0, hints=NOT_RECEIVED)
+        before, after, missed = _three_numbers(context, done.returned())
+        sent = publisher.sent
+        context.require(
+            "the first two numbers are numbers of the topic",
+            holds=all(0 <= number - first < len(sent) for number in (before, after)),
+            expected=f"numbers such as {first + 5}",
+            actual=[before, after],
+            hints=(
+                "These numbers were not published on the given topic. Receive from the topic whose "
+                "name is in `topic`."
+            ),
+        )
+        context.require(
+            "the second number is received after the pause",
+            holds=before < after and sent[after - first] - sent[before - first] > pause - 0.1,
+            expected=f"{pause} s between the two numbers",
+            actual=f"{before} and {after}",
+            hints=(
+                "The order is wrong. Return the number from before the pause first, and then the "
+                "number from after it."
+            )
+            if before > after
+            else (
+                "The time between these two numbers is too short. After the first number, pause "
+                "with time.sleep."
+            ),
+        )
+        context.expect(
+            "the third number is how many were missed",
+            expected=after - before - 1,
+            actual=missed,
+            hints=[
+                (
+                    after - before,
+                    "This count includes a number that you received. Example: between 17 and "
+                    "25, 7 numbers are missed.",
+                ),
+                (
+                    after - before + 1,
+                    "This count includes both numbers that you received. Example: between 17 "
+                    "and 25, 7 numbers are missed.",
+                ),
+                (
+                    before - after + 1,
+                    "A count cannot be negative. Subtract the first number from the second.",
+                ),
+                (
+                    ANYTHING,
+                    "Calculate the third number from the other two. Example: between 17 and 25, 7 "
+                    "numbers are missed.",
+                ),
+            ],
+        )
+
+
+def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:
+    """Assert that three whole numbers were returned, and return them."""
+    context.require(
+        "three numbers are returned",
+        holds=isinstance(returned, list) and len(returned) == 3,
+        expected="three numbers",
+        actual=returned,
+        hints=[
+            (None, NO_RETURN),
+            (
+                lambda actual: isinstance(actual, int),
+                "That is one number. Return three numbers: before, after, missed.",
+            ),
+            (ANYTHING, "Return the three numbers in one line: return before, after, missed."),
+        ],
+    )
+    before, after, missed = of_kind(list, returned, "the result")
+    context.require(
+        "the three are whole numbers",
+        holds=all(type(number) is int for number in (before, after, missed)),
+        expected="three values of type int",
+        actual=returned,
+        hints=[
+            (matches("data"), "That is a whole message. Its number is in the field `data`."),
+            (ANYTHING, "A count is a whole number, of type int."),
+        ],
+    )
+    return before, after, missed

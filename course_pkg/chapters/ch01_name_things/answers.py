@@ -1,0 +1,202 @@
+"""Example answers of chapter 01; tests/checking/example_answers.py explains the format."""
+
+# %% 01.1 right: a namespace and two new names
+def measurer_command(room):
+    return f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"
+
+# %% 01.1 right: every name written out
+def measurer_command(room):
+    names = [f"__name:=/{room}/measurer", f"getGeometry:=/{room}/measure"]
+    return " ".join(["rosrun", "course_pkg", "server", *names])
+
+# %% 01.1 right: quoted, and with a namespace without a slash
+replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
+# %% 01.1 wrong: a global name | hint: The service is /measure for every
+replace("getGeometry:=measure", "getGeometry:=/measure")
+# %% 01.1 wrong: no namespace | hint: The service is /measure for every
+replace("__ns:=/{room} ", "")
+# %% 01.1 wrong: the service is not renamed | hint: The service is in the namespace
+replace(" getGeometry:=measure", "")
+# %% 01.1 wrong: remapping the wrong way round | hint: the old name comes first
+replace("getGeometry:=measure", "measure:=getGeometry")
+# %% 01.1 wrong: the node is not renamed | hint: Change it with __name
+replace(" __name:=measurer", "")
+# %% 01.1 wrong: only the service is in the room's namespace | hint: The node is not in the namespace of the room
+replace("__ns:=/{room} ", "")
+replace("getGeometry:=measure", "getGeometry:=/{room}/measure")
+# %% 01.1 wrong: always the kitchen | hint: The service has to be `measure`.
+replace("{room}", "kitchen")
+# %% 01.1 wrong: = instead of := | hint: The service still has its old
+replace(":=", "=", times=3)
+# %% 01.1 wrong: spaces around := | hint: The service still has its old
+replace(":=", " := ", times=3)
+# %% 01.1 wrong: another program | hint: The command begins with rosrun, the package and the program
+replace("server", "pulse")
+# %% 01.1 wrong: roslaunch | hint: The command begins with rosrun, the package and the program
+replace("rosrun", "roslaunch")
+# %% 01.1 wrong: forgets to return | hint: without a return line
+replace("return ", "command = ")
+# %% 01.1 wrong: another name for the node | hint: The node has to be `measurer`
+replace("__name:=measurer", "__name:=measure")
+# %% 01.1 wrong: a private name for the service | hint: A name with ~ is private,
+replace("getGeometry:=", "getGeometry:=~")
+# %% 01.1 wrong: a list | hint: Return one string with spaces between
+replace('getGeometry:=measure"', 'getGeometry:=measure".split()')
+# %% 01.1 wrong: begins with %, as in a notebook | hint: Remove the first character: in a
+replace("rosrun", "%rosrun")
+# %% 01.1 wrong: the program itself | hint: Return the command as a string
+replace("return ", "import subprocess\n    return subprocess.Popen(")
+replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
+
+# %% 01.2 right: four words
+def viewer_command(arm):
+    return (
+        f"rosrun course_pkg simulator __ns:=/screen __name:={arm}_viewer "
+        f"joint_states:=/{arm}/joint_states mirrored_joints:={arm}/mirrored_joints"
+    )
+
+# %% 01.2 right: global names
+def viewer_command(arm):
+    words = ["rosrun", "course_pkg", "simulator", "__ns:=screen", "__name:=" + arm + "_viewer"]
+    words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
+    return " ".join(words)
+
+# %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes in its own
+replace("joint_states:=/{arm}/joint_states ", "")
+# %% 01.2 wrong: a relative name for joint_states | hint: Your new name is relative, so
+replace("joint_states:=/{arm}", "joint_states:={arm}")
+# %% 01.2 wrong: the namespace is the arm | hint: The node has to be ARM_viewer
+replace("__ns:=/screen", "__ns:=/{arm}")
+# %% 01.2 wrong: no namespace | hint: The node is not in the namespace /screen.
+replace("__ns:=/screen ", "")
+# %% 01.2 wrong: the node keeps its name | hint: That is the default name of the program. Choose
+replace("__name:={arm}_viewer ", "")
+# %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms would
+replace(" mirrored_joints:={arm}/mirrored_joints", "")
+# %% 01.2 wrong: a global name for mirrored_joints | hint: This topic is outside of /screen
+replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
+# %% 01.2 wrong: one name for all arms | hint: The topic has to be /screen/ARM/mirrored_joints,
+replace("mirrored_joints:={arm}/mirrored_joints", "mirrored_joints:=mirrored_{arm}")
+# %% 01.2 wrong: always the left arm | hint: The arm publishes joint_states in the namespace
+replace("joint_states:=/{arm}/joint_states", "joint_states:=/left/joint_states")
+
+# %% 01.3 right: the last part of each name
+def ask_wherever(last, length, width, height):
+    for service in rosservice.get_service_list():
+        if service.split("/")[-1] == last:
+            return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    return None
+
+# %% 01.3 right: from the lists of the master
+def ask_wherever(last, length, width, height):
+    _, _, services = rosgraph.Master(rospy.get_name()).getSystemState()
+    for name, providers in services:
+        if name.rpartition("/")[2] == last:
+            response = rospy.ServiceProxy(name, geometry)(length=length, width=width, height=height)
+            return response.volume
+
+# %% 01.3 right: searches only the services of the type
+replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
+replace("\n    return None", "")
+# %% 01.3 wrong: only in the outermost namespace | hint: You called a name that no
+replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
+# %% 01.3 wrong: accepts any name that contains the last part | hint: You called another service with a
+replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
+        if last in service:
+            return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
+# %% 01.3 wrong: accepts any name that ends with the last part | hint: You called another service with a
+replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
+replace('split("/")[-1] == last', "endswith(last)")
+replace("\n    return None", "")
+# %% 01.3 wrong: the first service of the type | hint: You called another service with a
+replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
+    return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
+# %% 01.3 wrong: calls the last part | hint: You called a name that no
+replace("service, geometry", '"/elsewhere/" + last, geometry')
+replace("\n    return None", "")
+# %% 01.3 wrong: raises an error if there is no service | hint: The search found no service
+replace("for service … return None", """found = [name for name in rosservice.get_service_list() if name.endswith("/" + last)]
+    return rospy.ServiceProxy(found[0], geometry)(length, width, height).volume""")
+# %% 01.3 wrong: returns the name | hint: That is the name of the service
+replace("return rospy.ServiceProxy(service, geometry)(length, width, height).volume\n    return None", "return service")
+# %% 01.3 wrong: returns the response | hint: That is the whole response
+replace(".volume\n    return None", "")
+# %% 01.3 wrong: multiplies instead of calling | hint: You multiplied
+replace("for service … return None", "return length * width * height")
+# %% 01.3 wrong: only one namespace deep | hint: Look through the names of all services
+replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
+replace("\n    return None", "")
+# %% 01.3 wrong: 0 when there is none | hint: There is no service with this
+replace("None", "0")
+# %% 01.3 wrong: None for a volume of 0 | hint: This service responds with the volume 0,
+replace("length, width, height).volume\n", "length, width, height).volume or None\n")
+# %% 01.3 wrong: a volume of 0 becomes text | hint: This service responds with the volume 0.
+replace("length, width, height).volume\n", 'length, width, height).volume or "nothing"\n')
+# %% 01.3 wrong: another order | hint: The order of the sides is wrong
+replace("length, width, height).volume\n    return None", "width, length, height).volume")
+# %% 01.3 wrong: the area | hint: That is the area
+replace("for service … return None", """for name in rosservice.get_service_list():
+        if name.split("/")[-1] == last:
+            return rospy.ServiceProxy(name, geometry)(length, width, height).area""")
+# %% 01.3 wrong: lets an IndexError out if there is no service | hint: A missing service is not an error
+based_on("the area")
+replace(".area", '.volume\n    raise rospy.ServiceException(f"nobody serves {last}")')
+# %% 01.3 wrong: sends no sides | hint: All sides arrived as 0
+replace("(length, width, height).volume", "().volume")
+
+# %% 01.4 right: ping each
+def living_publishers(topic):
+    publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()
+    names = dict(publishers).get(topic, [])
+    return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))
+
+# %% 01.4 right: ping all with one call
+def living_publishers(topic):
+    alive, dead = rosnode.rosnode_ping_all()
+    publishers = rosgraph.Master("/me").getSystemState()[0]
+    found = []
+    for name, nodes in publishers:
+        if name == topic:
+            found = [n for n in nodes if n in alive]
+    found.sort()
+    return found
+
+# %% 01.4 wrong: all listed nodes | hint: One of these nodes was killed
+replace("""names = dict(publishers).get(topic, [])
+    return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(dict(publishers).get(topic, []))")
+# %% 01.4 wrong: not sorted | hint: These are the right names, but
+replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(name for name in names if rosnode.rosnode_ping(name, max_count=1)), reverse=True")
+# %% 01.4 wrong: returns the nodes that do not answer | hint: These are the nodes that did not answer
+replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
+# %% 01.4 wrong: the subscribers | hint: The topic has publishers
+replace("(publishers)", "(subscribers)")
+# %% 01.4 wrong: the nodes that publish on any topic | hint: One of these nodes publishes another topic
+replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
+# %% 01.4 wrong: a topic whose name begins alike | hint: Compare the whole name of the topic
+replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
+# %% 01.4 wrong: fails for a topic without publishers | hint: A topic without a publisher
+replace("\n    names = dict(publishers).get(topic, [])", "")
+replace("names", "dict(publishers)[topic]")
+# %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because it
+replace("""names = dict(publishers).get(topic, [])
+    return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
+# %% 01.4 wrong: the number of nodes | hint: That is the number of publishers
+replace("""names = dict(publishers).get(topic, [])
+    return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return len([name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1)])")
+# %% 01.4 wrong: returns None if no publisher is alive | hint: Return an empty list
+replace("1))", "1)) or None")
+# %% 01.4 wrong: a generator | hint: That is not a list
+replace("\n    names = dict … max_count=1))", """
+    return (name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1))""")
+
+# %% 01.4 wrong: stops at the first dead node | hint: Some running nodes are missing
+def living_publishers(topic):
+    found = []
+    for n in dict(rosgraph.Master(rospy.get_name()).getSystemState()[0]).get(topic, []):
+        if not rosnode.rosnode_ping(n, max_count=1):
+            break
+        found.append(n)
+    return sorted(found)
+
+# %% 01.4 wrong: one string | hint: Return a list of node names
+replace("return sorted(", 'return ", ".join(')

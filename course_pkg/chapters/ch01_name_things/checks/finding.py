@@ -1,0 +1,194 @@
+"""Find services and publishers, and distinguish running nodes from nodes that are only registered."""
+
+from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import NO_RETURN
+
+NUMBER = "std_msgs/UInt32"
+LOOKS_LIKE_IT = "You called another service with a similar name. Compare the whole text after the last slash."
+
+
+@part(
+    "01.3",
+    points=3,
+    goal=(
+        "Find the service whose name has a given last part, call it, and return the volume; return "
+        "None if there is no such service."
+    ),
+    needs=["ask_wherever"],
+    deadline=25.0,
+)
+def ask_it_wherever_it_lives(context: CheckContext) -> None:
+    """Serve in three namespaces beside services with similar names; then name a missing service."""
+    for depth in context.random.shuffled([0, 1, 3]):
+        last = context.random.word()
+        place = "".join(f"/{context.random.word()}" for _ in range(depth))
+        volume, *others = (whole + 0.375 for whole in context.random.integers(4, 1000, 9000))
+        named = {f"{place}/x{last}": others[0], f"/{last}/x": others[1], f"{place}/{last}x": others[2]}
+        for name, wrong in named.items():
+            context.serve(name, GEOMETRY, lambda _, v=wrong: {"volume": v})
+        answer = {"volume": volume, "area": volume + 1}
+        server = context.serve(f"{place}/{last}", GEOMETRY, lambda _, a=answer: a)
+        length, width, height = context.random.numbers(3, 0.5, 9.0)
+        context.expect(
+            "the volume comes from the right service",
+            expected=volume,
+            actual=context.run("ask_wherever", last, length, width, height, hints=_LOST).returned(),
+            near=1e-6,
+            hints=[
+                (None, "The service exists, but None was returned. Look through the names of all services."),
+                *((other, LOOKS_LIKE_IT) for other in others),
+                (
+                    length * width * height,
+                    "You multiplied the sides. This server returns different numbers, so call it.",
+                ),
+                (volume + 1, "That is the area. Return the volume."),
+                (matches("volume"), "That is the whole response. Return only its field `volume`."),
+                (
+                    matches(f"/{last}$"),
+                    "That is the name of the service. Call this service, and return the volume.",
+                ),
+            ],
+        )
+        context.expect(
+            "the request has length, width and height",
+            expected={"length": length, "width": width, "height": height},
+            actual=server.requests[0],
+            near=1e-4,
+            hints=[
+                (
+                    lambda actual: not any(actual.values()),
+                    "All sides arrived as 0: a field that the client does not set is 0. Send "
+                    "all three sides.",
+                ),
+                (
+                    ANYTHING,
+                    "The order of the sides is wrong. Compare it with rossrv show course_pkg/geometry.",
+                ),
+            ],
+        )
+    last = context.random.word()
+    context.serve(f"/{last}", GEOMETRY, lambda _: {"volume": 0.0, "area": 1.0})
+    context.expect(
+        "the volume comes from the right service",
+        expected=0.0,
+        actual=context.run("ask_wherever", last, 0.0, 1.0, 2.0, hints=_LOST).returned(),
+        hints=[
+            (
+                None,
+                "This service responds with the volume 0, but the function returned None. 0 is a "
+                "valid volume, so return it.",
+            ),
+            (ANYTHING, "This service responds with the volume 0. Return this value unchanged."),
+        ],
+    )
+    context.expect(
+        "None if there is no such service",
+        expected=None,
+        actual=context.run(
+            "ask_wherever", context.random.word(), 1.0, 2.0, 3.0, hints=_LOST + _NOBODY
+        ).returned(),
+        hints="There is no service with this name. Return None if the search finds nothing.",
+    )
+
+
+_LOST = [
+    (
+        matches("unavailable"),
+        "You called a name that no service has. Use the full name that you found.",
+    ),
+    (
+        matches("IndexError|StopIteration|TypeError.*NoneType"),
+        "The search found no service. Return None in this case, before you use the result.",
+    ),
+]
+
+
+_NOBODY = [
+    (
+        matches("^(ServiceException|ROS|LookupError|ValueError|RuntimeError|Exception)"),
+        "A missing service is not an error in this exercise. Return None.",
+    )
+]
+
+
+@part(
+    "01.4",
+    points=2,
+    goal="Return the sorted names of the nodes that publish a topic and answer a ping.",
+    needs=["living_publishers"],
+    deadline=25.0,
+)
+def who_really_publishes(context: CheckContext) -> None:
+    """Register running and killed publishers of two topics; then name topics without a running publisher."""
+    topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
+    names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
+    living, dead = names[:3], names[3:5]
+    for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
+        context.fake_node(name, topic, NUMBER, alive=number % 2 == 0)
+    context.fake_node(names[5], other, NUMBER)
+    context.fake_node(names[6], grave, NUMBER, alive=False)
+    context.fake_node(names[7], f"{topic}_2", NUMBER)
+    context.expect(
+        "the running publishers of a topic, sorted",
+        expected=sorted(living),
+        actual=_living(context, topic),
+        hints=[
+            (None, NO_RETURN),
+            (
+                lambda actual: sorted(actual) == sorted(living),
+                "These are the right names, but they are not sorted. sorted(...) returns a sorted list.",
+            ),
+            (
+                lambda actual: sorted(actual) == sorted(dead),
+                "These are the nodes that did not answer the ping. Return the nodes that answered.",
+            ),
+            (
+                lambda actual: set(actual) & set(dead),
+                "One of these nodes was killed, but it is still registered. Ping each node.",
+            ),
+            (
+                lambda actual: names[5] in actual or names[7] in actual,
+                "One of these nodes publishes another topic. Compare the whole name of the topic.",
+            ),
+            (
+                [],
+                "The topic has publishers. The list of publishers contains pairs: a topic, and "
+                "the names of its publishers.",
+            ),
+            (lambda actual: isinstance(actual, int), "That is the number of publishers. Return their names."),
+            (lambda actual: "object" in actual, "That is not a list. sorted(...) returns a list."),
+            (
+                lambda actual: set(actual) < set(living),
+                "Some running nodes are missing. Ping every publisher of the topic.",
+            ),
+            (
+                ANYTHING,
+                "Return a list of node names, as in the list of publishers.",
+            ),
+        ],
+    )
+    context.expect(
+        "no running publisher gives an empty list",
+        expected=[[], []],
+        actual=[_living(context, grave), _living(context, f"/{context.random.word()}")],
+        hints="Return an empty list if no running node publishes the topic.",
+    )
+
+
+def _living(context: CheckContext, topic: str) -> object:
+    return context.run(
+        "living_publishers",
+        topic,
+        within=8.0,  # three pings of each node that does not answer take 6 s
+        hints=[
+            (
+                matches("TimesUp"),
+                "rosnode_ping does not return, because it pings again and again. Use max_count=1.",
+            ),
+            (
+                matches("KeyError"),
+                "A topic without a publisher is not in the list of publishers. Handle this case, too.",
+            ),
+        ],
+    ).returned()

@@ -1,0 +1,222 @@
+"""Give names to nodes: run the student's commands, and compare the names on the graph."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from contextlib import ExitStack
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
+
+GEOMETRY = "course_pkg/geometry"
+START = 20.0  # s for a program to start; this takes 0.5 s, but much longer on a busy machine
+WHERE = "the service of a room is measure, in the namespace of the room"
+
+
+@part(
+    "01.1",
+    points=2,
+    goal=(
+        "Return the command that starts the server of a room: the node `measurer` with the service "
+        "`measure`, both in the namespace of the room."
+    ),
+    needs=["measurer_command"],
+    deadline=60.0,
+)
+def a_measurer_for_each_room(context: CheckContext) -> None:
+    """Run the commands for two rooms, find both servers on the graph, and call them."""
+    rooms = [context.random.word() for _ in range(2)]
+    with ExitStack() as running:
+        for room in rooms:
+            before = {service.uri for service in context.look().services}
+            server = _start(context, running, "measurer_command", room, "server")
+            _serves(context, server, room, before)
+        for room in rooms:
+            length, width, height = context.random.numbers(3, 0.5, 9.0)
+            measure = context.service(f"/{room}/measure", GEOMETRY)
+            context.expect(
+                "the service of each room measures boxes",
+                expected=length * width,
+                actual=measure(length=length, width=width, height=height).area,
+                near=1e-3,
+            )
+
+
+@part(
+    "01.2",
+    points=2,
+    goal="Return the command that starts a viewer for one arm, in the namespace /screen.",
+    needs=["viewer_command"],
+    deadline=60.0,
+)
+def a_viewer_for_each_arm(context: CheckContext) -> None:
+    """Run the commands for two arms, and compare the names of both nodes and of their topics."""
+    with ExitStack() as running:
+        for arm in (context.random.word() for _ in range(2)):
+            before = {node.name for node in context.look().nodes}
+            viewer = _start(context, running, "viewer_command", arm, "simulator")
+            _views(context, viewer, arm, before)
+
+
+def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
+    """Call the student's `function` with `name`; run the returned command until `running` is closed."""
+    command = context.run(function, name).returned()
+    words = _words(command)
+    context.require(
+        "the result is a command for rosrun",
+        holds=words[:3] == ["rosrun", "course_pkg", program],
+        expected=f"a string that begins with rosrun course_pkg {program}",
+        actual=command,
+        hints=[
+            (None, NO_RETURN),
+            (
+                lambda actual: isinstance(actual, list),
+                "Return one string with spaces between the words, not a list.",
+            ),
+            (
+                matches("^[!%]"),
+                "Remove the first character: in a terminal, the command begins with rosrun.",
+            ),
+            (matches("object"), "Return the command as a string. The check runs the command."),
+            (ANYTHING, "The command begins with rosrun, the package and the program."),
+        ],
+    )
+    return running.enter_context(context.folder().start(*words, worded=str(command)))
+
+
+def _words(command: Json) -> list[str]:
+    """Return the words into which a shell splits the command; an empty list if it is not a valid command."""
+    try:
+        return shlex.split(command) if isinstance(command, str) else []
+    except ValueError:  # a quotation mark is not closed
+        return []
+
+
+def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
+    """Assert that the room's node serves the room's service; `before` has the addresses of older ones."""
+    wanted, node = f"/{room}/measure", f"/{room}/measurer"
+    deadline, service = time.monotonic() + START, None
+    new: list[ServiceSeen] = []
+    while service is None and time.monotonic() < deadline and server.status is None:
+        seen = context.look()
+        service = seen.service(wanted)
+        others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
+        new = new or others  # a server that was found may be too busy to answer a later probe
+        deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
+    if service is None:
+        found = new[0].name if new else ""
+        hint = _astray(room, found)
+        context.fail(WHERE, expected=wanted, actual=found or "no new service", hint=hint)
+    context.require(WHERE, holds=True)
+    context.expect(
+        "the node of a room is measurer, in the namespace of the room",
+        expected=node,
+        actual=service.node,
+        hints=[
+            (matches("SERVER_NODE"), "That is the default name of the program. Change it with __name:=…."),
+            (
+                "/measurer",
+                "The node is not in the namespace of the room. Use __ns:=…, which sets the "
+                "namespace of the whole node.",
+            ),
+            (ANYTHING, "The node has to be `measurer` in the namespace of the room."),
+        ],
+    )
+
+
+def _astray(room: str, found: str) -> str:
+    """Return the hint for the service `found`, which should be `measure` in the namespace of the room."""
+    if found == "/measure":
+        return (
+            "The service is /measure for every room. Set the namespace of the node, and write "
+            "`measure` without a slash."
+        )
+    if found == "/getGeometry":
+        return "The service still has its old name and namespace. Write old:=new with := and without spaces."
+    if found == f"/{room}/getGeometry":
+        return (
+            "The service is in the namespace of the room, but it has its old name. In old:=new, "
+            "the old name comes first."
+        )
+    if found == f"/{room}/measurer/measure":
+        return "A name with ~ is private, so the service is in the namespace of the node. Remove the ~."
+    return (
+        "The service has to be `measure`. Its namespace has to be the name of the room that the "
+        "function gets."
+    )
+
+
+def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
+    """Assert that the node that is not in `before` has the names of this arm's viewer."""
+    name, seen = _viewer(context, viewer, before)
+    context.expect(
+        "the node is the arm's viewer, in the namespace /screen",
+        expected=f"/screen/{arm}_viewer",
+        actual=name or "no new node that subscribes to a topic",
+        hints=[
+            (
+                matches("simulator$"),
+                "That is the default name of the program. Choose the name of the node with __name:=….",
+            ),
+            (
+                f"/{arm}_viewer",
+                "The node is not in the namespace /screen. Use __ns:=/screen, which sets the "
+                "namespace of the whole node.",
+            ),
+            (
+                ANYTHING,
+                "The node has to be ARM_viewer in the namespace /screen, where ARM is the name of the arm.",
+            ),
+        ],
+    )
+    context.expect(
+        "the viewer subscribes to the arm's joint_states",
+        expected=[f"/{arm}/joint_states"],
+        actual=[topic.name for topic in seen.topics if name in topic.subscribers],
+        hints=[
+            (
+                ("/screen/joint_states",),
+                "The viewer subscribes in its own namespace, but no arm publishes there. Remap "
+                "joint_states with :=.",
+            ),
+            (
+                (f"/screen/{arm}/joint_states",),
+                "Your new name is relative, so it is in the namespace /screen. A global name "
+                "starts with a slash.",
+            ),
+            (ANYTHING, "The arm publishes joint_states in the namespace with the name of the arm."),
+        ],
+    )
+    published = [topic.name for topic in seen.topics if name in topic.publishers]
+    context.expect(
+        "the viewer publishes the arm's mirrored_joints",
+        expected=[f"/screen/{arm}/mirrored_joints"],
+        actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
+        hints=[
+            (
+                ("/screen/mirrored_joints",),
+                "The viewers of all arms would publish on this topic. Remap mirrored_joints, too.",
+            ),
+            (
+                (f"/{arm}/mirrored_joints",),
+                "This topic is outside of /screen. A relative name stays in the namespace of the node.",
+            ),
+            (ANYTHING, "The topic has to be /screen/ARM/mirrored_joints, where ARM is the name of the arm."),
+        ],
+    )
+
+
+def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
+    """Return the new node that subscribes to a topic ("" if there is none in time), and the final graph."""
+    deadline = time.monotonic() + START
+    while True:
+        seen = context.look()
+        subscribers = {node for topic in seen.topics for node in topic.subscribers}
+        new = sorted({node.name for node in seen.nodes} & subscribers - before)
+        if new or time.monotonic() > deadline or viewer.status is not None:
+            return (new[0] if new else ""), seen
+        time.sleep(0.05)

@@ -1,0 +1,7 @@
+"""The checks of chapter 02: another node subscribes and publishes to the student's topics."""
+
+from course_pkg.chapters.ch02_stream_data.checks.publishing import a_notice, count_aloud
+from course_pkg.chapters.ch02_stream_data.checks.subscribing import a_mirror, two_queues
+from course_pkg.chapters.ch02_stream_data.checks.watching import watch_a_stream
+
+__all__ = ["a_mirror", "a_notice", "count_aloud", "two_queues", "watch_a_stream"]

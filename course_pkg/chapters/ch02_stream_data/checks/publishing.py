@@ -1,0 +1,276 @@
+"""Publishers: one that publishes at a rate and loses no message, and one that publishes each change."""
+
+from itertools import pairwise
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
+
+WAITS_FOR_EVER = (
+    "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
+)
+NO_WAIT, EARLIEST = 1.7, 2.6  # s for a count without a subscriber; its numbers take 1 s
+NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
+SOON = 4.0  # s for a message to arrive on a busy machine
+AT_ONCE = 0.3  # s for the fastest of several calls
+TOO_SOON = (
+    "A subscriber that connects within 2 s would miss the 0. If there is no subscriber, wait for "
+    "the full 2 s."
+)
+TOO_EARLY = (
+    "The first number was published before the subscriber was connected. After you create the "
+    "publisher, wait for a connection."
+)
+
+
+LATE = "a late subscriber receives only the last value"
+KEEPER = """
+notices = {}
+
+
+def create(kind, topic):
+    notices[topic] = kind(topic)
+
+
+def set_value(topic, value):
+    notices[topic].set(value)
+"""
+
+
+@part(
+    "02.1",
+    points=2,
+    goal=(
+        "Publish 0, 1, 2 and so on at a given rate. Begin when a subscriber is connected, and "
+        "after 2 s at the latest."
+    ),
+    needs=["count_aloud"],
+    deadline=40.0,
+)
+def count_aloud(context: CheckContext) -> None:
+    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
+    for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
+        topic = f"/{context.random.word()}"
+        subscription = context.subscribe(topic, "std_msgs/UInt32")
+        counted = context.run("count_aloud", topic, hertz, count, within=6.0, hints=_slow(hertz))
+        counted.returned()
+        arrivals = subscription.wait(count + 1, within=0.5)
+        subscription.published(
+            hints=[(matches("nobody"), "Create a rospy.Publisher for the topic that the function gets.")],
+            within=0.5,
+        )
+        _counts(context, arrivals, count)
+        _keeps_time(context, arrivals, hertz)
+        context.require(
+            "it begins as soon as a subscriber is connected",
+            holds=counted.took < count / hertz + 1.2,
+            expected="no pause before the first number, because a subscriber was connected",
+            actual=f"the end after {counted.took:.1f} s",
+            hints=(
+                "Check every few milliseconds whether a subscriber is connected, and begin as soon "
+                "as there is one."
+            ),
+        )
+    alone = context.run(
+        "count_aloud",
+        f"/{context.random.word()}",
+        10,
+        10,
+        within=7.0,
+        hints=[
+            (matches("TimesUp"), WAITS_FOR_EVER),
+            (matches("^(?!TimesUp)"), "Even without a subscriber, the function has to publish all numbers."),
+        ],
+    )
+    alone.returned()
+    context.require(
+        "without a subscriber it begins after 2 s",
+        holds=EARLIEST < alone.took < 5.0,
+        expected="ten numbers at 10 per second after 2 s, so the end after about 3 s",
+        actual=f"the end after {alone.took:.1f} s",
+        hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
+    )
+
+
+def _slow(hertz: int) -> Hints:
+    return [
+        (
+            matches("TimesUp"),
+            f"The function takes too long. For {hertz} numbers per second, the pause is "
+            f"1/{hertz} s: use rospy.Rate. The wait has to end as soon as a subscriber is "
+            "connected.",
+        ),
+        (
+            matches("must be unsigned integer"),
+            "Publish each number as an int, not as a string or a float.",
+        ),
+    ]
+
+
+def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
+    numbers = [arrival.fields["data"] for arrival in arrivals]
+    context.expect(
+        "every number arrives once, in order, from 0",
+        expected=list(range(count)),
+        actual=numbers,
+        hints=[
+            (list(range(1, count)), TOO_EARLY),
+            (
+                list(range(count - 1)),
+                "The last number, count - 1, is missing. Publish it, and give rospy time to "
+                "send it before the function returns.",
+            ),
+            (list(range(count + 1)), "That is one number too many. range(count) ends with count - 1."),
+            (list(range(1, count + 1)), "The count starts with 1. It has to start with 0."),
+            (
+                lambda actual: actual and actual == list(range(len(actual))),
+                "The last numbers are missing. Publish `count` numbers, and return after the last one.",
+            ),
+            ([], "Nothing arrived. Publish each number after a subscriber is connected."),
+            (lambda actual: actual == list(range(actual[0], count)), TOO_EARLY),
+            (
+                lambda actual: len(set(actual)) < len(actual),
+                "A number was published twice. Publish each number once.",
+            ),
+            (
+                lambda actual: actual == sorted(actual),
+                "Numbers in the middle are missing, because the queue was full. Pause after each number.",
+            ),
+        ],
+    )
+
+
+def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
+    """Assert that the average rate is right, and that the numbers are evenly spaced."""
+    seen = rate(arrivals)
+    context.require(
+        "the average rate is the given rate",
+        holds=0.75 * hertz < seen < 1.25 * hertz,
+        expected=f"about {hertz} per second",
+        actual=f"{seen:.3g} per second",
+        hints="The rate is too high. Pause after each number."
+        if seen > hertz
+        else "The rate is too low. Sleep once per number, with rospy.Rate(rate).",
+    )
+    gaps = sorted(later.at - one.at for one, later in pairwise(arrivals))
+    context.require(
+        "the numbers are evenly spaced",
+        holds=gaps[len(gaps) // 2] > 0.5 / hertz,
+        expected=f"gaps of about {1000 / hertz:.0f} ms",
+        actual=f"half of the gaps below {1000 * gaps[len(gaps) // 2]:.0f} ms",
+        hints="The numbers arrive in groups. Pause after each single number.",
+    )
+
+
+@part(
+    "02.3",
+    points=2,
+    goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
+    needs=["Notice"],
+    deadline=30.0,
+)
+def a_notice(context: CheckContext) -> None:
+    """Set values without a subscriber, with a subscriber, and before a late one; the first value may be 0."""
+    context.prepare(KEEPER)
+    zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
+    earlier, first, third = context.random.numbers(3, 1.0, 90.0)
+    second = first + 0.0625  # a very small difference is a change, too
+    for name in (zero, topic, twin):
+        context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
+    took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]
+    context.require(
+        "without a subscriber, set() returns immediately",
+        holds=min(took) < AT_ONCE,
+        expected=f"a return within {AT_ONCE} s",
+        actual=f"a return after {min(took):.1f} s",
+        hints="Don't wait in set(). A latched message is sent to each node that subscribes later.",
+    )
+    subscriber = _subscribed(context, topic)
+    _receives(context, subscriber, [first], LATE)
+    listener = _subscribed(context, zero)
+    _receives(context, listener, [0.0], "the first value is published, even if it is 0")
+    _receives(context, _subscribed(context, twin), [first], LATE)
+    _set(context, zero, 0.0)
+    _receives(context, listener, [0.0], "a value that stays the same is not published again")
+    _set(context, topic, first)
+    _receives(context, subscriber, [first], "a value that stays the same is not published again")
+    _set(context, topic, second)
+    _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
+    _set(context, topic, third)
+    subscriber.wait(
+        3, within=SOON
+    )  # if the next value came too soon, it would replace this one in a short queue
+    _set(context, topic, second)
+    _receives(
+        context,
+        subscriber,
+        [first, second, third, second],
+        "an earlier value is published when it is set again",
+    )
+    subscriber.leave()
+    _receives(context, _subscribed(context, topic), [second], LATE)
+
+
+def _set(context: CheckContext, topic: str, value: float) -> float:
+    """Call set(value) of the notice for `topic`; return how long this call took, in s."""
+    hints = [(matches("TimesUp"), "set() does not return. A latched message needs no loop and no wait.")]
+    done = context.run("set_value", topic, value, worded="Notice(topic).set(value)", hints=hints)
+    done.returned()
+    return done.took
+
+
+def _subscribed(context: CheckContext, topic: str) -> Subscription:
+    """Subscribe to `topic`; rospy sends a latched message to each new connection."""
+    subscription = context.subscribe(topic, "std_msgs/Float64")
+    hint = "Create a rospy.Publisher for the topic that Notice() gets, and do not unregister it."
+    subscription.published(hints=[(matches("nobody"), hint)])
+    return subscription
+
+
+def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
+    """Wait for the values; in the next 0.3 s, no other message may arrive."""
+    subscription.wait(len(values), within=SOON)
+    subscription.during(0.3)
+    received = [arrival.fields["data"] for arrival in subscription.arrivals]
+    context.expect(
+        assertion,
+        expected=values,
+        actual=received,
+        near=1e-9,
+        hints=[
+            (
+                lambda actual: not actual and values == [0.0],
+                "The first value was not published, because it is 0. Store None before the "
+                "first value, and treat 0 as any other number.",
+            ),
+            (
+                [],
+                "Nothing arrived. With latch=True, a new subscriber receives the last message. "
+                "Store the last value in self, not in the class, because another Notice may "
+                "have the same value.",
+            ),
+            (
+                lambda actual: len(actual) > len(values) + 2,
+                "A value is published again and again. Publish only in set(), and only a changed value.",
+            ),
+            (
+                lambda actual: actual == values * 2,
+                "The same value was published again. Store the last value, and compare the new "
+                "value with it before you publish.",
+            ),
+            (
+                lambda actual: len(actual) > len(values) and set(actual) == set(values),
+                "A value was published twice. Publish once for each change.",
+            ),
+            (
+                lambda actual: len(actual) > len(values),
+                "A late subscriber received an older value. It has to receive only the last value.",
+            ),
+            (
+                lambda actual: len(actual) < len(values),
+                "A changed value was not published. Publish each value that differs from the "
+                "value before it.",
+            ),
+            (ANYTHING, "This is not the value that was set. Publish the argument of set() unchanged."),
+        ],
+    )

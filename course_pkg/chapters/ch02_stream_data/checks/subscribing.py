@@ -1,0 +1,436 @@
+"""Subscribers: one that mirrors every message, and two that need different queues."""
+
+import statistics
+import threading
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from itertools import pairwise
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import first_unlike
+from course_pkg.checking.peers.subscription import Arrival
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Fields, Value
+from course_pkg.ros.protocol.json_channel import Json
+
+JOINTS = "sensor_msgs/JointState"
+KEEPER = """
+import rospy
+
+kept = []
+
+
+def begin(start, *args):
+    started = start(*args)
+    kept.extend(started if isinstance(started, (list, tuple)) else [started])
+    subscribers = [each for each in kept if isinstance(each, rospy.Subscriber)]
+    return [each.resolved_name for each in subscribers]
+
+
+def end():
+    while kept:
+        subscriber = kept.pop()
+        if hasattr(subscriber, "unregister"):
+            subscriber.unregister()
+"""
+WITNESS = """
+import rospy
+from sensor_msgs.msg import JointState
+
+witnessed = []
+
+
+def listen_too(topic):
+    kept.append(rospy.Subscriber(topic, JointState, witness))
+
+
+def witness(message):
+    witnessed.append(message)
+"""
+FIELDS = ("name", "position", "velocity")
+DRAWING, PREPARING = 0.25, 0.02  # s that one call takes
+OLDEST = 0.5  # s; the largest age of an angle when a drawing begins
+ANGLES, ORDERS = 60, 20
+HEADER = "the header and its time stamp stay the same"
+NO_SUBSCRIBER = "Return the rospy.Subscriber, so that the caller can unregister it."
+OTHER_ORDER = "The two subscribers are in the wrong order. Return the subscriber to `angles` first."
+NO_TWO = "Return a list of two rospy.Subscriber objects, so that the caller can unregister them."
+ONCE = "Some messages arrived more than once. Publish in the callback, once for each message."
+NEVER_RETURNS = (
+    "The function does not return. It has to return immediately: rospy calls the callback in another thread."
+)
+
+
+class Work:
+    """Takes `pause` s for each value; records when each call begins, and how many run at the same time."""
+
+    def __init__(self, pause: float) -> None:
+        self.done: list[tuple[float, Value]] = []
+        self.at_once = 0
+        self._pause = pause
+        self._busy = 0
+        self._lock = threading.Lock()
+
+    @remote
+    def __call__(self, value: Value) -> None:
+        """Work."""
+        with self._lock:
+            self._busy += 1
+            self.at_once = max(self.at_once, self._busy)
+            self.done.append((time.monotonic(), value))
+        time.sleep(self._pause)
+        with self._lock:
+            self._busy -= 1
+
+
+@part(
+    "02.2",
+    points=2,
+    goal="Publish every message of one topic immediately on another topic, with opposite signs.",
+    needs=["start_mirror"],
+    deadline=30.0,
+)
+def a_mirror(context: CheckContext) -> None:
+    """Publish random joint states, and compare each of them with the mirrored message."""
+    source, target = (f"/{context.random.word()}" for _ in range(2))
+    subscription = context.subscribe(target, JOINTS)
+    with _begun(
+        context, "start_mirror", source, target, worded="start_mirror(source, target)", topics=[source]
+    ):
+        subscription.published(
+            hints=[
+                (
+                    matches("nobody"),
+                    "The target has no publisher when start_mirror() has returned. Create the "
+                    "publisher in start_mirror(), not in the callback; otherwise the first "
+                    "messages are lost.",
+                )
+            ]
+        )
+        context.prepare(WITNESS)
+        context.run("listen_too", source, worded="start_mirror(source, target)")
+        messages = _stances(context, 40)
+        publisher = context.publish(source, JOINTS, messages, every=0.025, once=True)
+        publisher.listened()
+        publisher.finish(10.0)
+        _mirrors(context, messages, subscription.wait(len(messages), within=1.5))
+        subscription.during(0.3)
+        context.expect(
+            "one mirrored message for each message",
+            expected=len(messages),
+            actual=subscription.count,
+            hints=ONCE,
+        )
+        _promptly(context, publisher.sent, subscription.arrivals)
+        expected, seen = _changed(messages, context.read("witnessed", list))
+        context.expect(
+            "the message that the callback gets is not changed",
+            expected=expected,
+            actual=seen,
+            near=1e-9,
+            hints=(
+                "You changed the received message, so another callback of this program got the "
+                "changed message. Create a new JointState."
+            ),
+        )
+
+
+def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
+    """Return the first changed message before and after the change; ({}, {}) if no message was changed."""
+    given, seen = (
+        [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
+    )
+    return first_unlike(given, seen, near=1e-9)
+
+
+def _stances(context: CheckContext, count: int) -> list[Fields]:
+    names = [context.random.word() for _ in range(4)]
+    return [
+        {
+            "header": {
+                "stamp": {"secs": 1000 + number, "nsecs": context.random.integer(1, 999_999_999)},
+                "frame_id": context.random.word(),
+            },
+            "name": names,
+            "position": _of_both_signs(context),
+            "velocity": _of_both_signs(context),
+        }
+        for number in range(count)
+    ]
+
+
+def _of_both_signs(context: CheckContext) -> list[float]:
+    """Return four random numbers for which each mistake with signs leads to a different result."""
+    return context.random.shuffled(
+        [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
+    )
+
+
+@contextmanager
+def _begun(
+    context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
+) -> Iterator[None]:
+    """Call the student's function, which returns subscribers of `topics`; unregister them after the block."""
+    context.prepare(KEEPER)
+    try:
+        started = context.run(
+            "begin", Its(start), *args, worded=worded, hints=[(matches("TimesUp"), NEVER_RETURNS)]
+        )
+        names = started.returned()
+        swapped = len(topics) > 1 and names == list(reversed(topics))
+        context.require(
+            "the subscriber is returned" if len(topics) == 1 else "two subscribers are returned",
+            holds=isinstance(names, list) and len(names) == len(topics) and not swapped,
+            expected=f"subscribers: {len(topics)}, in the order of the goal",
+            actual=names,
+            hints=OTHER_ORDER if swapped else NO_SUBSCRIBER if len(topics) == 1 else NO_TWO,
+        )
+        yield
+    finally:
+        context.run("end", worded=worded)
+
+
+def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[Arrival]) -> None:
+    """Compare each mirrored message with the original that has the same time stamp."""
+    stamps = [message["header"]["stamp"] for message in messages]
+    seen = [arrival.fields["header"]["stamp"] for arrival in heard]
+    context.require(
+        HEADER,
+        holds=bool(heard) and seen[0] in stamps,
+        expected="the stamps that were published",
+        actual=seen[:3] if heard else "nothing arrived",
+        hints=[
+            (
+                matches("nothing arrived"),
+                "Nothing arrived. Subscribe to the source, publish in the callback, and look for an error "
+                "below the cell.",
+            ),
+            (
+                matches("'secs': 0, 'nsecs': 0"),
+                "The time is 0, as in a new header. Copy the header of the message.",
+            ),
+            (
+                ANYTHING,
+                "The time is not the time in the received message. Use the header of the received "
+                "message unchanged.",
+            ),
+        ],
+    )
+    for arrival in heard:
+        message = messages[stamps.index(arrival.fields["header"]["stamp"])]
+        context.expect(
+            HEADER,
+            expected=message["header"]["frame_id"],
+            actual=arrival.fields["header"]["frame_id"],
+            hints="A header also has a frame_id. Copy the whole header.",
+        )
+        _is_image(context, message, arrival.fields)
+    context.expect(
+        "every message is mirrored, in order",
+        expected=[stamp["secs"] for stamp in stamps],
+        actual=[stamp["secs"] for stamp in seen],
+        hints=[
+            (
+                lambda actual: len(actual) == 1,
+                "Only one message was mirrored. Do not unregister the subscriber: rospy calls "
+                "the callback for each message.",
+            ),
+            (
+                lambda actual: len(set(actual)) < len(actual),
+                ONCE,
+            ),
+            (
+                lambda actual: len(actual) < len(stamps),
+                "Some messages are missing. Don't pause in the callback, and don't limit the "
+                "queue to a few messages.",
+            ),
+        ],
+    )
+
+
+def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
+    context.expect(
+        "the names stay the same",
+        expected=message["name"],
+        actual=image["name"],
+        hints=[
+            ((), "The names are missing. Copy them from the message."),
+            (
+                tuple(reversed(message["name"])),
+                "The order of the list was reversed. Change the signs instead.",
+            ),
+            (ANYTHING, "Keep the order of the names, because the positions have the same order."),
+        ],
+    )
+    for field, other in (("position", "velocity"), ("velocity", "position")):
+        values = message[field]
+        context.expect(
+            f"every {field} has the opposite sign",
+            expected=[-value for value in values],
+            actual=image[field],
+            near=1e-9,
+            hints=[
+                (values, f"The {field} was not changed. Change the sign of each number."),
+                ([], f"The list of {field} is empty. Fill in this field, too."),
+                (values[::-1], "The order of the list was reversed. Change the signs instead."),
+                (
+                    [abs(value) for value in values],
+                    "A negative number has to become positive, too. Use -value.",
+                ),
+                (
+                    [-value for value in message[other]],
+                    f"These are the numbers of the field {other}. Compare the names of the fields.",
+                ),
+                (ANYTHING, "Change the sign of each number, and nothing else."),
+            ],
+        )
+
+
+def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[Arrival]) -> None:
+    delays = [arrival.at - at for at, arrival in zip(sent, arrivals, strict=False)]
+    context.require(
+        "each message is mirrored without delay",
+        holds=statistics.median(delays) < 0.15,
+        expected="the mirrored message a few milliseconds after the original",
+        actual=f"half of the messages later than {statistics.median(delays):.2f} s",
+        hints="The messages are late. Publish in the callback, and don't wait in it.",
+    )
+
+
+@part(
+    "02.4",
+    points=3,
+    goal="Draw only the newest angle of one topic, but prepare all orders of another topic.",
+    needs=["start_robot"],
+    deadline=30.0,
+)
+def two_queues(context: CheckContext) -> None:
+    """Publish angles much faster than draw() handles them, and many orders within a short time."""
+    topics = [f"/{context.random.word()}" for _ in range(2)]
+    angles = context.random.numbers(ANGLES, -900.0, 900.0)
+    numbers = context.random.integers(ORDERS, 1000, 9999)
+    draw, prepare = Work(DRAWING), Work(PREPARING)
+    context.place("checked_draw", draw)
+    context.place("checked_prepare", prepare)
+    arguments = (topics[0], Its("checked_draw"), topics[1], Its("checked_prepare"))
+    worded = "start_robot(angles, draw, orders, prepare)"
+    with _begun(context, "start_robot", *arguments, worded=worded, topics=topics):
+        values = [{"data": angle} for angle in angles]
+        arm = context.publish(topics[0], "std_msgs/Float64", values, every=0.02, once=True)
+        arm.listened(hints="Create a rospy.Subscriber for the topic `angles`, of type Float64.")
+        orders = [{"data": number} for number in numbers]
+        customers = context.publish(topics[1], "std_msgs/UInt32", orders, every=0.001, once=True)
+        customers.listened(hints="Create a rospy.Subscriber for the topic `orders`, of type UInt32.")
+        arm.finish(10.0)
+        customers.finish(10.0)
+        time.sleep(max(2 * DRAWING, ORDERS * PREPARING))  # wait for the calls with the last values
+        drawn, prepared = [*draw.done], [value for _, value in prepare.done]
+    _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
+    _prepared(context, prepare.at_once, prepared, numbers)
+
+
+def _drawn(
+    context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
+) -> None:
+    """Assert that each angle in `drawn` (time, angle) was the newest; `sent` maps each angle to its time."""
+    angles = [angle for _, angle in drawn]
+    context.require(
+        "draw is called with angles of the topic",
+        holds=bool(angles) and set(map(str, angles)) <= set(map(str, sent)),
+        expected="numbers that were published",
+        actual=angles[:3] or "no call",
+        hints=[
+            (matches("no call"), "draw() was not called. Call it in the callback for `angles`."),
+            (
+                matches("data"),
+                "draw() got the whole message. Pass only the number, which is in the field `data`.",
+            ),
+            (
+                ANYTHING,
+                "draw() got an angle that was not published. Pass the field `data` of the message unchanged.",
+            ),
+        ],
+    )
+    context.require(
+        "draw is called again and again",
+        holds=len(angles) > 2,
+        expected="a call after each drawing",
+        actual=f"{len(angles)} calls",
+        hints="draw() got only one angle. Do not unregister the subscriber, so that more messages arrive.",
+    )
+    overlap = any(later - earlier < 0.9 * DRAWING for (earlier, _), (later, _) in pairwise(drawn))
+    _one_at_a_time(context, "draw", max(at_once, 1 + overlap))
+    order = [list(sent).index(angle) for angle in angles]
+    context.require(
+        "each angle is newer than the one before",
+        holds=order == sorted(set(order)),
+        expected="a later angle each time",
+        actual=angles,
+        hints=(
+            "An angle was drawn twice, or an older angle was drawn after a newer one. Wait for a "
+            "new angle before the next call."
+        ),
+    )
+    oldest = max(at - sent[angle] for at, angle in drawn)
+    context.require(
+        f"no angle is older than {OLDEST} s when it is drawn",
+        holds=oldest < OLDEST,
+        expected=f"at most {OLDEST} s between the message and the call of draw()",
+        actual=f"up to {oldest:.1f} s",
+        hints="Too many angles wait in the queue. Only the newest one is useful here.",
+    )
+    context.expect(
+        "the last angle is drawn",
+        expected=list(sent)[-1],
+        actual=angles[-1],
+        hints=(
+            "The last angle was not drawn. Always draw the newest angle: if you draw, for example, "
+            "every tenth angle, the last one can be missed."
+        ),
+    )
+
+
+def _prepared(context: CheckContext, at_once: int, prepared: list[Value], numbers: list[int]) -> None:
+    context.expect(
+        "each order is prepared once, in order",
+        expected=numbers,
+        actual=prepared,
+        hints=[
+            ([], "prepare() was not called. Call it in the callback for `orders`."),
+            (
+                matches("data"),
+                "prepare() got the whole message. Pass only the number, which is in the field `data`.",
+            ),
+            (
+                lambda actual: len(set(actual)) < len(actual),
+                "An order was prepared twice. Call prepare once for each message.",
+            ),
+            (
+                lambda actual: set(actual) == set(numbers),
+                "The orders were not prepared in the sequence in which they arrived. Handle "
+                "them one after the other.",
+            ),
+            (
+                lambda actual: set(actual) < set(numbers),
+                "Some orders were lost. Twenty orders may wait at the same time, so do not "
+                "limit their queue.",
+            ),
+            (
+                ANYTHING,
+                "prepare() got an order that was not published. Pass the field `data` of the "
+                "message unchanged.",
+            ),
+        ],
+    )
+    _one_at_a_time(context, "prepare", max(at_once, 1))
+
+
+def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
+    """Assert that no two calls overlapped; `at_once` is how many ran at the same time."""
+    context.expect(
+        f"one call of {function} at a time",
+        expected=1,
+        actual=at_once,
+        hints="Two calls ran at the same time. Don't start a thread for each message.",
+    )

@@ -1,0 +1,206 @@
+"""The watch that distinguishes a running stream from a stream that has ended."""
+
+import time
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.publisher import Publisher
+from course_pkg.checking.result import Result
+from course_pkg.waiting import wait_until
+
+KEEPER = """
+watches = {}
+
+
+def begin(kind, topic):
+    watches[topic] = kind(topic)
+
+
+def state(topic):
+    return watches[topic].state()
+
+
+def end():
+    for watch in watches.values():
+        for value in vars(watch).values():
+            if hasattr(value, "unregister"):
+                value.unregister()
+    watches.clear()
+"""
+WORDS = ("waiting", "running", "ended")
+LIMIT = 1.0  # s without a message
+AT_ONCE = 0.4  # s for the fastest of several answers
+
+
+@part(
+    "02.5",
+    points=2,
+    goal='Return immediately whether a stream is "waiting", "running" or "ended".',
+    needs=["Watch"],
+    deadline=40.0,
+)
+def watch_a_stream(context: CheckContext) -> None:
+    """Call state() of one watch before, during and after a stream; call another watch only late."""
+    topic, unasked = (f"/{context.random.word()}" for _ in range(2))
+    context.prepare(KEEPER)
+    try:
+        for name in (topic, unasked):
+            context.run("begin", Its("Watch"), name, worded="Watch(topic)", hints=_RETURNS).returned()
+        times = context.random.integer(3, 6)
+        _says(
+            context,
+            topic,
+            'before the first message, the state is "waiting"',
+            "waiting",
+            _BEFORE,
+            times=times,
+        )
+        time.sleep(1.3)
+        _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
+        publisher = _speaks(context, unasked)
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # by then, the watch has received messages
+        _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
+        _says(context, topic, "two watches are independent", "waiting", _APART)
+        _runs(context, topic)
+        _speaks(context, topic)
+        time.sleep(0.5)
+        _says(context, topic, 'when messages arrive again, the state is "running" again', "running", _WHILE)
+    finally:
+        context.run("end")
+
+
+def _speaks(context: CheckContext, topic: str) -> Publisher:
+    """Publish ten messages per second on the topic of a watch."""
+    publisher = context.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
+    publisher.listened(hints="Create a rospy.Subscriber for the topic, of type UInt32, in __init__.")
+    return publisher
+
+
+def _runs(context: CheckContext, topic: str) -> None:
+    """Publish for a while, then stop, and stay registered as a publisher."""
+    publisher = _speaks(context, topic)
+    time.sleep(0.5)
+    assertion = 'while messages arrive, the state is "running"'
+    _says(context, topic, assertion, "running", _WHILE, times=context.random.integer(5, 9), pause=0.06)
+    time.sleep(1.0)
+    _says(context, topic, assertion, "running", _WHILE)
+    publisher.stop()
+    time.sleep(0.5)
+    end = publisher.sent[-1] + LIMIT
+    _says(
+        context,
+        topic,
+        '0.5 s after the last message, the state is "running"',
+        "running",
+        _PAUSE,
+        before=end,
+    )
+    time.sleep(max(end + 0.4 - time.monotonic(), 0.0))
+    # On a busy machine, the last message may reach the watch late.
+    wait_until(lambda: _asked(context, topic).returned() != "running", 0.4)
+    ended = 'more than 1 s after the last message, the state is "ended"'
+    _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
+
+
+def _asked(context: CheckContext, topic: str) -> Result:
+    return context.run("state", topic, worded="Watch(topic).state()", hints=_RETURNS)
+
+
+def _says(
+    context: CheckContext,
+    topic: str,
+    assertion: str,
+    word: str,
+    hints: Hints,
+    *,
+    times: int = 1,
+    pause: float = 0.0,
+    before: float = float("inf"),
+) -> None:
+    """Assert that state() returns `word` in each of `times` calls; after the time `before` it may differ.
+
+    The calls are `pause` s apart. The fastest call shows whether state() waits: if state() waits, it does so
+    in each call, but a busy machine does not slow down each call.
+    """
+    took = []
+    for _ in range(times):
+        asked = _asked(context, topic)
+        in_time = time.monotonic() < before
+        answer = asked.returned()
+        context.require(
+            "state() returns one of the three strings",
+            holds=answer in WORDS,
+            expected="waiting, running or ended",
+            actual=answer,
+            hints=_NO_WORD,
+        )
+        context.expect(assertion, expected=word if in_time else answer, actual=answer, hints=hints)
+        took.append(asked.took)
+        time.sleep(pause)
+    context.require(
+        "state() returns immediately",
+        holds=times == 1 or min(took) < AT_ONCE,
+        expected="a result without a wait",
+        actual=f"a result after {min(took):.1f} s",
+        hints=(
+            "Don't wait for a message in state(). In the callback, store the time at which a message arrives."
+        ),
+    )
+
+
+_NO_WORD: Hints = [
+    (None, NO_RETURN),
+    (matches("waiting|running|ended"), "Write the string exactly as in the exercise, in small letters."),
+    (ANYTHING, "Return one of the three strings of the exercise."),
+]
+_RETURNS = [
+    (
+        matches("TimesUp"),
+        "state() waits for a message. Subscribe with a callback that stores the time at which "
+        "a message arrives.",
+    ),
+    (
+        matches("TypeError.*NoneType"),
+        "Before the first message, there is no time to compare with. Handle this case first.",
+    ),
+]
+_BEFORE: Hints = [
+    ("running", 'No message has arrived yet, so the state is not "running".'),
+    ("ended", 'The stream has not begun, so it cannot have ended. The state is "waiting".'),
+]
+_UNASKED: Hints = [
+    (
+        ANYTHING,
+        "Messages arrived before the first call of state(). Subscribe in __init__, and store "
+        "in self that a message has arrived.",
+    ),
+]
+_APART: Hints = [
+    (
+        ANYTHING,
+        "Only the other Watch received messages. Store the data of each Watch in self, not in "
+        "a global variable.",
+    ),
+]
+_WHILE: Hints = [
+    (
+        "ended",
+        "The last message arrived less than a second ago. Store the time at which each message arrives.",
+    ),
+]
+_PAUSE: Hints = [
+    (
+        "ended",
+        "The last message arrived half a second ago. A stream has ended only after a whole "
+        "second without a message.",
+    ),
+]
+_END: Hints = [
+    (
+        "running",
+        "No message has arrived for more than a second. The publisher is still registered, so "
+        "use the time of the last message.",
+    ),
+    ("waiting", 'Messages arrived before, but no message arrives now, so the state is "ended".'),
+]

@@ -1,0 +1,269 @@
+"""Example answers of chapter 03; tests/checking/example_answers.py explains the format."""
+
+# %% 03.1 right: polls until the time is over
+def poll(service, seconds, rate):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        answer = rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=0)
+        if answer.detected:
+            return answer.number
+        time.sleep(1 / rate)
+    return None
+
+# %% 03.1 right: a rospy.Rate and one proxy
+def poll(service, seconds, rate):
+    ask = rospy.ServiceProxy(service, DetectCustomer)
+    pace = rospy.Rate(rate)
+    end = rospy.Time.now() + rospy.Duration(seconds)
+    while rospy.Time.now() < end:
+        answer = ask(0, 0.0)
+        if answer.number:
+            return answer.number
+        pace.sleep()
+
+# %% 03.1 right: a shorter last pause
+def poll(service, seconds, rate):
+    started = time.time()
+    while True:
+        answer = rospy.ServiceProxy(service, DetectCustomer)()
+        if answer.detected:
+            return answer.number
+        rest = started + seconds - time.time()
+        if rest <= 0:
+            return None
+        time.sleep(min(rest, 1 / rate))
+
+# %% 03.1 wrong: polls without a pause | hint: There were too many calls
+replace("\n        time.sleep(1 / rate)", "")
+# %% 03.1 wrong: polls without a limit | hint: poll() continues after the time is over
+replace("end = time.monotonic() + seconds\n    while time.monotonic() < end:", "while True:")
+replace("\n    return None", "")
+# %% 03.1 wrong: uses the rate as the pause | hint: The pause between two calls is 1 / rate seconds
+replace("1 / rate", "rate")
+# %% 03.1 wrong: counts polls instead of seconds | hint: Do not count calls
+replace("    end = time.monotonic() + seconds\n    while time.monotonic() < end:", "    for _ in range(int(seconds * rate)):")
+# %% 03.1 wrong: makes the server wait | hint: With this value of `patience`, the
+replace("end = time … return None", """answer = rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=seconds)
+    return answer.number if answer.detected else None""")
+# %% 03.1 wrong: polls once | hint: poll() stopped after the first response,
+based_on("makes the server wait")
+replace("patience=seconds", "patience=0")
+# %% 03.1 wrong: pauses first | hint: A customer was there, but poll()
+replace("end:", "end:\n        time.sleep(1 / rate)")
+replace("return answer.number\n        time.sleep(1 / rate)", "return answer.number")
+# %% 03.1 wrong: returns True | hint: This is the value of the
+replace("return answer.number", "return True")
+# %% 03.1 wrong: returns the whole response | hint: This is the whole response
+replace("answer.number", "answer")
+# %% 03.1 wrong: 0 if there is no customer | hint: Without a customer, the field `number`
+replace("return None", "return answer.number")
+# %% 03.1 wrong: calls a second time for the number | hint: poll() called again, although the first
+replace("return answer.number", "return rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=0).number")
+# %% 03.1 wrong: forgets to return | hint: poll() returned None, although a customer was there
+replace("return answer.number", "break")
+replace("\n    return None", "")
+# %% 03.1 wrong: a fixed pause | hint: so customers wait longer
+replace("1 / rate", "0.5")
+# %% 03.1 wrong: an error when the time is over | hint: No customer came, but poll() raised
+replace("return None", 'raise TimeoutError("nobody came")')
+# %% 03.1 wrong: a pause of two seconds | hint: poll() made too few calls
+replace("1 / rate", "2")
+# %% 03.1 wrong: False if there is no customer | hint: so the result has to be None
+replace("return None", "return False")
+# %% 03.1 wrong: polls for one second | hint: poll() stopped before `seconds` were over.
+replace("+ seconds", "+ 1")
+# %% 03.1 wrong: a field of the response in the request | hint: The request has no such field
+replace("after=0", "number=0")
+# %% 03.1 wrong: a fixed service name | hint: poll() did not call the given
+replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
+# %% 03.1 wrong: only customers after the first | hint: With this value of `after`, the
+replace("after=0", "after=1")
+# %% 03.1 wrong: 1 for a customer | hint: This is not the number from
+replace("return answer.number", "return 1")
+
+# %% 03.2 right: a set of the greeted customers
+def start_greeting(customers, greetings):
+    publisher = rospy.Publisher(greetings, UInt32, queue_size=10)
+    greeted = set()
+
+    def greet(message):
+        if message.data not in greeted:
+            greeted.add(message.data)
+            say_good_day(message.data)
+            publisher.publish(message.data)
+
+    rospy.Subscriber(customers, UInt32, greet)
+
+# %% 03.2 wrong: only numbers above the last one | hint: The numbers come in any order
+class Greeter:
+    def __init__(self, greetings):
+        self.last = 0
+        self.publisher = rospy.Publisher(greetings, UInt32, queue_size=100)
+
+    def greet(self, message):
+        if message.data > self.last:
+            self.last = message.data
+            say_good_day(message.data)
+            self.publisher.publish(message)
+
+
+def start_greeting(customers, greetings):
+    rospy.Subscriber(customers, UInt32, Greeter(greetings).greet)
+
+# %% 03.2 right: a queue, and a thread that greets
+def start_greeting(customers, greetings):
+    import queue
+
+    waiting = queue.Queue()
+    publisher = rospy.Publisher(greetings, UInt32, queue_size=0)
+
+    def work():
+        greeted = []
+        while True:
+            number = waiting.get()
+            if number not in greeted:
+                greeted.append(number)
+                say_good_day(number)
+                publisher.publish(number)
+
+    threading.Thread(target=work, daemon=True).start()
+    rospy.Subscriber(customers, UInt32, lambda message: waiting.put(message.data))
+
+# %% 03.2 wrong: a queue of one | hint: Messages that came during a greeting
+replace("rospy.Subscriber(customers, UInt32, greet", "rospy.Subscriber(customers, UInt32, greet, queue_size=1")
+# %% 03.2 wrong: greets twice | hint: Store the greeted numbers in a set
+replace("\n            greeted.add(message.data)", "")
+# %% 03.2 wrong: compares with the previous customer only | hint: Store the greeted numbers in a set
+replace("greeted = set()", "before = [0]")
+replace("not in greeted", "!= before[0]")
+replace("greeted.add(message.data)", "before[0] = message.data")
+# %% 03.2 wrong: a publisher for each greeting | hint: There is no publisher before the first customer comes
+replace("\n    publisher = rospy.Publisher(greetings, UInt32, queue_size=10)", "")
+replace("publisher", "rospy.Publisher(greetings, UInt32, queue_size=10)")
+# %% 03.2 wrong: does not return | hint: start_greeting() does not return
+replace("greeted = set … UInt32, greet)", """while True:
+        message = rospy.wait_for_message(customers, UInt32)
+        say_good_day(message.data)
+        publisher.publish(message.data)""")
+# %% 03.2 wrong: publishes before the greeting | hint: Call say_good_day(number) first
+replace("add(message.data)", "add(message.data)\n            publisher.publish(message.data)")
+replace("            publisher.publish(message.data)\n\n", "")
+# %% 03.2 wrong: does not greet | hint: Call say_good_day(number) first
+replace("\n            say_good_day(message.data)", "")
+# %% 03.2 wrong: a fixed topic | hint: No node is subscribed to the topic
+replace("greeted = set … UInt32, greet)", 'rospy.Subscriber("/customers", UInt32, publisher.publish)')
+# %% 03.2 wrong: the two topics exchanged | hint: The function publishes on `customers`
+based_on("a fixed topic")
+replace("greetings, UInt32", "customers, UInt32")
+replace('"/customers"', "greetings")
+# %% 03.2 wrong: publishes the number of greetings | hint: A number was published that is
+replace("publish(message.data)", "publish(len(greeted))")
+# %% 03.2 wrong: another type | hint: Publish it with the type
+replace("def start_greeting", "from std_msgs.msg import Int32\n\n\ndef start_greeting")
+replace("greetings, UInt32", "greetings, Int32")
+# %% 03.2 wrong: an error in the callback | hint: No greeting was published. Look for
+replace("message.data", "message.number", times=4)
+# %% 03.2 wrong: greets the last customer first | hint: The order is wrong. Greet
+based_on("a queue, and a thread that greets")
+replace("queue.Queue()", "queue.LifoQueue()")
+# %% 03.2 wrong: a thread for each greeting | hint: Two greetings ran at the same time
+replace("(message):", "(number):\n        say_good_day(number)\n        publisher.publish(number)\n\n    def hear(message):")
+replace("say_good_day(message … UInt32, greet)", """threading.Thread(target=greet, args=(message.data,)).start()
+
+    rospy.Subscriber(customers, UInt32, hear)""")
+# %% 03.2 wrong: greets a customer twice, publishes once | hint: Store the greeted numbers in a set
+replace("def greet(message):", "def greet(message):\n        say_good_day(message.data)")
+replace("\n            say_good_day(message.data)", "")
+# %% 03.2 wrong: changes the record of the greetings | hint: Store the greeted numbers in a set
+based_on("greets a customer twice, publishes once")
+replace("say_good_day(message.data)", "say_good_day(message.data)\n        say_good_day.said = list(greeted)")
+# %% 03.2 wrong: one set for all | hint: After a second call of start_greeting(),
+replace("def start_greeting", "greeted = set()\n\n\ndef start_greeting")
+replace("    greeted = set()\n\n    def", "\n    def")
+# %% 03.2 wrong: greets the message | hint: say_good_day() needs the number, not the
+replace("say_good_day(message.data)", "say_good_day(message)")
+
+# %% 03.3 right: one after the other
+solution()
+
+# %% 03.3 right: in another order
+mistakes = dict(F="stream for one value", E="waits in the control loop", D="no regular messages")
+mistakes.update(zip("ABC", ["polls too rarely", "polls too often", "topic without latch"]))
+
+# %% 03.3 wrong: A and B exchanged | hint: A client that polls too often … as long as the pause between two calls
+replace('"A": "polls too rarely"', '"A": "polls too often"')
+replace('"B": "polls too often"', '"B": "polls too rarely"')
+# %% 03.3 wrong: rare polling for frequent polling | hint: A client that polls too rarely … Nearly all of the calls return
+replace('"polls too often"', '"polls too rarely"')
+# %% 03.3 wrong: C and D exchanged | hint: Regular messages show a subscriber … before the tablet subscribed
+replace('"C": "topic without latch"', '"C": "no regular messages"')
+replace('"D": "no regular messages"', '"D": "topic without latch"')
+# %% 03.3 wrong: a latch for the sensor | hint: A missing latch affects a subscriber … a broken sensor from a free road
+replace('"no regular messages"', '"topic without latch"')
+# %% 03.3 wrong: a stream for the control loop | hint: If a node needs only one … The thread that steers the robot
+replace('"waits in the control loop"', '"stream for one value"')
+# %% 03.3 wrong: a wait for the stream | hint: A wait in a control loop … Nearly all of the messages are
+replace('"stream for one value"', '"waits in the control loop"')
+# %% 03.3 wrong: a case left out | hint: A case is missing
+replace('\n    "F": "stream for one value",', "")
+# %% 03.3 wrong: small letters | hint: as strings with capital letters
+replace('"A"', '"a"')
+# %% 03.3 wrong: other words | hint: Copy the names exactly from the
+replace('"polls too rarely"', '"too slow"')
+
+# %% 03.4 right: six decisions
+decisions = {
+    "wheel speed": ("topic", "newest"),
+    "open the gripper": ("service", "answer"),
+    "full map": ("service", "seldom"),
+    "obstacle seen": ("topic", "many"),
+    "tidy the room": ("action", "long"),
+    "free space on disk": ("service", "seldom"),
+}
+
+# %% 03.4 right: a latched map, and an action for the gripper
+decisions = {
+    "wheel speed": ["topic", "many"],
+    "open the gripper": ["action", "answer"],
+    "full map": ["topic", "latched"],
+    "obstacle seen": ["topic", "newest"],
+    "tidy the room": ["action", "long"],
+    "free space on disk": ["service", "answer"],
+}
+
+# %% 03.4 wrong: a service for the wheel speed | hint: A client would make fifty calls per second
+replace('"topic", "newest"', '"service", "newest"')
+# %% 03.4 wrong: a topic for the gripper | hint: The gripper may be blocked
+replace('"service", "answer"', '"topic", "answer"')
+# %% 03.4 wrong: a service for the obstacle | hint: The node of the bumper would
+replace('"topic", "many"', '"service", "answer"')
+# %% 03.4 wrong: a service for tidying the room | hint: The client would wait for half an hour
+replace('"action", "long"', '"service", "answer"')
+# %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the sender gets
+replace('"action", "long"', '"topic", "newest"')
+# %% 03.4 wrong: a topic for the disk | hint: The number would be published all day
+replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
+# %% 03.4 wrong: an action for the disk | hint: This job takes only a moment.
+replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')
+# %% 03.4 wrong: a right decision for a wrong reason | hint: This reason does not fit: here, only
+replace('"service", "answer"', '"service", "many"')
+# %% 03.4 wrong: an answer as the reason for a topic | hint: This reason does not fit: here, the
+replace('"topic", "many"', '"topic", "answer"')
+# %% 03.4 wrong: the newest state of the gripper | hint: This reason does not fit: here, new
+replace('"service", "answer"', '"service", "newest"')
+# %% 03.4 wrong: the gripper is seldom used | hint: This reason does not fit: here, either
+replace('"service", "answer"', '"service", "seldom"')
+# %% 03.4 wrong: the disk takes long | hint: the work does not take long here
+replace('disk": ("service", "seldom")', 'disk": ("service", "long")')
+# %% 03.4 wrong: a latched wheel speed | hint: This reason does not fit: an
+replace('"topic", "newest"', '"topic", "latched"')
+# %% 03.4 wrong: no reasons | hint: The reason is missing
+replace('("topic", "newest")', '"topic"')
+# %% 03.4 wrong: the reason first | hint: Write the design first
+replace('"topic", "newest"', '"newest", "topic"')
+# %% 03.4 wrong: one job left out | hint: The keys are the names of
+replace('\n    "free space on disk": ("service", "seldom"),', "")
+# %% 03.4 wrong: a list of triples | hint: A dict is written in braces
+replace("decisions = … }", 'decisions = [\n    ("wheel speed", "topic", "newest"),\n    ("open the gripper", "service", "answer"),\n]')
+# %% 03.4 wrong: a reason that is not in the list | hint: The designs are
+replace('"newest"', '"fast"')

@@ -1,0 +1,128 @@
+"""03.4: which design fits which job, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.plain_values import of_kind
+
+DESIGNS = ("topic", "service", "action")
+REASONS = ("answer", "many", "newest", "seldom", "latched", "long")
+
+# For each job: the right designs; for each of these designs: the right reasons.
+JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "wheel speed": {"topic": ("newest", "many")},
+    "open the gripper": {"service": ("answer",), "action": ("answer", "long")},
+    "full map": {"service": ("seldom", "answer"), "topic": ("latched", "many")},
+    "obstacle seen": {"topic": ("many", "newest")},
+    "tidy the room": {"action": ("long", "answer")},
+    "free space on disk": {"service": ("seldom", "answer")},
+}
+WRONG: Mapping[tuple[str, str], str] = {
+    (
+        "wheel speed",
+        "service",
+    ): (
+        "A client would make fifty calls per second and wait for each response. You have measured "
+        "how much work this is."
+    ),
+    (
+        "open the gripper",
+        "topic",
+    ): "The gripper may be blocked, but a publisher would not get this information.",
+    (
+        "obstacle seen",
+        "service",
+    ): (
+        "The node of the bumper would have to call the motors, the lamp and the log one after the "
+        "other, and wait for each response."
+    ),
+    (
+        "tidy the room",
+        "service",
+    ): "The client would wait for half an hour, without progress messages and without a way to cancel.",
+    (
+        "tidy the room",
+        "topic",
+    ): "With a topic, the sender gets no result of its job, and no progress messages.",
+    (
+        "free space on disk",
+        "topic",
+    ): "The number would be published all day, but only one program needs it, and only once.",
+}
+HOLLOW: Mapping[str, str] = {
+    "answer": "This reason does not fit: here, the node that sends or calls does not need an answer.",
+    "many": "This reason does not fit: here, only one node needs the data.",
+    "newest": "This reason does not fit: here, new values do not come all the time.",
+    "seldom": "This reason does not fit: here, either the data is needed often, or a message is small.",
+    "latched": "This reason does not fit: an old value would not help a node that starts later.",
+    "long": "This reason does not fit: the work does not take long here.",
+}
+
+
+@part(
+    "03.4",
+    points=2,
+    goal="Choose a design and a reason for each of six jobs.",
+    needs=["decisions"],
+)
+def decide_and_defend(context: CheckContext) -> None:
+    """Check the design of each job first, and then the reason for this design."""
+    decisions = context.read("decisions")
+    context.require(
+        "there is a decision for each job",
+        holds=isinstance(decisions, dict) and set(decisions) == set(JOBS),
+        expected=f"a dict with the keys {', '.join(map(repr, JOBS))}",
+        actual=", ".join(map(repr, decisions)) if isinstance(decisions, dict) else decisions,
+        hints=[
+            (
+                lambda actual: isinstance(actual, list),
+                "A dict is written in braces: {job: (design, reason), ...}.",
+            ),
+            (ANYTHING, "The keys are the names of the jobs in the table. Compare them letter by letter."),
+        ],
+    )
+    decided = of_kind(dict, decisions, "decisions")
+    context.require(
+        "each decision is a design and a reason",
+        holds=all(_is_decision(value) for value in decided.values()),
+        expected='such as ("topic", "newest")',
+        actual=next((value for value in decided.values() if not _is_decision(value)), ""),
+        hints=[
+            (
+                lambda actual: isinstance(actual, str),
+                "The reason is missing. Write a pair: (design, reason).",
+            ),
+            (
+                lambda actual: tuple(actual[::-1]) and actual[0] in REASONS and actual[1] in DESIGNS,
+                "The order is wrong. Write the design first, and then the reason.",
+            ),
+            (ANYTHING, f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."),
+        ],
+    )
+    for job, designs in JOBS.items():
+        chosen, reason = decided[job]
+        context.require(
+            f"{job}: the design",
+            holds=chosen in designs,
+            expected="another design",
+            actual=chosen,
+            hints=_why_not(job, chosen),
+        )
+        context.require(
+            f"{job}: the reason",
+            holds=reason in designs[chosen],
+            expected="a reason that holds for this job and this design",
+            actual=reason,
+            hints=HOLLOW[reason],
+        )
+
+
+def _is_decision(value: object) -> bool:
+    return isinstance(value, list) and len(value) == 2 and value[0] in DESIGNS and value[1] in REASONS
+
+
+def _why_not(job: str, chosen: str) -> str:
+    action = "This job takes only a moment. An action is for work that takes time and that can be cancelled."
+    return WRONG.get((job, chosen), action)

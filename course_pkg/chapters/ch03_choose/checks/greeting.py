@@ -1,0 +1,242 @@
+"""03.2: each customer that a topic announces is greeted, once and in order."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Value
+
+NUMBER = "std_msgs/UInt32"
+GREETING = 0.2  # s that say_good_day() takes
+EAR = """
+class Ear:
+    def __init__(self):
+        self.names, self.say = {}, None
+
+    def __call__(self, number):
+        checked_greetings.begin(number if isinstance(number, int) else type(number).__name__)
+        try:
+            return self.say(number)
+        finally:
+            checked_greetings.end()
+
+
+ear = Ear()
+
+
+def begin(start, *topics):
+    ear.names = getattr(start, "__globals__", {})
+    if ear.names.get("say_good_day") not in (None, ear):
+        ear.say = ear.names["say_good_day"]
+        ear.names["say_good_day"] = ear
+    return start(*topics)
+
+
+def end():
+    if ear.say:
+        ear.names["say_good_day"] = ear.say
+"""  # reports the calls: two calls at the same time may not be visible on the topic
+MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
+TOO_LATE = (
+    "There is no publisher before the first customer comes, so the first greeting is lost. "
+    "Create the publisher in start_greeting(), outside of the callback."
+)
+LOST = (
+    "Messages that came during a greeting were dropped. A small queue_size of the subscriber "
+    "causes this. If you leave out queue_size, no message is dropped."
+)
+
+
+class Greetings:
+    """Records the calls of say_good_day(), and how many ran at the same time."""
+
+    def __init__(self) -> None:
+        self.said: list[Value] = []  # what it was called with: a number, or the name of another type
+        self.at_once = 0
+        self._busy = 0
+        self._lock = threading.Lock()
+
+    @remote
+    def begin(self, number: Value) -> None:
+        """Record that a greeting begins."""
+        with self._lock:
+            self.said.append(number)
+            self._busy += 1
+            self.at_once = max(self.at_once, self._busy)
+
+    @remote
+    def end(self) -> None:
+        """Record that a greeting has ended."""
+        with self._lock:
+            self._busy -= 1
+
+
+@part(
+    "03.2",
+    points=2,
+    goal="Greet each customer of a topic once, in the order of the messages.",
+    needs=["start_greeting"],
+    deadline=30.0,
+)
+def greet_everyone(context: CheckContext) -> None:
+    """Announce five customers quickly, two of them twice; after a pause, two new ones and an earlier one."""
+    customers, greetings = (f"/{context.random.word()}" for _ in range(2))
+    numbers = context.random.integers(7, 10, 9000)
+    subscription = context.subscribe(greetings, NUMBER)
+    said = Greetings()
+    context.place("checked_greetings", said)
+    context.prepare(EAR)
+    try:
+        _greets(context, said, subscription, customers, greetings, numbers)
+    finally:
+        context.run("end", worded="start_greeting()")
+
+
+def _greets(
+    context: CheckContext,
+    said: Greetings,
+    subscription: Subscription,
+    customers: str,
+    greetings: str,
+    numbers: list[int],
+) -> None:
+    first, later = numbers[:5], numbers[5:]
+    start, call = Its("start_greeting"), "start_greeting()"
+    context.run("begin", start, customers, greetings, hints=_NO_RETURN, worded=call).returned()
+    mixed_up = any(topic.name == customers and topic.publishers for topic in context.look().topics)
+    subscription.published(hints=[(matches("nobody"), MIXED_UP if mixed_up else TOO_LATE)])
+    sent = _told(context, customers, [*first[:2], first[0], *first[2:], first[2]])
+    _greeted(context, said, subscription, first)
+    context.require(
+        "the number is published after the greeting",
+        holds=subscription.arrivals[0].at - sent > 0.75 * GREETING,
+        expected=f"a message about {GREETING:g} s after the customer, as long as say_good_day() takes",
+        actual="an earlier message",
+        hints="The number was published before the greeting had ended. Call say_good_day(number) first.",
+    )
+    _told(context, customers, [later[0], first[3], later[1]])
+    _greeted(context, said, subscription, numbers)
+    _starts_again(context, first[0])
+
+
+def _starts_again(context: CheckContext, number: int) -> None:
+    """Call start_greeting() again, with other topics: this call must not know the customers of the first."""
+    customers, greetings = (f"/{context.random.word()}" for _ in range(2))
+    subscription = context.subscribe(greetings, NUMBER)
+    context.run(
+        "begin", Its("start_greeting"), customers, greetings, worded="start_greeting()", hints=_NO_RETURN
+    ).returned()
+    subscription.published(hints=[(matches("nobody"), TOO_LATE)])
+    _told(context, customers, [number])
+    subscription.wait(1, within=8.0)
+    context.require(
+        "no customer is lost",
+        holds=subscription.count > 0,
+        expected=f"a greeting for {number} after a second start_greeting()",
+        actual="none",
+        hints=(
+            "After a second call of start_greeting(), no customer was greeted, because the set "
+            "still contains the numbers of the first call. Create the set in start_greeting()."
+        ),
+    )
+
+
+def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
+    """Publish the `numbers`, 50 per second; return the time of the first message (s, time.monotonic())."""
+    publisher = context.publish(
+        topic, NUMBER, [{"data": number} for number in numbers], every=0.02, once=True
+    )
+    context.require(
+        "the topic in `customers` has a subscriber",
+        holds=publisher.has_subscriber(3.0),
+        expected=f"a subscriber of {topic}",
+        actual="no subscriber",
+        hints="No node is subscribed to the topic in `customers`. Create the subscriber, and do not "
+        "unregister it.",
+    )
+    publisher.finish(5.0)
+    publisher.stop()
+    return publisher.sent[0]
+
+
+def _greeted(
+    context: CheckContext, greetings: Greetings, subscription: Subscription, numbers: list[int]
+) -> None:
+    """Assert that all of `numbers` have been greeted by now, once and in order."""
+    subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
+    subscription.during(2 * GREETING + 0.2)  # a second greeting of the same customer would come in this time
+    seen = [each.fields["data"] for each in subscription.arrivals]
+    said = [*greetings.said]
+    context.require(
+        "only customers are greeted",
+        holds=set(seen) <= set(numbers),
+        expected=f"numbers such as {numbers[:3]}",
+        actual=seen,
+        hints=(
+            "A number was published that is not the number of a customer. Publish the field `data` "
+            "of the message unchanged."
+        ),
+    )
+    context.require(
+        "no customer is lost",
+        holds=set(seen) == set(numbers),
+        expected=f"greetings for {numbers}",
+        actual=seen,
+        hints=[
+            (
+                [],
+                "No greeting was published. Look for an error in the callback: rospy prints "
+                "the error and continues.",
+            ),
+            (
+                [number for place, number in enumerate(numbers) if number == max(numbers[: place + 1])],
+                "A customer with a number smaller than an earlier number was not greeted. The "
+                "numbers come in any order, so store all numbers that were greeted.",
+            ),
+            (ANYTHING, LOST),
+        ],
+    )
+    context.require(
+        "only customers are greeted",
+        holds=set(map(str, said)) <= set(map(str, numbers)),
+        expected=f"calls such as say_good_day({numbers[0]})",
+        actual=f"say_good_day({said[0] if said else ''})",
+        hints="say_good_day() needs the number, not the message. Pass the field `data` of the message.",
+    )
+    context.require(
+        "no customer is greeted twice",
+        holds=len(seen) == len(set(seen)) and len(said) == len(set(map(str, said))),
+        expected=f"each of {numbers} once",
+        actual=seen if len(seen) > len(set(seen)) else f"say_good_day() for {', '.join(map(str, said))}",
+        hints=(
+            "A number came a second time, and the customer was greeted again. Store the greeted "
+            "numbers in a set."
+        ),
+    )
+    assertion = "customers are greeted in the order of the messages"
+    if greetings.at_once > 1:
+        context.fail(
+            assertion,
+            expected="one greeting after the other",
+            actual="two at the same time",
+            hint="Two greetings ran at the same time. Do not start a thread for each customer: greet in "
+            "the callback.",
+        )
+    context.expect(
+        assertion,
+        expected=numbers,
+        actual=seen,
+        hints="The order is wrong. Greet one customer after the other, in the order of the messages.",
+    )
+
+
+_NO_RETURN = [
+    (
+        matches("^(TimesUp|NothingHeard)"),
+        "start_greeting() does not return. Subscribe with a callback, which rospy calls in "
+        "another thread for each message, and do not wait.",
+    )
+]

@@ -1,0 +1,235 @@
+"""03.1: a client that polls at a limited rate and for a limited time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from course_pkg.checking import ANYTHING, CheckContext, Late, matches, part
+from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
+from course_pkg.checking.plain_values import Message
+from course_pkg.checking.result import Result
+from course_pkg.ros.protocol.json_channel import Json
+
+DETECT = "course_pkg/DetectCustomer"
+SLACK = 0.7  # s that a busy machine may add
+NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
+NO_PAUSE = "The pause between two calls is 1 / rate seconds."
+NO_END = (
+    "poll() continues after the time is over. Before the first call, compute the end: "
+    "time.monotonic() + seconds. Compare the current time with this end before each call."
+)
+
+COUNTED = (
+    "Each call takes some time, too. Do not count calls: compare the time with the end before each call."
+)
+
+
+@dataclass
+class Counter:
+    """A detector with one customer, who arrives `after` s from now; each response takes `slow` s."""
+
+    number: int
+    after: float
+    slow: float = 0.0
+    asked: list[float] = field(default_factory=list)
+    opened: float = field(default_factory=time.monotonic)
+
+    def answer(self, _: Message) -> Act:
+        """Return the response to a request that arrives now."""
+        self.asked.append(time.monotonic())
+        there = self.asked[-1] - self.opened >= self.after
+        answer: dict[str, Json] = {"detected": there, "number": self.number if there else 0}
+        return Late(self.slow, answer) if self.slow else answer
+
+
+@part(
+    "03.1",
+    points=2,
+    goal="Poll until a customer is there, with a limit for the rate and a limit for the time.",
+    needs=["poll"],
+    deadline=30.0,
+)
+def poll_with_a_deadline(context: CheckContext) -> None:
+    """Try a customer who is there, one who arrives later, and no customer with a fast and a slow detector."""
+    _one_who_is_there(context)
+    _one_who_comes(context)
+    _nobody(context)
+    _nobody_slowly(context)
+
+
+def _one_who_is_there(context: CheckContext) -> None:
+    counter = Counter(context.random.integer(100, 999), after=0.0)
+    result, server = _polled(context, counter.answer, seconds=4.0, rate=1.0)
+    _asked_as_it_should(context, server)
+    context.expect(
+        "the number of the customer is returned",
+        expected=counter.number,
+        actual=result.returned(),
+        hints=_NUMBER,
+    )
+    context.expect(
+        "it makes no call after a customer was found",
+        expected=1,
+        actual=len(counter.asked),
+        hints=(
+            "poll() called again, although the first response contained a customer. Store the "
+            "response, and return the number from it."
+        ),
+    )
+    context.require(
+        "it calls before it pauses",
+        holds=result.took < 0.9,
+        expected="an immediate return if a customer is there",
+        actual=f"a return after {result.took:.1f} s",
+        hints=(
+            "A customer was there, but poll() paused first. Call first, and pause only after a "
+            "response without a customer."
+        ),
+    )
+
+
+def _one_who_comes(context: CheckContext) -> None:
+    counter = Counter(context.random.integer(100, 999), after=0.7)
+    result, _ = _polled(context, counter.answer, seconds=4.0, rate=5.0)
+    context.expect(
+        "a customer who comes later is found",
+        expected=counter.number,
+        actual=result.returned(),
+        hints=[
+            (
+                None,
+                "poll() stopped after the first response, before the time was over. Call again."
+                if len(counter.asked) == 1 and result.took < 4.5
+                else NO_PAUSE,
+            ),
+            *_NUMBER,
+        ],
+    )
+    context.require(
+        "a customer who comes does not wait longer than a pause",
+        holds=result.took < 0.7 + 0.2 + SLACK,
+        expected="a return about 0.2 s after the customer came",
+        actual=f"a return {result.took - 0.7:.1f} s after the customer came",
+        hints=f"poll() made too few calls. {NO_PAUSE}",
+    )
+
+
+def _nobody(context: CheckContext) -> None:
+    counter = Counter(0, after=float("inf"))
+    seconds, rate = 2.0, 8.0
+    result, _ = _polled(context, counter.answer, seconds=seconds, rate=rate)
+    context.expect(
+        "None if no customer comes",
+        expected=None,
+        actual=result.returned(),
+        hints=[
+            (0, "Without a customer, the field `number` is 0. Return None in this case."),
+            (ANYTHING, "No customer came, so the result has to be None when the time is over."),
+        ],
+    )
+    context.require(
+        "it makes no more calls than the rate allows",
+        holds=len(counter.asked) <= seconds * rate + 2,
+        expected=f"at most {seconds * rate + 1:g} calls in {seconds:g} s, at {rate:g} per second",
+        actual=f"{len(counter.asked)} calls",
+        hints=f"There were too many calls, so two programs are busier than necessary. {NO_PAUSE}",
+    )
+    context.require(
+        "it does not give up early",
+        holds=result.took > seconds - 1 / rate - 0.2,
+        expected=f"calls for {seconds:g} s",
+        actual=f"an end after {result.took:.1f} s",
+        hints="poll() stopped before `seconds` were over. Continue until then.",
+    )
+    context.require(
+        "it makes about as many calls as the rate allows",
+        holds=len(counter.asked) >= seconds * rate / 3,
+        expected=f"up to {seconds * rate + 1:g} calls in {seconds:g} s",
+        actual=f"{len(counter.asked)} calls",
+        hints=f"There were too few calls, so customers wait longer. {NO_PAUSE}",
+    )
+    counted = len(counter.asked) <= seconds * rate + 1
+    _ends_in_time(context, result, seconds + 1 / rate, COUNTED if counted else NO_END)
+
+
+def _nobody_slowly(context: CheckContext) -> None:
+    counter = Counter(0, after=float("inf"), slow=0.3)
+    result, _ = _polled(context, counter.answer, seconds=1.2, rate=10.0)
+    _ends_in_time(
+        context,
+        result,
+        1.2 + 0.3 + 0.1,
+        COUNTED,
+    )
+
+
+def _ends_in_time(context: CheckContext, result: Result, latest: float, hint: str = NO_END) -> None:
+    result.returned()
+    context.require(
+        "it ends when the time is over",
+        holds=result.took < latest + SLACK,
+        expected=f"an end after about {latest:.1f} s",
+        actual=f"an end after {result.took:.1f} s",
+        hints=hint,
+    )
+
+
+def _polled(
+    context: CheckContext, script: Callable[[Message], Act], *, seconds: float, rate: float
+) -> tuple[Result, ScriptedServer]:
+    name = f"/{context.random.word()}"
+    server = context.serve(name, DETECT, script)
+    hints = [
+        (
+            matches("unavailable"),
+            "poll() did not call the given service. Create the proxy with the name in `service`.",
+        ),
+        (matches("^TimesUp"), NO_END),
+        (
+            matches("^(TimeoutError|ROSException)"),
+            "No customer came, but poll() raised an error. Return None in this case.",
+        ),
+        (
+            matches("is not an attribute of DetectCustomerRequest"),
+            "The request has no such field. Its fields are `after` and `patience`.",
+        ),
+    ]
+    result = context.run("poll", name, seconds, rate, within=8.0, hints=hints)
+    result.returned()
+    return result, server
+
+
+def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
+    context.require(
+        "the service in `service` is called",
+        holds=bool(server.requests),
+        expected="a call of the service in `service`",
+        actual="no call",
+    )
+    context.expect(
+        "`patience` is 0 in the request",
+        expected=0.0,
+        actual=server.requests[0]["patience"],
+        hints=(
+            "With this value of `patience`, the detector waits, which is the third design. Use patience=0."
+        ),
+    )
+    context.expect(
+        "`after` is 0 in the request",
+        expected=0,
+        actual=server.requests[0]["after"],
+        hints="With this value of `after`, the detector ignores some customers. Use after=0.",
+    )
+
+
+_NUMBER = [
+    (None, NO_NUMBER),
+    (True, "This is the value of the field `detected`. Return the value of the field `number`."),
+    (lambda actual: "number" in actual, "This is the whole response. Return only its field `number`."),
+    (
+        ANYTHING,
+        "This is not the number from the response. Return the field `number` of the response unchanged.",
+    ),
+]

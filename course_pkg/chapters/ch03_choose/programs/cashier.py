@@ -1,0 +1,127 @@
+"""The node `cashier`: greets every customer once, with one of three designs.
+
+`~design` is `poll` (call `detect_customer` `~rate` times per second, and again after each new customer),
+`topic` (subscribe to `customers`), or `wait` (call `detect_customer`, which answers within `~patience` s). It
+publishes the number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
+(course_pkg/CashierReport).
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections import deque
+
+import rospy
+from std_msgs.msg import UInt32
+
+from course_pkg.errors import CourseError
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed, wait_until
+from course_pkg.ros.node.proxy import BoundedProxy
+from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
+
+DESIGNS = ("poll", "topic", "wait")
+KEPT = 10_000  # times that the report contains at most
+GRACE = 2.0  # s that a call may take longer than `~patience`
+AGAIN = 0.5  # s between a failed call and the next call
+CONNECTED = 5.0  # s to wait for a publisher; then the report is served in any case
+
+
+class Cashier:
+    """Greets customers, and stores the number and the time of each greeting."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._asked = self._received = self._last = 0
+        self._greeted: deque[tuple[int, rospy.Time]] = deque(maxlen=KEPT)
+        self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
+        self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
+        self._detect = BoundedProxy("detect_customer", DetectCustomer)
+        rospy.on_shutdown(self._detect.cancel)  # otherwise the shutdown waits for a pending call
+
+    def handle_report(self, _: object) -> CashierReportResponse:
+        """Return what the cashier has done so far."""
+        with self._lock:
+            numbers, times = zip(*self._greeted, strict=True) if self._greeted else ((), ())
+            return CashierReportResponse(
+                self._asked, self._received, list(numbers), list(times), list(self._informed)
+            )
+
+    def receive(self, message: UInt32) -> None:
+        """Handle a message with the number of a customer."""
+        with self._lock:
+            self._received += 1
+        self._greet_new(message.data)
+
+    def run_subscriber(self) -> None:
+        """Greet the customers of the topic until the node is shut down."""
+        with undisturbed():
+            subscriber = rospy.Subscriber("customers", UInt32, self.receive, tcp_nodelay=True)
+        wait_until(subscriber.get_num_connections, CONNECTED)
+        self.offer_report()
+        rospy.spin()
+
+    def run_client(self, patience: float, pause: float) -> None:
+        """Call until there is no new customer; repeat this every `pause` s until the node is shut down."""
+        self.offer_report()
+        due = time.monotonic()
+        while not rospy.is_shutdown():
+            try:
+                while self._ask(patience):  # there may be several new customers
+                    pass
+                rest = pause
+            except (rospy.ServiceException, CourseError) as error:
+                if rospy.is_shutdown():  # the shutdown has cancelled the call
+                    return
+                rospy.logwarn_throttle(10, f"No answer, so the next call follows soon: {error}")
+                rest = max(pause, AGAIN)
+            due = max(due + rest, time.monotonic())
+            rospy.sleep(due - time.monotonic())
+
+    def offer_report(self) -> None:
+        """Serve the report, which shows that the cashier is ready."""
+        with undisturbed():
+            rospy.Service("~report", CashierReport, self.handle_report)
+
+    def _ask(self, patience: float) -> bool:
+        """Call for the next customer; return whether there is a new one. Raises the errors of a call."""
+        with self._lock:
+            self._asked += 1
+        answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
+        return self._greet_new(answer.number if answer.detected else 0)
+
+    def _greet_new(self, number: int) -> bool:
+        """Record the time, and greet the customer `number`; return False if the number is not new."""
+        with self._lock:
+            now = rospy.Time.now()
+            self._informed.append(now)
+            if number <= self._last:
+                return False
+            self._last = number
+            self._greeted.append((number, now))
+        self._publisher.publish(number)
+        return True
+
+
+def main() -> None:
+    """Greet customers until the node is shut down."""
+    if not start_node("cashier"):
+        return
+    design = rospy.get_param("~design", "wait")
+    if design not in DESIGNS:
+        sys.exit(f"~design is {design!r}, but it has to be one of {', '.join(DESIGNS)}.")
+    rate = number_parameter("~rate", 2.0, 0.01, 1000.0)
+    patience = number_parameter("~patience", 2.0, 0.1, 60.0)
+    with undisturbed():
+        cashier = Cashier()
+    try:
+        if design == "topic":
+            cashier.run_subscriber()
+        elif design == "poll":
+            cashier.run_client(patience=0.0, pause=1 / rate)
+        else:
+            # A response without a customer comes after `patience` s, so there is no other pause.
+            cashier.run_client(patience=patience, pause=patience)
+    except rospy.ROSInterruptException:  # the node was shut down while it slept
+        return

@@ -1,0 +1,89 @@
+"""The node `detector`: detects new customers in the messages of `counter`, where a camera publishes.
+
+It publishes the number of each customer once on `customers` (std_msgs/UInt32), and serves `detect_customer`
+(course_pkg/DetectCustomer), which waits for a customer, but never longer than the request allows.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import rospy
+from std_msgs.msg import UInt32, UInt32MultiArray
+
+from course_pkg.errors import CameraSilent, FieldError
+from course_pkg.ros.node.program import start_node, undisturbed, wait_until
+from course_pkg.shop.watch import Customer, Watch
+from course_pkg.srv import DetectCustomer, DetectCustomerRequest, DetectCustomerResponse
+
+LONGEST = 60.0  # s that a caller may wait
+SILENCE = 2.0  # s without a message; then the camera is regarded as stopped
+CALLERS = 64  # callers at the same time; each caller occupies a thread
+
+
+class Detector:
+    """Watches the counter, publishes new customers, and answers calls."""
+
+    def __init__(self) -> None:
+        self._watch = Watch(rospy.Time.now)
+        self._places = threading.BoundedSemaphore(CALLERS)
+        self._publisher = rospy.Publisher("customers", UInt32, queue_size=100)
+        rospy.Subscriber("counter", UInt32MultiArray, self.handle_counter, tcp_nodelay=True)
+
+    def has_data(self) -> bool:
+        """Return whether the camera has published lately."""
+        return self._watch.silent_for <= SILENCE
+
+    def handle_counter(self, message: UInt32MultiArray) -> None:
+        """Handle a message of the camera, and publish each new customer."""
+        for customer in self._watch.see(message.data):
+            self._publisher.publish(customer.number)
+
+    def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
+        """Return the first customer after `after` as soon as there is one; none after `patience` s.
+
+        Raises ServiceException for an impossible patience, too many callers, and a silent camera.
+        """
+        if not 0.0 <= request.patience <= LONGEST:  # this is false for a NaN
+            message = f"a wait of {request.patience:g} s is not possible"
+            wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
+            raise rospy.ServiceException(str(wrong))
+        with self._place():
+            customer = self._wait(request.after, request.patience)
+        if customer is None:
+            return DetectCustomerResponse(detected=False)
+        return DetectCustomerResponse(True, customer.number, customer.arrived)
+
+    def _wait(self, after: int, patience: float) -> Customer | None:
+        """Wait for a customer, or return None; raises ServiceException if the camera is silent."""
+        try:
+            return self._watch.wait(after, patience, SILENCE)
+        except CameraSilent:
+            silence = f"no message from the camera for {SILENCE:g} s"
+            message = f"{silence}, so customers cannot be detected: does shop_camera run?"
+            raise rospy.ServiceException(message) from None
+
+    @contextmanager
+    def _place(self) -> Iterator[None]:
+        """Occupy one of the places for waiting callers, or raise ServiceException."""
+        if not self._places.acquire(blocking=False):
+            raise rospy.ServiceException(f"{CALLERS} callers wait already: call again later")
+        try:
+            yield
+        finally:
+            self._places.release()
+
+
+def main() -> None:
+    """Detect customers until the node is shut down."""
+    if not start_node("detector"):
+        return
+    with undisturbed():
+        detector = Detector()
+    wait_until(detector.has_data, SILENCE)  # otherwise the first call fails, because there is no message yet
+    with undisturbed():
+        rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
+    rospy.loginfo("Looking out for customers")
+    rospy.spin()

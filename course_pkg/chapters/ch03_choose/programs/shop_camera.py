@@ -1,0 +1,79 @@
+"""The node `shop_camera`: a shop with a counter, and the camera above it.
+
+It publishes on `counter` (std_msgs/UInt32MultiArray) the numbers of the present customers, at each change and
+ten times per second, and serves `let_in` (course_pkg/LetIn). If `~every` is above 0, other
+customers come, too: on average, one in `~every` s.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+
+import rospy
+from std_msgs.msg import UInt32MultiArray
+
+from course_pkg.errors import FieldError
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
+from course_pkg.shop.counter import Counter, Visit
+from course_pkg.srv import LetIn, LetInRequest, LetInResponse
+
+PERIOD = 0.1  # s between two messages if nothing changes
+STAY = 4.0  # s for which these other customers stay
+
+
+class ShopCamera:
+    """The shop, and what its camera publishes."""
+
+    def __init__(self, number: int, every: float) -> None:
+        self._counter = Counter(number)
+        self._every = every
+        self._changed = threading.Condition()
+        self._publisher = rospy.Publisher("counter", UInt32MultiArray, queue_size=10)
+
+    def handle_let_in(self, request: LetInRequest) -> LetInResponse:
+        """Let customers in, and return when each one comes; raises ServiceException for impossible values."""
+        try:
+            visits = self._let_in(request.after, request.stay)
+        except FieldError as error:
+            raise rospy.ServiceException(str(error)) from error
+        comes = [rospy.Time.from_sec(visit.comes) for visit in visits]
+        return LetInResponse(first=visits[0].number if visits else 0, comes=comes)
+
+    def watch(self) -> None:
+        """Publish who is at the counter until the node is shut down."""
+        while not rospy.is_shutdown():
+            with self._changed:
+                now = time.time()
+                self._publisher.publish(data=self._counter.there(now))
+                change = self._counter.next_change(now)
+                self._changed.wait(max(min(change - time.time(), PERIOD), 0.0))
+            if self._every and change == math.inf:
+                self._let_in([random.expovariate(1 / self._every)], STAY)
+
+    def _let_in(self, after: Sequence[float], stay: float) -> list[Visit]:
+        with self._changed:
+            visits = self._counter.let_in(time.time(), after, stay)
+            self._changed.notify()
+        # A client waits for a number above the last one that it received. So after a restart of this node,
+        # the numbers have to continue. Without a master, the parameter cannot be set: they restart at 1.
+        with suppress(OSError, rospy.ROSException):
+            rospy.set_param("~number", self._counter.number)
+        return visits
+
+
+def main() -> None:
+    """Run the shop until the node is shut down."""
+    if not start_node("shop_camera"):
+        return
+    number = number_parameter("~number", 1, 1, 2**31)
+    every = number_parameter("~every", 0.0, 0.0, 600.0)
+    with undisturbed():
+        camera = ShopCamera(int(number), every)
+        rospy.Service("let_in", LetIn, camera.handle_let_in)
+    rospy.loginfo("Watching the counter")
+    camera.watch()

@@ -1,0 +1,414 @@
+"""Example answers of chapter 04; tests/checking/example_answers.py explains the format."""
+
+# %% 04.1 right: as described
+"""%%writefile src/lamp_services/srv/Lamp.srv
+# What the lamp is to do.
+uint8 OFF=0
+uint8 ON=1
+uint8 BLINK=2
+
+uint8 mode
+std_msgs/ColorRGBA colour
+float32[] seconds
+---
+bool success
+float32[3] rgb
+float32 total
+"""
+
+# %% 04.1 right: constants between the fields, blanks and comments everywhere
+replace("# What the … uint8 BLINK=2", "uint8 mode   # one of the three:\nuint8 OFF = 0\nuint8  ON = 1    # steady\nuint8 BLINK =2")
+replace("uint8 mode\nstd_msgs/ColorRGBA colour\nfloat32[] seconds", "std_msgs/ColorRGBA   colour\nfloat32[] seconds # of each blink")
+replace("---", "---\n# all went well")
+replace("[3] rgb", "[3] rgb\n")
+# %% 04.1 wrong: dashes with blanks between | hint: This is not a line of three dashes
+replace("---\nbool success", "- - -\nbool success")
+# %% 04.1 wrong: no line between the halves | hint: Add a line of three dashes
+replace("---\nbool success", "bool success")
+# %% 04.1 wrong: float as in other languages | hint: Write float32[]
+replace("float32[] seconds", "float[] seconds")
+# %% 04.1 wrong: the message without its package | hint: Write std_msgs/ColorRGBA
+replace("std_msgs/ColorRGBA", "ColorRGBA")
+# %% 04.1 wrong: brackets after the name | hint: Write the brackets behind the type
+replace("float32[] seconds", "float32 seconds[]")
+# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … has twice as many bits as
+replace("\n# What the lamp is to do.", "")
+replace("""
+uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
+# %% 04.1 wrong: a fixed length for an array of any length | hint: has a fixed length here. For
+replace("[]", "[3]")
+# %% 04.1 wrong: any length for an array of fixed length | hint: rgb … may have any length here. For … float32[3]
+replace("[3]", "[]")
+# %% 04.1 wrong: one value for an array | hint: is one value here. An array
+replace("float32[] seconds", "float32 seconds")
+# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour … names are compared letter by letter
+replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
+replace("\nuint8 mode", "uint8 mode")
+replace("colour", "color")
+# %% 04.1 wrong: in another order | hint: All fields are there, but in
+replace("uint8 mode\nstd_msgs/ColorRGBA colour", "std_msgs/ColorRGBA colour\nuint8 mode")
+# %% 04.1 wrong: the response above the line | hint: success … belongs to the response: write it
+replace("float32[] seconds", "float32[] seconds\nbool success")
+replace("---\nbool success", "---")
+# %% 04.1 wrong: the constants below the line | hint: OFF … belongs to the request: write it above the line
+replace("\n# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\n", "")
+replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
+# %% 04.1 wrong: constants without values | hint: a constant needs a value. Write
+replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
+# %% 04.1 wrong: constants without a type | hint: Write it as in int32 LIMIT=10
+replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
+# %% 04.1 wrong: counts from one | hint: differs from the description: … uint8 OFF=0
+replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
+# %% 04.1 wrong: one constant is missing | hint: Write each constant on a separate … uint8 BLINK=2
+replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
+replace("uint8 ON=1\nuint8 BLINK=2\n", "uint8 ON=1")
+# %% 04.1 wrong: a field is missing | hint: There is no field … total
+replace("float32[3] rgb\nfloat32 total", "float32[3] rgb")
+# %% 04.1 wrong: semicolons | hint: Write mode, with nothing behind it
+based_on("constants between the fields, blanks and comments everywhere")
+replace("uint8 mode … each blink", "uint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\nuint8 mode;\nstd_msgs/ColorRGBA colour;\nfloat32[] seconds;")
+replace("# all went well\nbool success\nfloat32[3] rgb\n\nfloat32 total", "bool success;\nfloat32[3] rgb;\nfloat32 total;")
+# %% 04.1 wrong: a byte order mark in front | hint: Line 1 begins with an invisible mark of Windows
+replace("%%writefile … uint8 BLINK=2", "from pathlib import Path")
+replace("uint8 mode … float32 total", """Path("src/lamp_services/srv").mkdir(parents=True, exist_ok=True)
+Path("src/lamp_services/srv/Lamp.srv").write_text("\\ufeffuint8 OFF=0\\nuint8 ON=1\\n---\\nbool success\\n")""")
+# %% 04.1 wrong: tabs | hint: There is a tab between type
+replace("# What the … [] seconds", "uint8\tOFF=0\nuint8\tON=1\nuint8\tBLINK=2\nuint8\tmode\nstd_msgs/ColorRGBA\tcolour\nfloat32[]\tseconds")
+replace(" success", "\tsuccess")
+replace("[3] rgb", "[3]\trgb")
+replace(" total", "\ttotal")
+# %% 04.1 wrong: the three dots are not replaced | hint: Remove the line with the three
+replace("# What the lamp is to do.", "...")
+# %% 04.1 wrong: a field below the line | hint: Line 9: seconds … on the wrong side of the line … belongs to the request
+replace("float32[] seconds\n---", "---\nfloat32[] seconds")
+# %% 04.1 wrong: an additional field | hint: message … is not part of the … response
+replace("float32 total", "float32 total\nstring message")
+# %% 04.1 wrong: an array for one value | hint: total … is an array here, but the exercise needs one value
+replace("float32 total", "float32[] total")
+# %% 04.1 wrong: another type | hint: mode … has another type in the description: … uint8
+replace("uint8 mode", "int32 mode")
+# %% 04.1 wrong: constants in another order | hint: All constants are there, but in
+replace("uint8 ON=1\nuint8 BLINK=2", "uint8 BLINK=2\nuint8 ON=1")
+# %% 04.1 wrong: another name for a constant | hint: FLASH … is not a constant of the
+replace("BLINK", "FLASH")
+
+# %% 04.1 right: written by Python
+from pathlib import Path
+
+constants = [f"uint8 {name}={value}" for value, name in enumerate(("OFF", "ON", "BLINK"))]
+request = [*constants, "uint8 mode", "std_msgs/ColorRGBA colour", "float32[] seconds"]
+response = ["bool success", "float32[3] rgb", "float32 total"]
+Path("src/lamp_services/srv/Lamp.srv").write_text("\n".join([*request, "---", *response]))
+
+# %% 04.2 right: the MD5s
+def will_talk(server, client):
+    return md5_of(server) == md5_of(client)
+
+# %% 04.2 right: the texts of which the MD5s are made
+def will_talk(server, client):
+    def essence(text):
+        context = genmsg.MsgContext.create_default()
+        definition = genmsg.msg_loader.load_srv_from_string(context, text, "my_services/Two")
+        halves = (definition.request, definition.response)
+        return [genmsg.gentools.compute_md5_text(context, half) for half in halves]
+
+    return essence(server) == essence(client)
+
+# %% 04.2 right: the lines without comments and blanks
+based_on("the texts of which the MD5s are made")
+replace("context = genmsg … in halves]", """lines = [line.split("#")[0].split() for line in text.splitlines()]
+        return [words for words in lines if words]""")
+# %% 04.2 wrong: compares the texts | hint: ROS ignores comments, blank lines and
+replace("md5_of(server) == md5_of(client)", "server == client")
+
+# %% 04.2 wrong: strips the comments only | hint: ROS ignores comments, blank lines and
+def will_talk(server, client):
+    def bare(text):
+        return [line.split("#")[0].strip() for line in text.strip().splitlines()]
+
+    return bare(server) == bare(client)
+
+# %% 04.2 wrong: the order does not matter | hint: The order of the fields
+based_on("the lines without comments and blanks")
+replace("[words for words in lines if words]", "sorted(words for words in lines if words)")
+# %% 04.2 wrong: forgets the line between the halves | hint: The line --- is important: it
+based_on("the lines without comments and blanks")
+replace("if words", 'if words and words != ["---"]')
+# %% 04.2 wrong: the types only | hint: One letter of a name is
+based_on("the lines without comments and blanks")
+replace("words for", "words[0] for")
+# %% 04.2 wrong: the names only | hint: The types are part of the
+based_on("the lines without comments and blanks")
+replace("words for", "words[-1] for")
+
+# %% 04.2 wrong: the fields only, without the constants | hint: The name and the value of
+def will_talk(server, client):
+    def fields(text):
+        context = genmsg.MsgContext.create_default()
+        definition = genmsg.msg_loader.load_srv_from_string(context, text, "my_services/Any")
+        return [(half.names, half.types) for half in (definition.request, definition.response)]
+
+    return fields(server) == fields(client)
+
+# %% 04.2 wrong: the request only | hint: Every field is part of the
+def will_talk(server, client):
+    def md5(text):
+        return md5_of(text.split("---")[0] + "---\n")
+
+    return md5(server) == md5(client)
+
+# %% 04.2 wrong: forgets to return | hint: a return line
+replace("return ", "")
+# %% 04.2 wrong: returns the MD5s | hint: Return True or False
+replace("md5_of(server) == md5_of(client)", "md5_of(server), md5_of(client)")
+# %% 04.2 wrong: always returns True | hint: One letter of a name is
+replace("md5_of(server) == md5_of(client)", "True")
+
+# %% 04.2 wrong: compares the definitions as objects | hint: The two texts are equal, but
+def will_talk(server, client):
+    context = genmsg.MsgContext.create_default()
+    load = genmsg.msg_loader.load_srv_from_string
+    return load(context, server, "my_services/Any") is load(context, client, "my_services/Any")
+
+# %% 04.3 right: format 2
+solution()
+# %% 04.3 right: format 3 and depend
+replace('="2">', '="3">')
+replace("1.0.0", "0.2.0")
+replace("\n  <build_depend>std_msgs</build_depend>", "")
+replace("exec_depend>std_msgs</exec_depend", "depend>std_msgs</depend")
+# %% 04.3 right: format 1, with its own tags
+replace(' format="2"', "")
+replace("exec_depend>message_runtime</exec_depend", "run_depend>message_runtime</run_depend")
+replace("exec_depend>rospy</exec_depend", "run_depend>rospy</run_depend")
+replace("exec_depend>std_msgs</exec_depend", "run_depend>std_msgs</run_depend")
+# %% 04.3 wrong: the name as before | hint: Use only lower-case letters
+replace("name>lamp_services", "name>Lamp Services")
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: another name | hint: Write the same name in
+replace("name>lamp_services", "name>lamps")
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: the version as before | hint: Write it as in this example: 0.1.0
+replace("1.0.0", "1.0")
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: run_depend as before | hint: Use buildtool_depend, build_depend
+replace("exec_depend", "run_depend", times=6)
+# %% 04.3 wrong: catkin is not named | hint: Add <buildtool_depend>catkin</buildtool_depend>
+replace("\n  <buildtool_depend>catkin</buildtool_depend>", "")
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: std_msgs not needed to run | hint: <exec_depend>std_msgs</exec_depend>
+replace("\n  <exec_depend>std_msgs</exec_depend>", "")
+# %% 04.3 wrong: std_msgs not needed to build, which catkin notices | hint: Add <build_depend>std_msgs</build_depend>
+replace("\n  <build_depend>std_msgs</build_depend>", "")
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: generation and runtime the wrong way round | hint: <exec_depend>message_runtime</exec_depend>
+replace("message_generation", "message_runtime")
+replace("message_runtime</exec_depend>\n  <exec_depend>rospy", "message_generation")
+# %% 04.3 wrong: no message_generation | hint: message_generation makes classes from a .srv
+replace("\n  <build_depend>message_generation</build_depend>", "")
+# %% 04.3 wrong: a tag left open | hint: Close every
+replace("</name>", "")
+replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>message_runtime</exec_depend>\n  <depend>std_msgs</depend>")
+# %% 04.3 wrong: the program's own library not named | hint: lamp_server.py imports rospy
+replace("\n  <exec_depend>rospy</exec_depend>", "")
+# %% 04.3 wrong: a blank line on top | hint: in the first column of the first line
+replace("<?xml", "\n<?xml")
+# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: , the tag of … Add an exec_depend
+replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
+
+# %% 04.4 right: as in the chapter
+solution()
+
+# %% 04.4 right: over several lines, with rospy, and nothing in catkin_package
+"""%%writefile src/lamp_services/CMakeLists.txt
+cmake_minimum_required(VERSION 3.0.2)
+project(lamp_services)
+find_package(catkin REQUIRED COMPONENTS
+  rospy
+  std_msgs
+  message_generation
+)
+add_service_files(
+  DIRECTORY srv
+  FILES
+  Lamp.srv
+)
+generate_messages(
+  DEPENDENCIES
+  std_msgs
+)
+catkin_package()
+"""
+
+# %% 04.4 right: all files in srv, and commands in capitals
+"""%%writefile src/lamp_services/CMakeLists.txt
+CMAKE_MINIMUM_REQUIRED(VERSION 3.10)
+PROJECT(lamp_services)
+FIND_PACKAGE(catkin REQUIRED COMPONENTS message_generation std_msgs)
+ADD_SERVICE_FILES()
+GENERATE_MESSAGES(DEPENDENCIES std_msgs)
+CATKIN_PACKAGE(CATKIN_DEPENDS message_runtime std_msgs)
+"""
+
+# %% 04.4 wrong: message_generation still missing | hint: Write find_package(catkin REQUIRED COMPONENTS message_generation)
+replace("message_generation std_msgs", "std_msgs")
+# %% 04.4 wrong: catkin_package still first | hint: Move generate_messages above catkin_package
+replace("\nfind_package … message_generation std_msgs)\n", """find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)""")
+replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
+# %% 04.4 wrong: generates before the files are named | hint: Move this line above generate_messages
+replace("\nadd_service_files(FILES Lamp.srv)", "")
+replace("catkin_package", "add_service_files(FILES Lamp.srv)\ncatkin_package")
+# %% 04.4 wrong: the file in lower case | hint: upper and lower case too
+replace("Lamp.srv", "lamp.srv")
+# %% 04.4 wrong: generate_messages still a comment | hint: Line 7: generate_messages … is only a comment. Remove the
+replace("generate_messages(DEPENDENCIES std_msgs)\n", "# generate_messages()")
+# %% 04.4 wrong: does not depend on std_msgs | hint: Write generate_messages(DEPENDENCIES std_msgs)
+replace("(DEPENDENCIES std_msgs)", "()")
+# %% 04.4 wrong: a bracket missing | hint: Write the missing )
+replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
+# %% 04.4 wrong: the other package's name | hint: Write the same name in
+replace("(lamp_services)", "(my_services)")
+# %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … With it, other packages can find
+replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
+# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without it, the build passes, but
+replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
+# %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: There is no file geometry.srv
+replace("Lamp.srv", "geometry.srv")
+# %% 04.4 right: one find_package for each package
+replace("\nfind_package(catkin REQUIRED COMPONENTS message_generation std_msgs)\n", """find_package(catkin REQUIRED)
+find_package(message_generation REQUIRED)
+find_package(std_msgs REQUIRED)""")
+replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)")
+# %% 04.4 wrong: in a condition | hint: between if() and endif()
+replace("generate_messages(DEPENDENCIES std_msgs)", "if(FALSE)\n  generate_messages(DEPENDENCIES std_msgs)\nendif()")
+# %% 04.4 wrong: in a block comment | hint: #[[ and ]] is a comment
+replace("(lamp_services)\n", "(lamp_services)")
+replace("\nadd_service_files(FILES Lamp.srv)", "#[[\nadd_service_files(FILES Lamp.srv)")
+replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
+# %% 04.4 wrong: a loop that is not closed | hint: The end of the output may
+replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
+
+# %% 04.4 wrong: message_generation in catkin_package | hint: Only the build needs message_generation, but
+replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
+
+# %% 04.5 right: in the style of the box server
+"""%%writefile src/lamp_services/scripts/lamp_server.py
+#!/usr/bin/env python3
+import rospy
+from lamp_services.srv import Lamp, LampRequest, LampResponse
+
+
+def handle_lamp(request):
+    known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest.BLINK)
+    lit = known and request.mode != LampRequest.OFF
+    colour = request.colour
+    rgb = [colour.r, colour.g, colour.b] if lit else [0, 0, 0]
+    return LampResponse(success=known, rgb=rgb, total=sum(request.seconds))
+
+
+rospy.init_node("lamp_server")
+rospy.Service("/lamp", Lamp, handle_lamp)
+rospy.spin()
+"""
+
+# %% 04.5 right: a relative name, a dict and a main function
+replace("#!/usr/bin … LampResponse", '#!/usr/bin/python3\n"""Serves a lamp."""\nimport rospy\nimport lamp_services.srv as srv')
+replace("def handle_lamp … .seconds))", """def handle(req):
+    answer = {"success": req.mode <= 2, "total": 0.0, "rgb": (0.0, 0.0, 0.0)}
+    for part in req.seconds:
+        answer["total"] += part
+    if 1 <= req.mode <= 2:
+        answer["rgb"] = req.colour.r, req.colour.g, req.colour.b
+    return answer""")
+replace('rospy.init_node("lamp_server")\nrospy.Service("/lamp", Lamp, handle_lamp)\nrospy.spin()', """def main():
+    rospy.init_node("lamp_server", anonymous=True)
+    server = rospy.Service("lamp", srv.Lamp, handle)
+    rospy.loginfo("ready")
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()""")
+# %% 04.5 wrong: no shebang | hint: Without a shebang, Linux executes the
+replace("#!/usr/bin … .seconds))\n", "import rospy\nfrom lamp_services.srv import Lamp")
+replace("handle_lamp", "lambda request: (True, request.seconds, 0)")
+# %% 04.5 wrong: the shebang in the second line | hint: The shebang works only if it
+replace("#!/usr/bin/env python3", "\n#!/usr/bin/env python3")
+
+# %% 04.5 wrong: the run bit is missing | hint: chmod +x
+from pathlib import Path
+
+script = Path("src/lamp_services/scripts/lamp_server.py")
+script.write_text("#!/usr/bin/env python3\nimport rospy\n")
+script.chmod(0o644)
+
+# %% 04.5 wrong: the types of the other package | hint: Your workspace has the type: import
+replace("from lamp_services … .seconds))\n", "from my_services.srv import Lamp")
+replace("handle_lamp", "lambda request: (True, [0, 0, 0], 0)")
+# %% 04.5 wrong: the type in lower case | hint: Upper and lower case are different
+replace("from lamp_services … .seconds))\n", "from lamp_services.srv import lamp")
+replace("Lamp, handle_lamp", "lamp, lambda request: (True, [0, 0, 0], 0)")
+# %% 04.5 wrong: does not wait | hint: The program ended, so its service
+based_on("no shebang")
+replace("import rospy", "#!/usr/bin/env python3\nimport rospy")
+replace("request.seconds, 0))\nrospy.spin()", "[0, 0, 0], 0))")
+# %% 04.5 wrong: another service name | hint: It serves … /lamp_server … , but the exercise needs the
+based_on("the type in lower case")
+replace("import lamp", "import Lamp")
+replace('"/lamp", lamp', '"/lamp_server", Lamp')
+# %% 04.5 wrong: serves nothing | hint: The program runs, but it serves
+replace("from lamp_services … handle_lamp)", 'from lamp_services.srv import Lamp\n\nrospy.init_node("lamp_server")')
+# %% 04.5 wrong: no node | hint: call rospy.init_node first
+based_on("the type in lower case")
+replace("import lamp", "import Lamp")
+replace('rospy.init_node("lamp_server")\nrospy.Service("/lamp", lamp', 'rospy.Service("/lamp", Lamp')
+# %% 04.5 wrong: another type | hint: Serve it with the type in the exercise
+based_on("the type in lower case")
+replace("from lamp_services.srv import lamp", "from std_srvs.srv import Trigger")
+replace("lamp, lambda request: (True, [0, 0, 0], 0)", 'Trigger, lambda request: (True, "")')
+# %% 04.5 wrong: a mistake in the Python code | hint: The error occurred in line … line 6 of
+replace("from lamp_services … .seconds))\n", "from lamp_services.srv import Lamp")
+# %% 04.5 wrong: the handler returns nothing | hint: without a return
+replace(", LampRequest, LampResponse", "")
+replace("known = request … .seconds))\n", "request.mode in (0, 1, 2)")
+# %% 04.5 wrong: accepts any mode | hint: The response for an unknown mode
+replace("success=known", "success=True")
+# %% 04.5 wrong: success is False for OFF | hint: This is one of the three
+replace("""known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest.BLINK)
+    lit = known and request.mode != LampRequest.OFF""", "lit = request.mode in (1, 2)")
+replace("known", "lit")
+# %% 04.5 wrong: a colour when it is OFF | hint: The lamp is dark for OFF
+replace(" if lit else [0, 0, 0]", "")
+# %% 04.5 wrong: forgets the colour | hint: A field without a value is 0. Set
+replace("rgb=rgb, ", "")
+# %% 04.5 wrong: counts the seconds | hint: That is the number of values.
+replace("total=sum", "total=len")
+# %% 04.5 wrong: returns the ColorRGBA object | hint: error processing request
+replace("rgb=rgb", "rgb=request.colour")
+# %% 04.5 wrong: four numbers, with alpha | hint: The field `rgb` needs three numbers
+replace("colour.b]", "colour.b, colour.a]")
+# %% 04.5 wrong: the largest number in place of the sum | hint: Add up all values: sum(request.seconds).
+replace("total=sum", "total=max")
+# %% 04.5 wrong: refuses an unknown mode | hint: The handler must not refuse an
+replace("    lit = known", '    if not known:\n        raise rospy.ServiceException("no such mode")\n    lit = known')
+# %% 04.5 wrong: windows shebang | hint: The first line of the script
+replace("#!/usr/bin/env python3", "#!python3")
+# %% 04.5 wrong: the class of the request | hint: That is the class of the
+replace('"/lamp", Lamp,', '"/lamp", LampRequest,')
+# %% 04.5 wrong: imports the type from the package | hint: The types are not in lamp_services
+replace("lamp_services.srv", "lamp_services")
+# %% 04.5 wrong: line ends of Windows | hint: The file has the line ends
+replace("python3", "python3\r")
+# %% 04.5 wrong: a byte order mark in front | hint: The file begins with an invisible mark of Windows
+replace("#!", "\ufeff#!")
+# %% 04.5 wrong: python2 | hint: This shebang names another program: write
+replace("python3", "python2")
+# %% 04.5 wrong: blue first | hint: Return red, green and blue in
+replace("[colour.r, colour.g, colour.b]", "[colour.b, colour.g, colour.r]")
+# %% 04.5 wrong: forgets the total | hint: Add up request.seconds
+replace(", total=sum(request.seconds)", "")
+# %% 04.5 wrong: dark for BLINK | hint: The lamp shows its colour for BLINK, too
+replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
+# %% 04.5 wrong: a total only for a lamp that is lit | hint: The total is 0 for this
+replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")

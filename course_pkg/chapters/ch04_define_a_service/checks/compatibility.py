@@ -1,0 +1,124 @@
+"""Compatible definitions: compare the results of the function with MD5 sums of random definitions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.types import compile_service
+
+TYPES = "The types are part of the MD5 sum, too, with their brackets."
+NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two definitions, an assertion about their difference, and a hint."""
+
+    assertion: str
+    server: str
+    client: str
+    hint: str
+
+
+@part(
+    "04.2",
+    points=2,
+    goal="Return whether a server built from one text accepts calls of a client built from another text.",
+    needs=["will_talk"],
+    deadline=40.0,
+)
+def who_talks_to_whom(context: CheckContext) -> None:
+    """Try differences that change the MD5 sum, and differences that do not."""
+    for pair in _pairs(context):
+        for server, client in context.random.shuffled(
+            [(pair.server, pair.client), (pair.client, pair.server)]
+        ):
+            expected = compile_service("drawn/Type", server).md5 == compile_service("drawn/Type", client).md5
+            context.expect(
+                pair.assertion,
+                expected=expected,
+                actual=context.run("will_talk", server, client).returned(),
+                hints=[
+                    (None, NO_RETURN),
+                    (lambda actual: not isinstance(actual, bool), "Return True or False: compare with ==."),
+                    (ANYTHING, pair.hint),
+                ],
+            )
+
+
+def _pairs(context: CheckContext) -> list[Pair]:
+    names = [context.random.word() for _ in range(5)]
+    kinds = context.random.shuffled(NUMBERS)[:5]
+    value = context.random.integer(2, 90)
+    top = [f"int32 {context.random.word().upper()}={value}"]
+    above = [f"{kind} {name}" for kind, name in zip(kinds[:3], names[:3], strict=True)]
+    below = [f"{kind} {name}" for kind, name in zip(kinds[3:], names[3:], strict=True)]
+    text = _text(top, above, below)
+
+    def differs(assertion: str, other: str, hint: str) -> Pair:
+        return Pair(f"not compatible: {assertion}", text, other, hint)
+
+    def agrees(assertion: str, other: str) -> Pair:
+        hint = "ROS ignores comments, blank lines and extra spaces: they are not part of the MD5 sum."
+        return Pair(f"compatible: {assertion}", text, other, hint)
+
+    letter = (
+        "One letter of a name is different. Compute the MD5 sums of both texts: they depend on "
+        "the names of all fields."
+    )
+    return [
+        Pair(
+            "compatible: the same text",
+            text,
+            text,
+            "The two texts are equal, but the result was False. Compare the MD5 sums with ==, "
+            "not classes or other objects.",
+        ),
+        agrees("one more comment", f"# measured by {context.random.word()}\n{text}"),
+        agrees("a comment after a field", text.replace(above[1], f"{above[1]}  # in metres")),
+        agrees("blank lines", text.replace(below[0], f"\n{below[0]}\n")),
+        agrees("more spaces in a line", text.replace(above[0], above[0].replace(" ", "   ") + "  ")),
+        differs("another letter in a name", text.replace(names[1], _slip(names[1])), letter),
+        differs(
+            "another type",
+            text.replace(above[2], f"uint64 {names[2]}"),
+            TYPES,
+        ),
+        differs(
+            "two fields in another order",
+            _text(top, [above[1], above[0], above[2]], below),
+            "The order of the fields is the order of the bytes, so it is part of the MD5 sum.",
+        ),
+        differs(
+            "a field moved from request to response",
+            _text(top, above[:2], [above[2], *below]),
+            "The line --- is important: it separates the fields of the request from the fields "
+            "of the response.",
+        ),
+        differs(
+            "another value of a constant",
+            text.replace(f"={value}", f"={value + 1}"),
+            "The name and the value of a constant are part of the MD5 sum, too.",
+        ),
+        differs(
+            "an array for one value",
+            text.replace(above[0], above[0].replace(" ", "[] ", 1)),
+            TYPES,
+        ),
+        differs(
+            "one field fewer",
+            _text(top, above, below[:1]),
+            "Every field is part of the MD5 sum, in the request and in the response.",
+        ),
+    ]
+
+
+def _text(top: list[str], above: list[str], below: list[str]) -> str:
+    return "\n".join([*top, *above, "---", *below, ""])
+
+
+def _slip(name: str) -> str:
+    """Return the name with its last letter replaced."""
+    return name[:-1] + ("a" if name[-1] != "a" else "b")

@@ -1,0 +1,184 @@
+"""The definition: parse it as ROS does, compare field by field, and build it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+
+from course_pkg.chapters.ch04_define_a_service.checks.lamp import DEFINITION, PACKAGE, TYPE, built, md5_in
+from course_pkg.checking import CheckContext, part
+from course_pkg.errors import BrokenDefinition
+from course_pkg.types import MessageType, ServiceType, compile_service
+from course_pkg.types.definition import lines
+
+FILE = f"{PACKAGE}/srv/Lamp.srv"
+MARK = "\ufeff"
+
+
+@part(
+    "04.1",
+    points=2,
+    goal="Write Lamp.srv as described in the exercise.",
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+)
+def the_lamp(context: CheckContext) -> None:
+    """Parse the text as ROS does, compare it with the description, and build it in another folder."""
+    text = context.source(f"file:{FILE}")
+    asked, given = compile_service(TYPE, DEFINITION), _read(context, text)
+    answers = {field.name for field in asked.response.fields}
+    _names(context, "request", asked.request, given.request, text, elsewhere=answers)
+    _names(context, "response", asked.response, given.response, text)
+    _types(context, "request", asked.request, given.request, text)
+    _types(context, "response", asked.response, given.response, text)
+    _constants(context, asked, given, text)
+    folder = built(context, given=[FILE])
+    md5, printed = md5_in(folder)
+    context.require(
+        "the MD5 sum is the same as in the description",
+        holds=md5 == asked.md5,
+        expected=asked.md5,
+        actual=md5 or printed,
+    )
+
+
+def _read(context: CheckContext, text: str) -> ServiceType:
+    assertion = "ROS can read the definition"
+    if text.startswith(MARK):
+        hint = "Line 1 begins with an invisible mark of Windows. Save the file as UTF-8 without BOM."
+        context.fail(assertion, expected="a definition", actual="an invisible mark", hint=hint)
+    try:
+        given = compile_service(TYPE, text)
+    except BrokenDefinition as error:
+        seen = f"line {error.line}: {error.text.strip()}" if error.text.strip() else f"line {error.line}"
+        hint = f"{_sentence(error.problem)} {_sentence(error.remedy)}"
+        hint = "Remove the line with the three dots." if error.text.strip() == "..." else hint
+        if "\t" in error.text.split("#")[0].strip():
+            hint = "There is a tab between type and name. ROS separates them only at spaces, so use a space."
+        context.fail(assertion, expected="a definition", actual=seen, hint=hint)
+    context.require(assertion, holds=True)
+    return given
+
+
+def _names(
+    context: CheckContext,
+    half: str,
+    asked: MessageType,
+    given: MessageType,
+    text: str,
+    elsewhere: Collection[str] = (),
+) -> None:
+    wanted, found = [field.name for field in asked.fields], [field.name for field in given.fields]
+    context.require(
+        f"the {half} has the fields {', '.join(wanted)}, in this order",
+        holds=wanted == found,
+        expected=", ".join(wanted),
+        actual=", ".join(found) or "no fields",
+        hints=_in_other_half(found, elsewhere, text) or _about_names(half, wanted, found, text),
+    )
+
+
+def _in_other_half(found: list[str], elsewhere: Collection[str], text: str) -> str:
+    stray = next((name for name in found if name in elsewhere), "")
+    return (
+        f"{_line(text, stray)}{stray} belongs to the response: write it below the line ---." if stray else ""
+    )
+
+
+def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> str:
+    missing = [name for name in wanted if name not in found]
+    extra = [name for name in found if name not in wanted]
+    if not missing and not extra:
+        return (
+            "All fields are there, but in the wrong order. The order is important: use the order "
+            "of the description."
+        )
+    if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
+        return f"{_line(text, near[0])}{near[0]} should be {missing[0]}: names are compared letter by letter."
+    if missing and _line(text, missing[0]):
+        where = f"{_line(text, missing[0])}{missing[0]}"
+        return f"{where} is on the wrong side of the line ---: it belongs to the {half}."
+    if missing:
+        return f"There is no field {missing[0]}."
+    if extra[0].upper() in ("OFF", "ON", "BLINK"):
+        return (
+            f"{_line(text, extra[0])}a constant needs a value. Write uint8 {extra[0].upper()}=… "
+            "with its value."
+        )
+    return f"{_line(text, extra[0])}{extra[0]} is not part of the {half}."
+
+
+def _types(context: CheckContext, half: str, asked: MessageType, given: MessageType, text: str) -> None:
+    wanted = [f"{field.type} {field.name}" for field in asked.fields]
+    found = [f"{field.type} {field.name}" for field in given.fields]
+    pairs = zip(asked.fields, given.fields, strict=True)
+    wrong = next((pair for pair in pairs if pair[0].type != pair[1].type), None)
+    context.require(
+        f"the {half} has the types of the description",
+        holds=wrong is None,
+        expected=", ".join(wanted),
+        actual=", ".join(found),
+        hints=_about_type(wrong[0].name, wrong[0].type, wrong[1].type, text) if wrong else "",
+    )
+
+
+def _about_type(name: str, wanted: str, found: str, text: str) -> str:
+    where = f"{_line(text, name)}{name} "
+    base = found.partition("[")[0]
+    if "[" in wanted and "[" not in found:
+        return f"{where}is one value here. An array has brackets after its type: {wanted}."
+    if wanted.endswith("[]") and "[" in found and not found.endswith("[]"):
+        return f"{where}has a fixed length here. For any length, the brackets are empty: {wanted}."
+    if "[" in wanted and not wanted.endswith("[]") and found.endswith("[]"):
+        return f"{where}may have any length here. For exactly three values, write {wanted}."
+    if "[" in found and "[" not in wanted:
+        return f"{where}is an array here, but the exercise needs one value: {wanted}."
+    if base == "float64":
+        return (
+            f"{where}has twice as many bits as the exercise asks for. For ROS, that is another "
+            f"type. Write {wanted}."
+        )
+    return f"{where}has another type in the description: {wanted}."
+
+
+def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, text: str) -> None:
+    wanted = [f"{each.type} {each.name}={each.value}" for each in asked.request.constants]
+    found = [f"{each.type} {each.name}={each.value}" for each in given.request.constants]
+    below = [each.name for each in given.response.constants]
+    context.require(
+        f"the request has the constants {', '.join(each.name for each in asked.request.constants)}",
+        holds=wanted == found and not below,
+        expected=", ".join(wanted),
+        actual=", ".join(found) or "no constants in the request",
+        hints=_about_constants(wanted, found, below, text),
+    )
+
+
+def _about_constants(wanted: list[str], found: list[str], below: list[str], text: str) -> str:
+    if below:
+        return f"{_line(text, below[0])}{below[0]} belongs to the request: write it above the line ---."
+    if sorted(wanted) == sorted(found):
+        return "All constants are there, but in the wrong order. Use the order of the description."
+    wrong = [each for each in found if each not in wanted]
+    if wrong:
+        name = wrong[0].partition(" ")[2].partition("=")[0]
+        right = next((each for each in wanted if f" {name}=" in each), "")
+        return (
+            f"{_line(text, name)}{wrong[0]} differs from the description: {right}."
+            if right
+            else f"{_line(text, name)}{name} is not a constant of the description: compare the letters."
+        )
+    missing = [each for each in wanted if each not in found]
+    return f"Write each constant on a separate line, such as {missing[0]}." if missing else ""
+
+
+def _line(text: str, name: str) -> str:
+    """Return "Line 3: " for the line that declares `name`, or an empty string if no line declares it."""
+    for line in lines(text):
+        if any(word.text.partition("=")[0] == name for word in line.words()[1:]):
+            return f"Line {line.number}: "
+    return ""
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."

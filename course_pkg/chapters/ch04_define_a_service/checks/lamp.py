@@ -1,0 +1,130 @@
+"""The complete package of the exercises of chapter 04, and how a check builds it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.commands.folder import Folder
+from course_pkg.checking.plain_values import ServiceClass
+from course_pkg.checking.shared.catkin_package import run_catkin_make
+from course_pkg.types import compile_service
+from course_pkg.workspace import Fault, explain
+from course_pkg.workspace.fault import locate
+
+PACKAGE = "src/lamp_services"
+TYPE = "lamp_services/Lamp"
+LIMITS = "ulimit -t 6 -f 100000"  # s of processor time and KiB of a file; a step takes 1 s of processor time
+BUILD = 40.0  # s for the whole build; it takes 1.5 s on an idle machine, and 20 s on a very busy one
+
+GENERATION = re.compile("catkin_package names message_generation")
+RUNTIME = (
+    "Only the build needs message_generation, but programs need message_runtime. Write "
+    "message_runtime in catkin_package."
+)
+
+DEFINITION = """\
+uint8 OFF=0
+uint8 ON=1
+uint8 BLINK=2
+
+uint8 mode
+std_msgs/ColorRGBA colour
+float32[] seconds
+---
+bool success
+float32[3] rgb
+float32 total
+"""
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="2">
+  <name>lamp_services</name>
+  <version>0.1.0</version>
+  <description>A lamp on a robot.</description>
+  <maintainer email="you@example.com">You</maintainer>
+  <license>MIT</license>
+
+  <buildtool_depend>catkin</buildtool_depend>
+  <build_depend>message_generation</build_depend>
+  <build_depend>std_msgs</build_depend>
+  <exec_depend>message_runtime</exec_depend>
+  <exec_depend>rospy</exec_depend>
+  <exec_depend>std_msgs</exec_depend>
+</package>
+"""
+LISTS = """\
+cmake_minimum_required(VERSION 3.10)
+project(lamp_services)
+
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+
+add_service_files(FILES Lamp.srv)
+generate_messages(DEPENDENCIES std_msgs)
+
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
+"""
+SOUND = {
+    f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
+    f"{PACKAGE}/package.xml": MANIFEST,
+    f"{PACKAGE}/CMakeLists.txt": LISTS,
+}
+
+
+def lamp_class() -> ServiceClass:
+    """Return the class of the service type of the description."""
+    return compile_service(TYPE, DEFINITION).cls
+
+
+def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
+    """Build a workspace of the student's `given` (files or folders) and the check's own other files."""
+    texts = {path: text for path, text in SOUND.items() if path not in given}
+    folder = context.folder(files=given, texts=texts)
+    build = run_catkin_make(folder, f"{LIMITS};", within=BUILD)
+    printed = f"{build.out}\n{build.err}"
+    if build.status != 0:
+        _fails_to_build(context, _in_their_file(context, explain(printed) or _unexplained(printed), given))
+    context.require("catkin_make builds the package", holds=True)
+    return folder
+
+
+def in_sourced(folder: Folder, line: str, within: float = 10.0) -> tuple[int | None, str]:
+    """Return status and output of a bash command in a shell that has sourced the folder's workspace."""
+    sourced = f". devel/setup.bash && {line}"
+    done = folder.command("bash", "-c", sourced, within=within, worded=line)
+    return done.status, done.out + done.err
+
+
+def md5_in(folder: Folder) -> tuple[str, str]:
+    """Return the MD5 sum of the type that Python finds in `folder`, or "" and the error output."""
+    line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
+    status, printed = in_sourced(folder, line)
+    return (printed.strip(), "") if status == 0 else ("", printed)
+
+
+def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
+    """Return the fault as a fault in the examined file: the check's own files are correct."""
+    theirs = given[0].removeprefix("src/")
+    if GENERATION.search(fault.problem):
+        fault = replace(fault, remedy=RUNTIME)
+    if fault.file != theirs:
+        fault = replace(fault, file=theirs, line=0)
+    return locate(fault, context.source(f"file:{given[0]}")) if theirs.endswith("package.xml") else fault
+
+
+def _fails_to_build(context: CheckContext, fault: Fault) -> None:
+    context.fail(
+        "catkin_make builds the package",
+        expected="a build that passes",
+        actual=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
+        hint=fault.remedy,
+    )
+
+
+def _unexplained(printed: str) -> Fault:
+    lines = [line for line in printed.strip().splitlines() if line.strip()]
+    return Fault(
+        "catkin_make failed", f"The end of the output may show the reason: {' / '.join(lines[-3:])}."
+    )

@@ -1,0 +1,76 @@
+"""The repaired CMakeLists.txt: the build succeeds, and the type can be imported."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch04_define_a_service.checks.lamp import PACKAGE, built, lamp_class, md5_in
+from course_pkg.checking import CheckContext, part
+from course_pkg.workspace.cmake_messages import cmake_commands
+
+FILE = f"{PACKAGE}/CMakeLists.txt"
+CONFIGURATION = "devel/share/lamp_services/cmake/lamp_servicesConfig.cmake"
+
+START = f"""%%writefile {FILE}
+cmake_minimum_required(VERSION 3.10)
+project(lamp_services)
+
+find_package(catkin REQUIRED COMPONENTS std_msgs)
+
+catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
+
+add_service_files(FILES lamp.srv)
+# generate_messages()
+"""
+
+
+@part(
+    "04.4",
+    points=2,
+    goal="Repair CMakeLists.txt, so that the build passes and Python can import the type.",
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def the_list_file(context: CheckContext) -> None:
+    """Build the package with this file and the check's other files; then import the type."""
+    folder = built(context, given=[FILE])
+    text = context.source(f"file:{FILE}")
+    md5, printed = md5_in(folder)
+    context.require(
+        "Python finds the type Lamp in lamp_services.srv",
+        holds=bool(md5),
+        expected="from lamp_services.srv import Lamp",
+        actual=printed.strip().rpartition("\n")[2],
+        hints=_why_no_type(text),
+    )
+    context.require(
+        "it is the type of Lamp.srv",
+        holds=md5 == lamp_class()._md5sum,
+        expected=lamp_class()._md5sum,
+        actual=md5,
+    )
+    context.require(
+        "other packages can find this package",
+        holds=folder.command("test", "-f", CONFIGURATION).status == 0,
+        expected="a file that catkin_package writes for other packages",
+        actual="no such file",
+        hints=_about(text, "catkin_package", "With it, other packages can find this package."),
+    )
+
+
+def _why_no_type(text: str) -> str:
+    for name in ("generate_messages", "add_service_files"):
+        if not any(each.name == name and not each.is_comment for each in cmake_commands(text)):
+            return _about(text, name, "Without it, the build passes, but it generates no type.")
+    return (
+        "add_service_files and generate_messages are in the file, but they generated nothing. "
+        "Does CMake execute them? Text between #[[ and ]] is a comment, and the lines between "
+        "if() and endif() may be skipped."
+    )
+
+
+def _about(text: str, name: str, reason: str) -> str:
+    """Return a hint: the command is in a comment, or it is not in the file."""
+    for each in cmake_commands(text):
+        if each.name == name and each.is_comment:
+            return f"Line {each.line}: {name} is only a comment. Remove the #. {reason}"
+    return f"The command {name} is missing. {reason}"

@@ -1,0 +1,67 @@
+"""The repaired package.xml: catkin accepts it, and it lists what the package needs."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch04_define_a_service.checks.lamp import PACKAGE, built
+from course_pkg.checking import CheckContext, part
+from course_pkg.workspace.fault import dependencies, manifest_tags
+
+FILE = f"{PACKAGE}/package.xml"
+
+START = f"""%%writefile {FILE}
+<?xml version="1.0"?>
+<package format="2">
+  <name>Lamp Services</name>
+  <version>1.0</version>
+  <description>A lamp on a robot.</description>
+  <maintainer email="you@example.com">You</maintainer>
+  <license>MIT</license>
+
+  <build_depend>message_generation</build_depend>
+  <run_depend>message_runtime</run_depend>
+  <run_depend>rospy</run_depend>
+</package>
+"""
+
+
+@part(
+    "04.3",
+    points=2,
+    goal="Repair package.xml, so that catkin accepts it and it lists all packages that are needed.",
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def the_manifest(context: CheckContext) -> None:
+    """Build the package with this file and the check's other files; then compare the dependencies."""
+    built(context, given=[FILE])
+    text = context.source(f"file:{FILE}")
+    for purpose, packages, tag in (
+        ("built", ("message_generation", "std_msgs"), "build_depend"),
+        ("run", ("message_runtime", "rospy", "std_msgs"), "exec_depend"),
+    ):
+        named = dependencies(text, "build" if purpose == "built" else "run")
+        for package in packages:
+            context.require(
+                f"{package} is listed as needed to {'build' if purpose == 'built' else 'run'}",
+                holds=package in named,
+                expected=f"<{tag}>{package}</{tag}>",
+                actual=", ".join(sorted(named)) or "nothing",
+                hints=_hint(text, package, tag),
+            )
+
+
+def _hint(text: str, package: str, tag: str) -> str:
+    elsewhere = [each for each in manifest_tags(text) if each.text == package]
+    if elsewhere:
+        return (
+            f"In line {elsewhere[0].line}, the tag of {package} is {elsewhere[0].name}. Add "
+            f"{_an(tag)} for it."
+        )
+    if package == "rospy":
+        return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."
+    return "message_generation makes classes from a .srv file, and these classes need message_runtime."
+
+
+def _an(tag: str) -> str:
+    return f"an {tag}" if tag[0] in "aeiou" else f"a {tag}"

@@ -1,0 +1,205 @@
+"""The server as a program in the package: rosrun finds it, it serves the new type, and it keeps running."""
+
+from __future__ import annotations
+
+import re
+import time
+
+from course_pkg.chapters.ch04_define_a_service.checks.lamp import PACKAGE, built, lamp_class
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.script import require_shebang
+from course_pkg.types import message_type
+from course_pkg.workspace import explain
+
+NAME = "lamp_server.py"
+FILE = f"{PACKAGE}/scripts/{NAME}"
+STARTING = 20.0  # s for the program to serve; this takes 1 s on an idle machine
+LOOK = 0.1  # s between two snapshots of the graph
+
+ENDINGS = (  # a pattern in the output of the program, and a hint
+    (r"rospy\.init_node\(\) first", "A service belongs to a node: call rospy.init_node first."),
+    (
+        r"no attribute '_request_class'",
+        "That is the class of the request or of the response. rospy.Service needs the class of the "
+        "type: Lamp.",
+    ),
+    (
+        r"(?s)(\w+)\.srv import.*No module named '\1'",
+        "Your workspace has the type: import it from lamp_services.srv.",
+    ),
+    (
+        r"required file not found|bad interpreter",
+        "The first line of the script names a program that does not exist on this machine.",
+    ),
+    (
+        r"cannot import name '\w+' from 'lamp_services' ",
+        "The types are not in lamp_services itself, but in lamp_services.srv.",
+    ),
+)
+
+FAULTS = [
+    (
+        matches("expected 3 items|exactly 3|rgb must be"),
+        "The field `rgb` needs three numbers in a list: r, g and b.",
+    ),
+    (
+        matches("process request: (?!service handler)"),
+        "The handler must not refuse an unknown mode: the response has success=False.",
+    ),
+]
+
+START = f"""%%writefile {FILE}
+..."""
+
+
+@part(
+    "04.5",
+    points=3,
+    goal="Write lamp_server.py: rosrun can start it, and it serves /lamp with the type lamp_services/Lamp.",
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def the_program(context: CheckContext) -> None:
+    """Build a copy, run its program with other names for node and service, and call the service."""
+    require_shebang(
+        context,
+        FILE,
+        missing=(
+            "Without a shebang, Linux executes the script as a shell script, and the shell has its "
+            "own command import."
+        ),
+        elsewhere="The shebang works only if it begins in the first column of the very first line.",
+        another="This shebang names another program: write python3.",
+        windows="The file has the line ends of Windows. Save it with the line ends of Linux.",
+        mark="The file begins with an invisible mark of Windows. Save the file as UTF-8 without BOM.",
+        assertion="its first line is a shebang that asks for Python 3",
+        program="python",
+    )
+    folder = built(context, given=[f"{PACKAGE}/scripts"])
+    _run_bit(context, folder)
+    name, node = f"/{context.random.word()}", context.random.word()
+    line = f"rosrun lamp_services {NAME} /lamp:={name} __name:={node}"
+    with folder.start("bash", "-c", f". devel/setup.bash && exec {line}", worded=line) as running:
+        _serves(context, running, name, f"/{node}")
+        lamp = context.service(name, lamp_class(), hints=FAULTS, timeout=5.0)
+        for mode in (1, 2, 0, context.random.integer(3, 255), 1):
+            _answers(context, lamp, mode)
+
+
+def _run_bit(context: CheckContext, folder: Folder) -> None:
+    context.require(
+        "the script is executable",
+        holds=folder.command("test", "-x", FILE).status == 0,
+        expected="an executable file",
+        actual="a file that can only be read",
+        hints=(
+            "Without the permission to execute it, rosrun prints: Couldn't find executable named "
+            f"{NAME}. Type: chmod +x {FILE}"
+        ),
+    )
+
+
+def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
+    """Wait until the program serves `name`; if it does not, report what it does instead."""
+    deadline = time.monotonic() + STARTING
+    while context.look().service(name) is None:
+        if running.status is not None or time.monotonic() > deadline:
+            others = [service.name for service in context.look().services if service.node == node]
+            done = running.stop()
+            context.fail(
+                "rosrun starts it, and it serves /lamp",
+                expected="a server that keeps running",
+                actual=_seen(done.status, done.out),
+                hint=_why_not(done.status, done.out, others),
+            )
+        time.sleep(LOOK)
+    context.require("rosrun starts it, and it serves /lamp", holds=True)
+
+
+def _seen(status: int | None, printed: str) -> str:
+    if status is None:
+        return "a program that runs, but does not serve /lamp"
+    last = printed.strip().rpartition("\n")[2]
+    return f"exit status {status}{f', and {last}' if last else ', and no output'}"
+
+
+def _why_not(status: int | None, printed: str, others: list[str]) -> str:
+    mine = [other for other in others if not other.endswith(("/get_loggers", "/set_logger_level"))]
+    if mine:
+        return f"It serves {', '.join(mine)}, but the exercise needs the name /lamp."
+    if status is None:
+        return (
+            'The program runs, but it serves nothing. Does it reach the line rospy.Service("/lamp", Lamp, …)?'
+        )
+    for pattern, hint in ENDINGS:
+        if found := re.search(pattern, printed):
+            return hint.format(*found.groups())
+    if "Traceback" in printed or "Error" in printed:
+        fault = explain(printed)
+        return f"{fault.problem} {fault.remedy}" if fault else _own_line(printed)
+    return "The program ended, so its service ended, too. Does it reach rospy.spin(), which waits?"
+
+
+def _own_line(printed: str) -> str:
+    """Return in which line of the student's script the error occurred; "" if it was in no such line."""
+    numbers = re.findall(rf'{re.escape(NAME)}", line (\d+)', printed)
+    return f"The error occurred in line {numbers[-1]} of {NAME}." if numbers else ""
+
+
+def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
+    """Call once with a random colour and random times, and compare the three fields of the response."""
+    red, green, blue = context.random.numbers(3, 0.1, 1.0)
+    seconds = context.random.numbers(context.random.integer(2, 5), 0.5, 9.0)
+    colour = message_type("std_msgs/ColorRGBA").to_message({"r": red, "g": green, "b": blue, "a": 1.0})
+    response = lamp(mode=mode, colour=colour, seconds=seconds)
+    known = mode in (0, 1, 2)
+    context.expect(
+        "success is True only for the three modes",
+        expected=known,
+        actual=response.success,
+        hints=[
+            (
+                True,
+                "The response for an unknown mode has success=False. Compare the mode with the "
+                "three constants.",
+            ),
+            (
+                False,
+                "This is one of the three modes, so success is True. (OFF is 0, which is false in "
+                "a Python condition.)",
+            ),
+        ],
+    )
+    context.expect(
+        "rgb is red, green and blue for ON and BLINK, and otherwise three zeros",
+        expected=[red, green, blue] if mode in (1, 2) else [0.0, 0.0, 0.0],
+        actual=list(response.rgb),
+        near=1e-4,
+        hints=[
+            (
+                lambda actual: mode == 2 and not any(actual),
+                "The mode is BLINK, but rgb is 0. The lamp shows its colour for BLINK, too.",
+            ),
+            ([0.0, 0.0, 0.0], "A field without a value is 0. Set rgb to r, g and b of request.colour."),
+            ([red, green, blue], "The lamp is dark for OFF and for an unknown mode, so rgb has three zeros."),
+            (ANYTHING, "Return red, green and blue in this order, with the values of the request."),
+        ],
+    )
+    context.expect(
+        "total is the sum of the seconds",
+        expected=sum(seconds),
+        actual=response.total,
+        near=1e-3,
+        hints=[
+            (
+                lambda actual: mode != 1 and not actual,
+                "The total is 0 for this mode. For each mode, it has to be the sum of the seconds.",
+            ),
+            (0.0, "A field without a value is 0. Add up request.seconds."),
+            (float(len(seconds)), "That is the number of values. Add them up instead."),
+            (ANYTHING, "Add up all values: sum(request.seconds)."),
+        ],
+    )

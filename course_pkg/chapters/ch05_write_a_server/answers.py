@@ -1,0 +1,397 @@
+"""Example answers of chapter 05; tests/checking/example_answers.py explains the format."""
+
+# %% 05.1 right: a response object
+def handle_geometry(request):
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+
+# %% 05.1 right: a tuple
+replace("""area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)""", "return request.length * request.width, request.length * request.width * request.height")
+
+# %% 05.1 right: a response that is filled in later
+def handle_geometry(request):
+    response = geometryResponse()
+    response.area = request.width * request.length
+    response.volume = response.area * request.height
+    return response
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+
+# %% 05.1 right: an object that creates its service
+import functools
+
+
+def handle_geometry(factor, request):
+    area = factor * request.width * request.length
+    return {"volume": area * request.height, "area": area}
+
+
+class Server:
+    def __init__(self):
+        self.service = rospy.Service("/getGeometry", geometry, functools.partial(handle_geometry, 1))
+
+
+server = Server()
+
+# %% 05.1 right: a lambda
+replace("geometryResponse(area=area, volume=area * request.height)", "area, area * request.height")
+replace('("/getGeometry", geometry, handle_geometry)', '("/getGeometry", geometry, lambda request: handle_geometry(request))')
+# %% 05.1 wrong: a misspelt field | hint: The request has no field of this name
+replace("request.width", "request.breadth")
+# %% 05.1 wrong: no parameter | hint: The handler has no parameter
+replace("handle_geometry(request):", "handle_geometry():")
+# %% 05.1 wrong: passes the result of a call | hint: Pass the name of the handler without
+replace("geometry, handle_geometry)", "geometry, handle_geometry(geometry._request_class()))")
+# %% 05.1 wrong: never creates the service | hint: Run the cell that serves it
+replace('rospy.Service("/getGeometry", geometry, handle_geometry)', "None")
+# %% 05.1 wrong: adds instead of multiplying | hint: This is width + length
+replace("width * request", "width + request")
+# %% 05.1 wrong: area of the front instead of the floor | hint: the area of the front
+replace("length", "height")
+replace("(area=area, volume=area * request.height)", "(area=area, volume=area * request.length)")
+# %% 05.1 wrong: volume first | hint: This is the volume. In the
+replace("geometryResponse(area=area, volume=area * request.height)", "area * request.height, area")
+# %% 05.1 wrong: forgets the volume | hint: The volume is 0
+replace("""area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)""", "return geometryResponse(area=request.width * request.length)")
+# %% 05.1 wrong: forgets to return | hint: None
+based_on("a response that is filled in later")
+replace("\n    return response", "")
+# %% 05.1 wrong: adds the height | hint: This is area + height
+replace("area * request", "area + request")
+# %% 05.1 wrong: rounds | hint: The area is rounded
+replace("\n    area = request.width * request.length\n    return geometryResponse(area=area, volume=area * request.height)", """
+    return round(request.width * request.length), round(request.width * request.length * request.height)""")
+# %% 05.1 wrong: area of all six sides | hint: Return the area of the floor of
+replace("""area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
+    return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)""")
+# %% 05.1 wrong: the area for the volume | hint: Multiply all three sides
+replace("volume=area * request.height", "volume=area")
+# %% 05.1 wrong: forgets the area | hint: The area is 0
+replace("area=area, volume", "volume")
+
+# %% 05.1 right: a bound method, without handle_geometry
+class Geometer:
+    def handle(self, request):
+        return request.width * request.length, request.width * request.length * request.height
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
+
+# %% 05.1 wrong: a client in place of a server | hint: The cell has to create a … rospy.Service
+replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
+
+# %% 05.2 right: a class that counts
+class Counter:
+    def __init__(self):
+        self.count = 0
+
+    def handle_count(self, request):
+        self.count += 1
+        return TriggerResponse(success=True, message=str(self.count))
+
+    def handle_reset(self, request):
+        self.count = 0
+        return EmptyResponse()
+
+
+counter = Counter()
+count_service = rospy.Service("/count", Trigger, counter.handle_count)
+reset_service = rospy.Service("/reset_count", Empty, counter.handle_reset)
+
+# %% 05.2 right: the shortest legal forms
+replace("def __init__(self):\n        self.count = 0", "count = 0")
+replace("self.count += 1\n        return TriggerResponse(success=True, message=str(self.count))", '''self.count = self.count + 1
+        return True, f"{self.count}"''')
+replace("EmptyResponse()", "[]")
+# %% 05.2 right: creates its services itself
+replace("def __init__(self):\n        self.count = 0", """def __init__(self):
+        self.count = 0
+        self.services = [
+            rospy.Service("/count", Trigger, self.handle_count),
+            rospy.Service("/reset_count", Empty, self.handle_reset),
+        ]""")
+replace("\ncount_service … handle_reset)", "")
+# %% 05.2 wrong: forgets self | hint: The handler is a method without self
+replace("def handle_count(self, request):", "def handle_count(request):")
+# %% 05.2 wrong: an unbound local variable | hint: A function that assigns to a name has a local variable … Your cell, line
+replace("self.count += 1", "count += 1")
+# %% 05.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
+replace("str(self.count)", "str(counted)")
+# %% 05.2 wrong: the reset returns nothing | hint: Return a response, even if it is empty
+replace("self.count = 0\n        return EmptyResponse()", "self.count = 0")
+# %% 05.2 wrong: answers before it counts | hint: Add one before
+replace("def handle_count(self, request):", "def handle_count(self, request):\n        before = self.count")
+replace("(self.count)", "(before)")
+# %% 05.2 wrong: the reset is forgotten | hint: The count continued after the reset.
+replace("self.count = 0\n        return EmptyResponse()", "return EmptyResponse()")
+# %% 05.2 wrong: counts in a local variable | hint: The message is 1 again. Store
+replace("self.count += 1", "count = 0\n        count += 1")
+replace("str(self.count)", "str(count)")
+# %% 05.2 wrong: leaves success out | hint: success is False: a bool field
+replace("success=True, message", "message")
+# %% 05.2 wrong: wraps at 9 | hint: After 9, the message has only
+replace("self.count += 1", "self.count = self.count % 9 + 1")
+# %% 05.2 wrong: only the last digit | hint: After 9, the message has only
+replace("(self.count)", "(self.count)[-1]")
+# %% 05.2 wrong: more text than the number | hint: The message contains more than the number
+replace("str(self.count)", 'f"{self.count} calls"')
+# %% 05.2 wrong: always two digits | hint: The number begins with a zero
+replace("str(self.count)", 'f"{self.count:02d}"')
+# %% 05.2 wrong: an int as the message | hint: Convert the count
+replace("str(self.count)", "self.count")
+# %% 05.2 wrong: leaves the message out | hint: The message is empty: a string field without a value is empty. Set it to the count.
+replace(", message=str(self.count)", "")
+
+# %% 05.2 right: functions, without the class
+total = 0
+
+
+def handle_count(request):
+    global total
+    total += 1
+    return TriggerResponse(True, str(total))
+
+
+def handle_reset(request):
+    global total
+    total = 0
+    return EmptyResponse()
+
+
+count_service = rospy.Service("/count", Trigger, handle_count)
+reset_service = rospy.Service("/reset_count", Empty, handle_reset)
+
+# %% 05.2 wrong: starts from 1 | hint: Set its count to zero in __init__
+replace("def __init__(self):\n        self.count = 0", "def __init__(self):\n        self.count = 1")
+# %% 05.2 wrong: sets the count to 1 | hint: Set the count to zero, not to 1
+replace("self.count = 0\n        return", "self.count = 1\n        return")
+# %% 05.2 wrong: the handlers of the two services exchanged | hint: The handler of /count returned an
+replace("Trigger, counter.handle_count", "Trigger, counter.handle_reset")
+
+# %% 05.3 right: a loop over the sides
+def handle_checked_geometry(request):
+    for side in ("length", "width", "height"):
+        value = getattr(request, side)
+        if value < 0:
+            raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+
+checked_service = rospy.Service("/getGeometryChecked", geometry, handle_checked_geometry)
+
+# %% 05.3 right: one if for each side
+def handle_checked_geometry(request):
+    if request.length < 0:
+        raise rospy.ServiceException("negative length: %g" % request.length)
+    if request.width < 0:
+        raise rospy.ServiceException("negative width: %g" % request.width)
+    if request.height < 0:
+        raise rospy.ServiceException("negative height: %g" % request.height)
+    return [request.length * request.width, request.length * request.width * request.height]
+
+
+checked_service = rospy.Service("/getGeometryChecked", geometry, handle_checked_geometry)
+
+# %% 05.3 right: names with a capital letter
+replace("for side in … request.height)", """sides = {"Length": request.length, "Width": request.width, "Height": request.height}
+    negative = [f"{name} is {value:.2f} m" for name, value in sides.items() if value < 0]
+    if negative:
+        raise rospy.ServiceException(negative[0])
+    return request.length * request.width, request.length * request.width * request.height""")
+# %% 05.3 wrong: does not refuse | hint: The server measured this box, but
+replace('\n    for side in … negative")', "")
+# %% 05.3 wrong: raises a ValueError | hint: The handler raised another exception, so
+replace("rospy.ServiceException", "ValueError")
+# %% 05.3 wrong: returns None | hint: The handler returned None, so the
+replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")', "return None")
+# %% 05.3 wrong: an error message without the name of the side | hint: The message names no side
+replace('f"{side} is {value}, and a side cannot be negative"', '"no such box"')
+# %% 05.3 wrong: answers with an empty box | hint: The server measured this box, but
+replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")', "return geometryResponse()")
+# %% 05.3 wrong: refuses a flat box, too | hint: not zero itself
+replace("value < 0", "value <= 0")
+# %% 05.3 wrong: returns the exception | hint: Do not return the exception
+replace("raise rospy.ServiceException", "return rospy.ServiceException")
+# %% 05.3 wrong: returns the error message as text | hint: Do not return the exception
+replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")\n    ', 'return f"{side} is {value}"\n    ')
+# %% 05.3 wrong: compares without the fraction | hint: -0.5 is negative
+replace("value < 0", "int(value) < 0")
+# %% 05.3 wrong: names the side, and not its value | hint: The message does not contain the
+replace("{value}, and a side cannot be negative", "negative")
+# %% 05.3 wrong: sends the whole request back | hint: The message names more than one
+replace('"{side} is {value}, and a side cannot be negative"', '"a negative side in {request}"')
+# %% 05.3 wrong: only the values of all sides | hint: The message names no side
+replace("{side} is {value}, and a side cannot be negative", "{request.length}, {request.width}, {request.height}")
+# %% 05.3 wrong: names the last negative side | hint: names another side
+replace('("length", "width", "height")', '("height", "width", "length")')
+# %% 05.3 wrong: refuses a box without length | hint: not zero itself
+replace("value < 0", "value < 0 or not request.length")
+# %% 05.3 wrong: forgets the width | hint: The server measured this box, but
+replace('("length", "width", "height")', '("length", "height")')
+
+# %% 05.3 right: an object, without handle_checked_geometry
+class Checked:
+    def __call__(self, request):
+        for side in request.__slots__:
+            if not getattr(request, side) >= 0:
+                raise rospy.ServiceException(f"{side} is {getattr(request, side)}")
+        return request.length * request.width, request.length * request.width * request.height
+
+
+checked_service = rospy.Service("/getGeometryChecked", geometry, Checked())
+
+# %% 05.3 wrong: names all sides | hint: The message names more than one
+replace('f"{side} is {value}, and a side cannot be negative"', 'f"length is {request.length}, width is {request.width}, height is {request.height}"')
+# %% 05.3 wrong: forgets the f | hint: The message contains braces
+replace('f"{side}', '"{side}')
+
+# %% 05.4 right: compares first
+class Switch:
+    def __init__(self):
+        self.on = False
+
+    def handle_switch(self, request):
+        moved = request.data != self.on
+        self.on = request.data
+        return SetBoolResponse(success=moved, message="on" if self.on else "off")
+
+
+switch = Switch()
+switch_service = rospy.Service("/switch", SetBool, switch.handle_switch)
+
+# %% 05.4 right: returns early
+replace("def __init__(self):\n        self.on = False", 'state = "off"')
+replace('moved = request … else "off")', """wanted = {True: "on", False: "off"}[request.data]
+        if wanted == self.state:
+            return {"success": False, "message": self.state}
+        self.state = wanted
+        return {"success": True, "message": wanted}""")
+# %% 05.4 right: creates its service itself
+replace("False", 'False\n        self.service = rospy.Service("/switch", SetBool, self.handle_switch)')
+replace('\nswitch_service = rospy.Service("/switch", SetBool, switch.handle_switch)', "")
+# %% 05.4 wrong: success is always True | hint: The switch did not move, but
+replace("success=moved", "success=True")
+# %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
+replace("\n        moved = request.data != self.on", "")
+replace("moved", "request.data != self.on")
+# %% 05.4 wrong: the message is the old position | hint: Change the position first
+replace("(self, request):", '(self, request):\n        message = "on" if self.on else "off"')
+replace('message="on" if self.on else "off"', "message=message")
+# %% 05.4 wrong: the message is True or False | hint: The message is True or False
+replace('"on" if self.on else "off"', "str(self.on)")
+# %% 05.4 wrong: leaves the message empty | hint: Set it to on or off
+replace('"on" if self.on else "off"', '""')
+# %% 05.4 wrong: True switches off | hint: The field `data` is False, but
+replace("self.on = request.data", "self.on = not request.data")
+# %% 05.4 wrong: toggles in each call | hint: The switch was already in this
+replace("self.on = request.data", "self.on = not self.on")
+# %% 05.4 wrong: on at the start | hint: A new switch was not off.
+replace("False", "True")
+# %% 05.4 wrong: None at the start | hint: in __init__
+replace("False", "None")
+# %% 05.4 wrong: the message is a sentence | hint: The message contains more than "on"
+replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')
+# %% 05.4 wrong: one value for all switches | hint: they share one value
+replace("    def __init__(self):\n        self.on = False", "    on = False")
+replace("self.on", "Switch.on", times=3)
+# %% 05.4 wrong: raises an error if nothing changes | hint: A request for the present position
+replace("moved = request.data != self.on", 'if request.data == self.on:\n            raise rospy.ServiceException("already there")')
+replace("success=moved", "success=True")
+
+# %% 05.4 wrong: never stores the position | hint: The switch did not move, but
+replace("self.on = request.data\n", "pass\n")
+replace('"on" if self.on else', '"on" if request.data else')
+
+# %% 05.5 right: an object
+solution()
+
+# %% 05.5 right: global variables
+"""%%writefile arm.py
+#!/usr/bin/env python3
+import rospy
+from std_srvs.srv import SetBool, Trigger
+
+moves = 0
+service = None
+
+
+def move(request):
+    global moves
+    moves = moves + 1
+    return True, "%d" % moves
+
+
+def maintenance(request):
+    global service
+    if request.data:
+        if service is None:
+            return False, "closed"
+        service.shutdown()
+        service = None
+        return True, "closed"
+    if service is not None:
+        return False, "open"
+    service = rospy.Service("/move_arm", Trigger, move)
+    return True, "open"
+
+
+def main():
+    global service
+    rospy.init_node("arm", anonymous=True)
+    service = rospy.Service("/move_arm", Trigger, move)
+    rospy.Service("/maintenance", SetBool, maintenance)
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
+"""
+
+# %% 05.5 wrong: no first line | hint: Linux finds in line 1 which
+replace("#!/usr/bin/env python3\n", "")
+# %% 05.5 wrong: no guard | hint: An import of the file starts the node
+replace('if __name__ == "__main__":', "if True:")
+# %% 05.5 wrong: a misspelt name | hint: The file has a mistake
+replace("import SetBool, SetBoolResponse", "import SetBol, SetBoolResponse")
+# %% 05.5 wrong: no init_node | hint: Call rospy.init_node before
+replace('    rospy.init_node("arm")\n', "")
+# %% 05.5 wrong: no spin | hint: The program has ended. Its last
+replace("    rospy.spin()\n", "")
+# %% 05.5 wrong: closed at the start | hint: The program runs, but a service is missing
+replace("        self.open()\n        rospy.Service", "        rospy.Service")
+# %% 05.5 wrong: never compares | hint: A second call of /maintenance with
+replace("changed = request.data == (self.move_service is not None)", "changed = True")
+# %% 05.5 wrong: deletes its reference | hint: The service still exists. Store the
+replace("        self.move_service.shutdown(\"maintenance\")\n", "")
+# %% 05.5 wrong: unregisters at the master only | hint: You only removed the entry in
+replace('self.move_service.shutdown("maintenance")', 'rospy.core.rosgraph.Master("/arm").unregisterService("/move_arm", self.move_service.uri)')
+# %% 05.5 wrong: never opens again | hint: Create it again for data=False
+replace("            self.open()\n", "            self.move_service = self\n")
+# %% 05.5 wrong: counts from 1 again | hint: After the maintenance, the count starts
+replace("    def open(self):", "    def open(self):\n        self.moves = 0")
+# %% 05.5 wrong: begins with 0 | hint: The first move returned 0
+replace("str(self.moves)", "str(self.moves - 1)")
+# %% 05.5 wrong: never counts | hint: The count stays 1
+replace("self.moves += 1", "self.moves = 1")
+# %% 05.5 wrong: success in any case | hint: The state did not change, but
+replace("success=changed", "success=True")
+# %% 05.5 wrong: never success | hint: The call changed the state, but
+replace("success=changed", "success=False")
+# %% 05.5 wrong: the wrong message | hint: The message has to be the
+replace('"closed" if request.data else "open"', '"open" if request.data else "closed"')
+# %% 05.5 wrong: returns nothing for a repeated request | hint: The handler of /maintenance returned None.
+replace("        changed = request", "        if not request.data and self.move_service is not None:\n            return None\n        changed = request")
+# %% 05.5 wrong: ends the node | hint: The program ended during the calls.
+replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("maintenance")')
+# %% 05.5 wrong: counts calls of /maintenance | hint: Each call of /move_arm has to
+replace("changed = request", "self.moves += 1\n        changed = request")
+# %% 05.5 wrong: a type that is not imported | hint: An exception has ended the program
+replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")

@@ -1,0 +1,197 @@
+"""05.5: a program with two services; one of them can be shut down and served again."""
+
+from __future__ import annotations
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import Running, telling_line
+from course_pkg.checking.plain_values import Message
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.script import require_shebang
+from course_pkg.ros.protocol.probe import ask_all, header_fields, service_probe
+from course_pkg.ros.protocol.snapshot import ServiceSeen
+from course_pkg.waiting import at_this_load, wait_until
+
+FILE = "arm.py"
+MOVE, MAINTENANCE = "/move_arm", "/maintenance"
+STARTS = 8.0  # s for the program to serve; it takes 0.5 s on an idle machine
+POLL = 0.1  # s between two snapshots of the graph
+IMPORT = "import arm"
+START = f"""%%writefile {FILE}
+#!/usr/bin/env python3
+..."""
+
+
+@part(
+    "05.5",
+    points=3,
+    goal=(
+        "Write arm.py, a node that serves /move_arm and /maintenance; a call of /maintenance shuts "
+        "/move_arm down or serves it again."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=30.0,
+    start=START,
+)
+def close_for_maintenance(context: CheckContext) -> None:
+    """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
+    require_shebang(
+        context,
+        FILE,
+        missing="Linux finds in line 1 which program runs the file. Begin with #!/usr/bin/env python3.",
+    )
+    folder = context.folder(files=[FILE])
+    _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))
+    with folder.start("python", FILE, worded=f"python3 {FILE}") as program:
+        _serves(context, program)
+        _works(context)
+
+
+def _serves(context: CheckContext, program: Running) -> None:
+    """Assert that the program starts and serves both names."""
+
+    def ready() -> bool:
+        seen = context.look()
+        return bool(seen.service(MOVE) and seen.service(MAINTENANCE)) or program.status is not None
+
+    wait_until(ready, at_this_load(STARTS), POLL)
+    seen = context.look()
+    ended = program.status is not None
+    missing = [name for name in (MOVE, MAINTENANCE) if not seen.service(name)]
+    output = program.stop().out if missing or ended else ""
+    printed = telling_line(output)
+    context.require(
+        "arm.py serves /move_arm and /maintenance",
+        holds=not missing and not ended,
+        expected="both services, and a program that keeps running",
+        actual=f"no {' and no '.join(missing)}; the program printed: {printed}" if missing else printed,
+        hints=_about_start(ended, output),
+    )
+
+
+def _about_start(ended: bool, output: str) -> str:
+    if not ended:
+        return (
+            "The program runs, but a service is missing. Compare the names, and create both "
+            "services at the start."
+        )
+    if "rospy.init_node() first" in output:
+        return "A service belongs to a node. Call rospy.init_node before you create the first service."
+    if "Traceback" in output:
+        return (
+            "An exception has ended the program. Start it in a terminal, and read the last line of "
+            "its output."
+        )
+    return (
+        "The program has ended. Its last line has to be rospy.spin(), which waits until the node is stopped."
+    )
+
+
+def _works(context: CheckContext) -> None:
+    move = context.service(MOVE, "std_srvs/Trigger")
+    maintenance = context.service(MAINTENANCE, "std_srvs/SetBool", hints=SWITCHES)
+    _counts(context, [move().message, move().message], 1)
+    address = context.look().service(MOVE)
+    for data, changed in ((False, False), (True, True), (True, False)):
+        _switches(context, maintenance(data=data), closed=data, changed=changed)
+    _is_closed(context, address)
+    _switches(context, maintenance(data=False), closed=False, changed=True)
+    context.require(
+        "after the maintenance, /move_arm is served again",
+        holds=bool(context.look().service(MOVE)),
+        expected=MOVE,
+        actual=f"no {MOVE}",
+        hints="/move_arm does not exist after the maintenance. Create it again for data=False.",
+    )
+    _switches(context, maintenance(data=False), closed=False, changed=False)
+    _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], 3)
+
+
+def _counts(context: CheckContext, messages: list[str], first: int) -> None:
+    context.expect(
+        "the message of /move_arm is the number of moves since the start",
+        expected=[str(first + number) for number in range(len(messages))],
+        actual=messages,
+        hints=[
+            (
+                ["1"],
+                "After the maintenance, the count starts from 1 again. Create the counter only "
+                "once, at the start.",
+            ),
+            (["0", "1"], "The first move returned 0. Add 1 before you return the message."),
+            (["1", "1"], "The count stays 1. Store it in an object or in a global variable."),
+            (ANYTHING, "Each call of /move_arm has to add 1, and no other call may change the number."),
+        ],
+    )
+
+
+def _switches(context: CheckContext, response: Message, *, closed: bool, changed: bool) -> None:
+    context.expect(
+        'the message of /maintenance is "closed" or "open"',
+        expected="closed" if closed else "open",
+        actual=response.message,
+        hints="The message has to be the state after the call: closed for True, open for False.",
+    )
+    context.expect(
+        "success shows whether the call changed the state",
+        expected=changed,
+        actual=response.success,
+        hints=[
+            (
+                True,
+                "The state did not change, but success is True. Compare `data` with the state "
+                "before the call.",
+            ),
+            (False, "The call changed the state, but success is False. Return True in this case."),
+        ],
+    )
+
+
+def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
+    context.require(
+        "during maintenance, the master has no /move_arm",
+        holds=not context.look().service(MOVE),
+        expected=f"no {MOVE}",
+        actual=f"{MOVE} is registered",
+        hints="The service still exists. Store the rospy.Service object, and call its method shutdown().",
+    )
+    probes = [service_probe(MOVE, address.uri)] if address else []
+    ask_all(probes, 1.0)
+    context.require(
+        "during maintenance, no server answers at its address",
+        holds=not any("type" in header_fields(probe.answer) for probe in probes),
+        expected="no answer",
+        actual="an answer",
+        hints="You only removed the entry in the master. Call shutdown() of the rospy.Service object.",
+    )
+
+
+def _can_be_imported(context: CheckContext, done: Finished) -> None:
+    context.require(
+        "an import of the file starts nothing",
+        holds=done.status == 0 and not (done.out + done.err).strip(),
+        expected="an import that ends",
+        actual="an import that does not end" if done.status is None else telling_line(done.out + done.err),
+        hints=(
+            "An import of the file starts the node. Move the start below the line if __name__ == '__main__':."
+        )
+        if done.status is None
+        else "The file has a mistake. Start it in a terminal, and read the last line of its output.",
+    )
+
+
+SWITCHES: Hints = [
+    (
+        matches("already registered|NoneType|shutdown"),
+        "A second call of /maintenance with the same value failed. Compare `data` with the "
+        "present state first.",
+    ),
+    (
+        matches("unavailable|transport error|refused|reset|closed"),
+        "The program ended during the calls. Shut down only /move_arm, and not the node.",
+    ),
+    (
+        matches("returned None"),
+        "The handler of /maintenance returned None. It has to return a response in every case.",
+    ),
+]

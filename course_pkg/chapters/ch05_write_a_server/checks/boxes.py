@@ -1,0 +1,167 @@
+"""The geometry servers: one that measures every box, and one that refuses impossible boxes."""
+
+import re
+from collections.abc import Mapping
+from itertools import combinations
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.geometry import expect_geometry
+
+SIDES = ("length", "width", "height")
+OWN_TEXT = "cannot process request: (?!(service )?handler returned)"  # otherwise rospy wrote the message
+
+
+@part(
+    "05.1",
+    points=2,
+    goal="Serve /getGeometry, and return the area of the floor and the volume of a box.",
+    needs=["handle_geometry|geometry_service"],
+)
+def area_and_volume(context: CheckContext) -> None:
+    """Send three boxes; the three sides of each box are different."""
+    get_geometry = context.service("/getGeometry", "course_pkg/geometry")
+    for _ in range(3):
+        length, width, height = context.random.numbers(3, 0.5, 9.0)
+        response = get_geometry(length=length, width=width, height=height)
+        expect_geometry(
+            context,
+            response,
+            width * length,
+            height,
+            area=_about_area(width, length, height),
+            volume=[
+                (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
+                (width * length + height, "This is area + height. Multiply for a volume; do not add."),
+                (ANYTHING, "Multiply all three sides: width, length and height."),
+            ],
+        )
+
+
+def _about_area(width: float, length: float, height: float) -> Hints:
+    return [
+        (0.0, "The area is 0: a field without a value is 0. Set the field `area`."),
+        (width + length, "This is width + length. Multiply for an area; do not add."),
+        (width * height, "This is the area of the front, width times height. Return the area of the floor."),
+        (
+            width * length * height,
+            "This is the volume. In the response, the area comes first, and then the volume.",
+        ),
+        (
+            lambda actual: abs(actual - width * length) <= 1,
+            "The area is rounded. Return it without rounding.",
+        ),
+        (
+            ANYTHING,
+            "Return the area of the floor of the box: the sides of the floor are the width and the length.",
+        ),
+    ]
+
+
+@part(
+    "05.3",
+    points=2,
+    goal=(
+        "Serve /getGeometryChecked; refuse a negative side with an error message that contains the "
+        "name of the side and its value."
+    ),
+    needs=["handle_checked_geometry|checked_service"],
+)
+def a_box_that_cannot_be(context: CheckContext) -> None:
+    """Send a good box and three flat boxes; then boxes with one negative side, and with two."""
+    get_geometry = context.service(
+        "/getGeometryChecked",
+        "course_pkg/geometry",
+        hints=[
+            (
+                matches(OWN_TEXT),
+                "This box has no negative side. Refuse only values below zero, but not zero itself.",
+            )
+        ],
+    )
+    for flat in ("", *SIDES):
+        sides = _box(context, {flat: 0.0})
+        response = get_geometry(**sides)
+        area = sides["width"] * sides["length"]
+        context.expect(
+            "a box without negative sides is measured",
+            expected=[area, area * sides["height"]],
+            actual=[response.area, response.volume],
+            near=1e-3,
+        )
+    depths = [*(-float(depth) for depth in context.random.integers(2, 2, 9)), -0.5]
+    for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
+        _refused(context, get_geometry, {side: depth})
+    for pair in combinations(SIDES, 2):
+        _refused(context, get_geometry, dict(zip(pair, context.random.shuffled(depths[:2]), strict=True)))
+
+
+def _box(context: CheckContext, given: Mapping[str, float]) -> dict[str, float]:
+    drawn = zip(SIDES, context.random.numbers(3, 0.5, 9.0), strict=True)
+    return {side: given.get(side, value) for side, value in drawn}
+
+
+def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str, float]) -> None:
+    """Assert that the box is refused, and that the error message names the first negative side."""
+    error = get_geometry.refused(
+        "a negative side is refused",
+        saying="responded with an error",
+        hints=[
+            (
+                lambda actual: isinstance(actual, dict),
+                "The server measured this box, but it has to refuse it. Compare each side with "
+                "zero first; -0.5 is negative, too.",
+            )
+        ],
+        **_box(context, negative),
+    )
+    context.require(
+        "the refusal is a rospy.ServiceException",
+        holds=bool(matches(OWN_TEXT).search(error)),
+        expected="service cannot process request: …, with your own message",
+        actual=error,
+        hints=[
+            (
+                matches("error processing request"),
+                "The handler raised another exception, so the client thinks that the server "
+                "has a bug. Raise rospy.ServiceException.",
+            ),
+            (
+                matches("returned None"),
+                "The handler returned None, so the error message is from rospy. Raise "
+                "rospy.ServiceException with your own message.",
+            ),
+            (
+                matches("handler returned"),
+                "The handler returned a value that is not a response. Do not return the "
+                "exception; raise it: raise rospy.ServiceException(...).",
+            ),
+        ],
+    )
+    side, value = next(iter(negative.items()))
+    reason = error.lower().partition("process request:")[2]
+    named = [name for name in SIDES if name in reason]
+    context.require(
+        "the message names the side and its value",
+        holds=named == [side] and value in map(float, re.findall(r"-?\d+(?:\.\d+)?", reason)),
+        expected=f"a message that contains {side} and {value:g}, and no other side",
+        actual=error,
+        hints=_unclear(named, side, reason),
+    )
+
+
+def _unclear(named: list[str], side: str, reason: str) -> str:
+    """Return the hint for an error that names the sides in `named` and should name `side`."""
+    if "{" in reason:
+        return (
+            "The message contains braces. Write f before the string, so that Python replaces the "
+            "braces by values."
+        )
+    if len(named) > 1 and side in named:
+        return "The message names more than one side. Name only the first negative side."
+    if not named:
+        return "The message names no side. Write the name of the negative side and its value."
+    if named != [side]:
+        return "The message names another side. Name the first negative side, in the order of the fields."
+    return "The message does not contain the value of the side. Write the value after the name."

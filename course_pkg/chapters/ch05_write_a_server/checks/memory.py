@@ -1,0 +1,219 @@
+"""The servers with a state: the counter, and the switch."""
+
+from collections.abc import Callable
+
+from course_pkg.checking import CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Condition
+
+A_NEW_SWITCH = """
+from rospy.impl.tcpros_service import convert_return_to_response
+from std_srvs.srv import SetBoolRequest, SetBoolResponse
+
+
+def a_new_switch(kind, data):
+    return convert_return_to_response(kind().handle_switch(SetBoolRequest(data)), SetBoolResponse)
+"""
+NEW_AND_OFF = "handle_switch(data=False) of a new Switch()"
+MESSAGE: list[tuple[Condition, str]] = [
+    ("", "The message is empty: a string field without a value is empty. Set it to on or off."),
+    (matches("True|False"), "The message is True or False. Convert it to on or off."),
+    (
+        matches("on|off"),
+        'The message contains more than "on" or "off" in small letters. Return only this word.',
+    ),
+]
+A_NEW_COUNTER = """
+from rospy.impl.tcpros_service import convert_return_to_response
+from std_srvs.srv import TriggerRequest, TriggerResponse
+
+
+def a_new_counter(kind):
+    return convert_return_to_response(kind().handle_count(TriggerRequest()), TriggerResponse).message
+"""
+NO_REFUSAL = "A request for the present position is not an error. Return success=False and the position."
+STARTS_ON = "A new switch was not off. Set its position to False in __init__."
+SHARES = (
+    "The switch at /switch was on, and a new Switch() was on, too, because they share one "
+    "value. Store the value in self, not in the class or in a global variable."
+)
+ELSEWHERE = {
+    True: (
+        "The switch was already in this position, but it moved to the other one. The field `data` "
+        "is the wanted position."
+    ),
+    False: (
+        "The message is the position before the call. Change the position first, and then set the message."
+    ),
+}
+
+
+@part(
+    "05.2",
+    points=2,
+    goal="Serve /count, which counts its calls, and /reset_count, which sets the count to zero.",
+    needs=["Counter|count_service"],
+)
+def a_counter_that_resets(context: CheckContext) -> None:
+    """Call /count to learn the present count; then reset it, and count beyond 9."""
+    count = context.service(
+        "/count",
+        "std_srvs/Trigger",
+        hints=[
+            (matches("field message"), "The message is a string. Convert the count: str(self.count)."),
+            (
+                matches(r"args are\(,\)"),
+                "The handler of /count returned an empty response. Did you exchange the "
+                "handlers of the two services?",
+            ),
+        ],
+    )
+    reset = context.service(
+        "/reset_count",
+        "std_srvs/Empty",
+        hints=[
+            (
+                matches("returned None"),
+                "The handler returned None. Return a response, even if it is empty: EmptyResponse().",
+            )
+        ],
+    )
+    count(), count()
+    before = count().message
+    for last in (context.random.integer(3, 6), 12):
+        reset()
+        for number in range(1, last + 1):
+            response = count()
+            context.expect(
+                "success is True",
+                expected=True,
+                actual=response.success,
+                hints=[(False, "success is False: a bool field without a value is False. Set it to True.")],
+            )
+            context.expect(
+                "after each reset, the message counts 1, 2, 3",
+                expected=str(number),
+                actual=response.message,
+                hints=[
+                    (
+                        "",
+                        "The message is empty: a string field without a value is empty. Set it to the count.",
+                    ),
+                    (matches(r"^0\d"), "The number begins with a zero. Use str(self.count)."),
+                    (
+                        matches(r"\D"),
+                        "The message contains more than the number. Return only the number, as a string.",
+                    ),
+                    (
+                        _lost_a_digit(number),
+                        "After 9, the message has only one digit. Return the whole number.",
+                    ),
+                    (
+                        _follows(before),
+                        "The count continued after the reset. Set self.count to zero in handle_reset.",
+                    ),
+                    (
+                        _is_two(number),
+                        "The first call after a reset returned 2. Set the count to zero, not to 1.",
+                    ),
+                    ("0", "The message is 0 after a call. Add one before you return the message."),
+                    (
+                        "1",
+                        "The message is 1 again. Store the count in self, so that it still "
+                        "exists in the next call.",
+                    ),
+                ],
+            )
+            before = response.message
+    reset()
+    _starts_from_zero(context)
+
+
+def _starts_from_zero(context: CheckContext) -> None:
+    """Count once with a new object; skip a class that does not work as in the exercise."""
+    if not context.has("Counter"):
+        return
+    context.prepare(A_NEW_COUNTER)
+    new = context.run("a_new_counter", Its("Counter"), worded="handle_count() of a new Counter()")
+    if not new.error and new.value != "1":
+        context.fail(
+            "after each reset, the message counts 1, 2, 3",
+            expected="'1'",
+            actual=repr(new.value),
+            hint="A new counter did not start from zero. Set its count to zero in __init__.",
+        )
+
+
+def _lost_a_digit(number: int) -> Callable[[str], bool]:
+    return lambda message: len(message) < len(str(number))
+
+
+def _is_two(number: int) -> Callable[[str], bool]:
+    return lambda message: number == 1 and message == "2"
+
+
+def _follows(before: str) -> Callable[[str], bool]:
+    return lambda message: int(message) == int(before) + 1
+
+
+@part(
+    "05.4",
+    points=2,
+    goal=(
+        "Serve /switch: move to the wanted position; return whether the switch moved, and the new position."
+    ),
+    needs=["Switch|switch_service"],
+)
+def a_switch_that_tells(context: CheckContext) -> None:
+    """Call /switch with data=False, then ten times; then try a new Switch(), which must be off."""
+    turn = context.service(
+        "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
+    )
+    turn(data=False)
+    context.expect(
+        "data=False means off",
+        expected="off",
+        actual=turn(data=False).message,
+        hints=[
+            ("on", "The field `data` is False, but the message is on. True means on, and False means off."),
+            *MESSAGE,
+        ],
+    )
+    on = False
+    for data in [True, True, False, False, *(context.random.choice([True, False]) for _ in range(6))]:
+        response = turn(data=data)
+        context.expect(
+            "the message is the position after the call",
+            expected="on" if data else "off",
+            actual=response.message,
+            hints=[("off" if data else "on", ELSEWHERE[data == on]), *MESSAGE],
+        )
+        context.expect(
+            "success shows whether the switch moved",
+            expected=data != on,
+            actual=response.success,
+            hints=[
+                (
+                    True,
+                    "The switch did not move, but success is True. Here, success means that it "
+                    "moved: store the position, and compare it with `data`.",
+                ),
+                (
+                    False,
+                    "The switch moved, but success is False. Compare `data` with the position "
+                    "before you change it.",
+                ),
+            ],
+        )
+        on = data
+    context.prepare(A_NEW_SWITCH)
+    if not context.has("Switch"):  # the handler is not a method of Switch
+        return
+    for stands, hint in ((False, STARTS_ON), (True, SHARES)):
+        turn(data=stands)
+        context.expect(
+            "a new switch is off",
+            expected={"success": False, "message": "off"},
+            actual=context.run("a_new_switch", Its("Switch"), False, worded=NEW_AND_OFF).returned(),
+            hints=hint,
+        )
+    turn(data=False)

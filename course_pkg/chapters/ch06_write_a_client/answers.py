@@ -1,0 +1,433 @@
+"""Example answers of chapter 06; tests/checking/example_answers.py explains the format."""
+
+# %% 06.1 right: by position
+def measure(service, length, width, height):
+    response = rospy.ServiceProxy(service, geometry)(length, width, height)
+    return response.area, response.volume
+
+# %% 06.1 right: a request, after waiting
+def measure(service, length, width, height):
+    rospy.wait_for_service(service, timeout=2)
+    proxy = rospy.ServiceProxy(service, geometry)
+    answer = proxy(geometryRequest(length=length, width=width, height=height))
+    return [answer.area, answer.volume]
+
+# %% 06.1 wrong: computes without a call | hint: and call it with the three sides
+def measure(service, length, width, height):
+    return length * width, length * width * height
+
+# %% 06.1 wrong: leaves the height out | hint: A field was 0
+replace("(length, width, height)", "(length=length, width=width)")
+# %% 06.1 wrong: volume first | hint: The order is wrong. Return the
+replace("area, response.volume", "volume, response.area")
+
+# %% 06.1 wrong: the whole response | hint: This is the whole response. Return only its fields
+def measure(service, length, width, height):
+    return rospy.ServiceProxy(service, geometry)(length, width, height)
+
+# %% 06.1 wrong: calls twice | hint: Each call makes the server do
+def measure(service, length, width, height):
+    proxy = rospy.ServiceProxy(service, geometry)
+    return proxy(length, width, height).area, proxy(length, width, height).volume
+
+# %% 06.1 wrong: forgets to return | hint: without a return line
+replace("return response.area, response.volume", "print(response.area, response.volume)")
+
+# %% 06.1 wrong: reads the fields of the request | hint: These are fields of the request
+def measure(service, length, width, height):
+    request = geometryRequest(length, width, height)
+    rospy.ServiceProxy(service, geometry)(request)
+    return request.length, request.width
+
+# %% 06.1 wrong: rounds them | hint: Return the area and the volume of
+replace("response.area, response.volume", "round(response.area), round(response.volume)")
+# %% 06.1 wrong: the volume only | hint: Return the area and the volume, with a comma
+based_on("the whole response")
+replace("(length, width, height)", "(length, width, height).volume")
+# %% 06.1 wrong: a fixed service | hint: The given service exists, but your
+replace("response = rospy.ServiceProxy(service, geometry)", 'r = rospy.ServiceProxy("/getGeometry", geometry)')
+replace("response.area, response", "r.area, r")
+# %% 06.1 wrong: the width first | hint: The server received the sides in
+replace("(length, width, height)\n", "(width, length, height)\n")
+
+# %% 06.2 right: try and except
+def is_there(service, seconds):
+    try:
+        rospy.wait_for_service(service, timeout=seconds)
+    except rospy.ROSException:
+        return False
+    return True
+
+# %% 06.2 wrong: decides by the elapsed time | hint: The service was there, and 0.5
+replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
+# %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
+replace("service, timeout=seconds", "service")
+# %% 06.2 wrong: catches the other exception | hint: when the time is up. Catch this exception
+replace("rospy.ROSException", "rospy.ServiceException")
+# %% 06.2 wrong: uses the return value of wait_for_service | hint: The service was there, but the
+replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
+replace("\n    return True", "")
+# %% 06.2 wrong: looks once | hint: The service started after 1.3 s,
+replace("timeout=seconds", "timeout=0.1")
+# %% 06.2 wrong: returns None if there is no service | hint: When the time was up, the
+replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
+# %% 06.2 wrong: a fixed limit | hint: The function waited longer than `seconds`.
+replace("timeout=seconds", "timeout=2")
+
+# %% 06.2 wrong: always waits for the whole time | hint: The function waits although the service
+import rosservice
+
+
+def is_there(service, seconds):
+    rospy.sleep(seconds)
+    return service in rosservice.get_service_list()
+
+# %% 06.2 wrong: asks only the master | hint: The master still lists this service,
+import time
+
+import rosservice
+
+
+def is_there(service, seconds):
+    end = time.time() + seconds
+    while time.time() < end:
+        if service in rosservice.get_service_list():
+            return True
+        time.sleep(0.1)
+    return False
+
+# %% 06.2 right: catches Exception
+replace("""rospy.wait_for_service(service, timeout=seconds)
+    except rospy.ROSException:""", "rospy.wait_for_service(service, seconds)\n        return True\n    except Exception:")
+replace("\n    return True", "")
+# %% 06.2 wrong: except without a class | hint: catches the KeyboardInterrupt
+based_on("catches Exception")
+replace("except Exception:", "except:")
+# %% 06.2 wrong: a string | hint: Write True and False without quotes
+replace("return True", 'return "True"')
+replace("return False", 'return "False"')
+# %% 06.2 wrong: True in any case | hint: The function returned True for a
+replace("return False", "pass")
+
+# %% 06.2 wrong: calls the service | hint: The function called the service, but
+replace("timeout=seconds)", "timeout=seconds)\n        rospy.ServiceProxy(service, geometry)(1, 1, 1)")
+
+# %% 06.3 right: ServiceException
+def volume_or_none(service, length, width, height):
+    try:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+    except rospy.ServiceException:
+        return None
+
+# %% 06.3 right: waits first
+replace("(service, length, width, height):", """(service, length, width, height):
+    try:
+        rospy.wait_for_service(service, timeout=1)
+    except rospy.ROSException:
+        return None""")
+# %% 06.3 wrong: waits first, without catching the timeout | hint: wait_for_service raises rospy.ROSException when the timeout
+replace("    try:", "    rospy.wait_for_service(service, timeout=0.5)\n    try:")
+# %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
+replace(".volume", ".volume or None")
+
+# %% 06.3 wrong: tries again | hint: The server may have done the
+def volume_or_none(service, length, width, height):
+    for _ in range(2):
+        try:
+            return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+        except rospy.ServiceException:
+            continue
+    return None
+
+# %% 06.3 wrong: catches a number that is too large, too | hint: The function hides the mistake. Catch
+replace("volume\n    except rospy.ServiceException:", """volume
+    except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):""")
+# %% 06.3 wrong: catches Exception | hint: The function hides the mistake. Catch
+replace("rospy.ServiceException", "Exception")
+# %% 06.3 wrong: catches the other exception | hint: not rospy.ROSException
+replace("ServiceException", "ROSException")
+# %% 06.3 wrong: catches nothing | hint: raises rospy.ServiceException, not
+replace("try: … return None", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
+# %% 06.3 wrong: returns 0.0 instead of None | hint: The call failed, so return None,
+replace("None", "0.0")
+# %% 06.3 wrong: returns only after a failure | hint: the function returned None
+replace("return rospy", "rospy")
+# %% 06.3 right: checks the numbers first
+replace("(service, length, width, height):", """(service, length, width, height):
+    for side in (length, width, height):
+        if not isinstance(side, (int, float)):
+            raise TypeError(f"{side!r} is no number")""")
+# %% 06.3 wrong: a TypeError, too | hint: The function hides the mistake. Catch
+replace("rospy.ServiceException", "(rospy.ServiceException, TypeError)")
+# %% 06.3 wrong: an AttributeError, too | hint: The function hides the mistake. Catch
+replace("rospy.ServiceException", "(rospy.ServiceException, AttributeError)")
+# %% 06.3 wrong: the exception itself | hint: The call failed, so return None,
+replace(":\n        return None", " as error:\n        return error")
+# %% 06.3 wrong: the text of the error | hint: The call failed, so return None,
+replace(":\n        return None", " as error:\n        return str(error)")
+# %% 06.3 wrong: the area | hint: Return the field `volume` of the
+replace(".volume", ".area")
+
+# %% 06.3 wrong: converts a string | hint: Do not convert the arguments
+replace("(length, width, height).volume", "(float(length), width, height).volume")
+# %% 06.3 wrong: computes the volume | hint: This is the product of the sides
+replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
+# %% 06.3 wrong: passes a refusal on | hint: This failure raises rospy.ServiceException, too
+replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
+
+# %% 06.4 right: a function for the thread
+def first_answer(services, length, width, height):
+    def ask_one(proxy, answers):
+        try:
+            answers.append(proxy(length, width, height).volume)
+        except rospy.ServiceException:
+            pass
+
+    for service in services:
+        answers = []
+        proxy = rospy.ServiceProxy(service, geometry)
+        asker = threading.Thread(target=ask_one, args=[proxy, answers], daemon=True)
+        asker.start()
+        asker.join(timeout=1)
+        if answers:
+            return answers[0]
+    return None
+
+# %% 06.4 right: the error ends the thread
+def ask(proxy, sides, answers):
+    answers.append(proxy(*sides))
+
+
+def first_answer(services, length, width, height):
+    for service in services:
+        answers = []
+        sides = (length, width, height)
+        asker = threading.Thread(
+            target=ask, args=[rospy.ServiceProxy(service, geometry), sides, answers], daemon=True
+        )
+        asker.start()
+        asker.join(1.0)
+        if answers:
+            return answers[0].volume
+
+# %% 06.4 right: a future
+from concurrent.futures import ThreadPoolExecutor, TimeoutError as TooLate
+
+
+def first_answer(services, length, width, height):
+    for service in services:
+        pool = ThreadPoolExecutor()
+        future = pool.submit(rospy.ServiceProxy(service, geometry), length, width, height)
+        try:
+            return future.result(timeout=1).volume
+        except (rospy.ServiceException, TooLate):
+            pool.shutdown(wait=False)
+    return None
+
+# %% 06.4 wrong: two seconds | hint: The function waits too long for
+replace("timeout=1", "timeout=2")
+# %% 06.4 wrong: a limit that is too short | hint: The first service responds after 0.6
+replace("timeout=1", "timeout=0.4")
+# %% 06.4 wrong: calls two services only | hint: try all services
+replace("services:", "services[:2]:")
+# %% 06.4 wrong: skips a volume of 0 | hint: The first service responded with the
+replace("if answers:", "if answers and answers[0]:")
+# %% 06.4 wrong: waits for the thread without a limit | hint: The function waits for a server
+replace("timeout=1", "")
+# %% 06.4 wrong: no thread | hint: The function waits for a server
+replace("def ask_one(proxy, answers)", "for service in services")
+replace("answers.append(proxy(length, width, height).volume)", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
+replace("pass … answers[0]", "continue")
+# %% 06.4 wrong: gives up after the first failure | hint: try all services
+based_on("no thread")
+replace("for service in services:\n        try:", "try:\n        for service in services:")
+replace("    except rospy.ServiceException:\n            continue\n", "except rospy.ServiceException:\n    ")
+# %% 06.4 wrong: gives up after a frozen server | hint: The first service is frozen, but
+replace("if answers:\n            return answers[0]", "if asker.is_alive():\n            return None\n        if answers:\n            return answers[0]")
+# %% 06.4 wrong: the last response | hint: This is the response of the
+replace("    for service in services:", "    found = None\n    for service in services:")
+replace("return answers[0]\n    return None", "found = answers[0]\n    return found")
+# %% 06.4 wrong: calls all of them | hint: The first service responded, but the
+replace("    for service in services:", "    found = []\n    for service in services:")
+replace("return answers[0]\n    return None", "found.append(answers[0])\n    return found[0] if found else None")
+# %% 06.4 wrong: catches nothing | hint: Catch its exception inside the loop
+replace("def ask_one … return None", """for service in services:
+        return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
+# %% 06.4 wrong: the whole response | hint: This is the whole response. Return only its field `volume`.
+replace("height).volume", "height)")
+# %% 06.4 wrong: the area | hint: Return the volume of the response
+replace(".volume", ".area")
+# %% 06.4 wrong: an error at the end | hint: and an exception ended the function
+replace("    return None", '    raise rospy.ServiceException("no service responded")')
+# %% 06.4 wrong: 0 if there is none | hint: No service responded, but the function
+replace("    return None", "    return 0.0")
+# %% 06.4 wrong: forgets to return | hint: without a return line
+replace("return answers[0]", "print(answers[0])")
+
+# %% 06.4 wrong: one list for all calls | hint: and use a new list for each call
+replace("\n        answers = []", "")
+replace("    for service in services:", "    answers = []\n    for service in services:")
+# %% 06.4 right: the function of the notebook, in a generator
+def ask_quietly(*arguments):
+    try:
+        ask(*arguments)
+    except rospy.ServiceException:
+        pass
+
+
+def answers_of(services, sides):
+    for service in services:
+        found = []
+        proxy = rospy.ServiceProxy(service, geometry)
+        asker = threading.Thread(target=ask_quietly, args=(proxy, sides, found), daemon=True)
+        asker.start()
+        asker.join(timeout=1)
+        yield from found[:1]
+
+
+def first_answer(services, *sides):
+    return next((answer.volume for answer in answers_of(services, sides)), None)
+
+# %% 06.4 right: waits a second for each service
+replace("asker.join(timeout=1)", "rospy.sleep(1)")
+
+# %% 06.5 right: myargv and float
+def read_sides(argv):
+    try:
+        sides = [float(text) for text in rospy.myargv(argv)[1:]]
+    except ValueError:
+        return None
+    return sides if len(sides) == 3 else None
+
+# %% 06.5 right: unpacks them
+replace("sides = [float(text) for text in rospy.myargv(argv)[1:]]", """_, length, width, height = rospy.myargv(argv=argv)
+        return [float(length), float(width), float(height)]""")
+replace("\n    return sides if len(sides) == 3 else None", "")
+# %% 06.5 wrong: keeps the arguments of ROS | hint: An argument with := is for ROS
+replace("rospy.myargv(argv)", "argv")
+# %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the
+replace("(argv)[1:]", "(argv)")
+# %% 06.5 wrong: two sides and the program's name | hint: The sides begin with the second
+replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")
+# %% 06.5 wrong: strings | hint: These are strings. Convert each string
+replace("try: … return None", "sides = rospy.myargv(argv)[1:]")
+# %% 06.5 wrong: ignores a fourth argument | hint: Four numbers are too many. Return
+replace("argv)[1:]", "argv)[1:4]")
+# %% 06.5 wrong: does not catch the error | hint: float('wide') raises
+replace("try: … return None", "sides = [float(text) for text in rospy.myargv(argv)[1:]]")
+# %% 06.5 wrong: digits and a point only | hint: -1.5 is a number
+based_on("does not catch the error")
+replace("[1:]", '[1:] if text.replace(".", "", 1).isdigit()')
+# %% 06.5 wrong: digits only | hint: 1.5 is a number, too
+based_on("does not catch the error")
+replace("[1:]", "[1:] if text.isdigit()")
+# %% 06.5 wrong: drops the sign | hint: -1.5 is a number, too, so
+replace("float(text)", "abs(float(text))")
+# %% 06.5 wrong: skips an argument that is not a number | hint: One argument is a word. Return
+replace("try:\n        sides = [float(text) for text in rospy.myargv(argv)[1:]]\n    except ValueError:\n        return None", """sides = []
+    for text in rospy.myargv(argv)[1:]:
+        try:
+            sides.append(float(text))
+        except ValueError:
+            continue""")
+
+# %% 06.5 wrong: ends the program | hint: The function ends the program. Return
+import sys
+def read_sides(argv):
+    own = rospy.myargv(argv)[1:]
+    if len(own) != 3:
+        sys.exit("usage: client length width height")
+    return [float(text) for text in own]
+
+# %% 06.5 wrong: the arguments of this program | hint: Read the numbers from `argv`
+replace("(argv)[1:]", "()[1:]")
+# %% 06.5 wrong: whole numbers | hint: A side may be a number
+replace("float(text)", "int(float(text))")
+# %% 06.5 wrong: accepts two numbers | hint: Two numbers are not enough
+replace("len(sides) == 3", "len(sides) <= 3")
+# %% 06.5 wrong: unpacks them outside of try | hint: A wrong number of arguments raised
+based_on("unpacks them")
+replace("try:\n        _, length, width, height = rospy.myargv(argv=argv)", "_, length, width, height = rospy.myargv(argv=argv)\n    try:")
+
+# %% 06.5 wrong: a tuple | hint: Return a list, not a tuple
+replace("return sides if", "return tuple(sides) if")
+
+# %% 06.6 right: functions
+solution()
+
+# %% 06.6 right: one block
+"""%%writefile fits.py
+#!/usr/bin/env python3
+import sys
+import rospy
+from course_pkg.srv import geometry, geometryRequest
+
+if __name__ == "__main__":
+    rospy.init_node("fits")
+    try:
+        length, width, height, limit = map(float, rospy.myargv()[1:])
+    except ValueError:
+        print("usage: fits.py LENGTH WIDTH HEIGHT LIMIT", file=sys.stderr)
+        sys.exit(2)
+    try:
+        rospy.wait_for_service("getGeometry", 2.0)
+        response = rospy.ServiceProxy("getGeometry", geometry)(geometryRequest(length, width, height))
+    except Exception as error:
+        rospy.logerr("no answer: %s", error)
+        sys.exit(3)
+    if response.volume > limit:
+        print("too large")
+        sys.exit(1)
+    print("fits")
+"""
+
+# %% 06.6 wrong: no first line | hint: Begin the file with
+replace("#!/usr/bin/env python3\n", "")
+# %% 06.6 wrong: no guard | hint: The file cannot be imported: it
+replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
+# %% 06.6 wrong: no init_node | hint: The program called /getGeometry although the
+replace('    rospy.init_node("fits", anonymous=True)\n', "")
+# %% 06.6 wrong: an absolute name | hint: although it ran in another namespace
+replace('"getGeometry"', '"/getGeometry"', times=2)
+# %% 06.6 wrong: sys.argv as it is | hint: Remove them with rospy.myargv
+replace("rospy.myargv(argv)", "argv")
+# %% 06.6 wrong: calls twice | hint: The program called the service more
+replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)(*sides)\n    print(\"fits\"")
+# %% 06.6 wrong: a misspelt name | hint: Run it in a terminal
+replace("rospy.wait_for_service", "rospy.wait_for_servise")
+# %% 06.6 wrong: compares with < in place of <= | hint: The volume is equal to LIMIT,
+replace("volume <= limit", "volume < limit", times=2)
+# %% 06.6 wrong: the exit status is always 0 | hint: print too large, and end with
+replace("return 0 if volume <= limit else 1", "return 0")
+# %% 06.6 wrong: True for 1 | hint: print fits, and end with the exit status 0
+replace("return 0 if volume <= limit else 1", "return volume <= limit")
+# %% 06.6 wrong: catches no ROSException | hint: rospy.ROSException after 2 s
+replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
+# %% 06.6 wrong: catches no ServiceException | hint: raises rospy.ServiceException. Print its message
+replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
+# %% 06.6 wrong: waits without a limit | hint: Give wait_for_service a timeout of 2 s
+replace(", timeout=2", "")
+# %% 06.6 wrong: does not catch the error of float() | hint: float() raises ValueError for a word
+replace("    except ValueError:\n        return None\n    return numbers", "    finally:\n        pass\n    return numbers")
+# %% 06.6 wrong: usage without its status | hint: print a usage line, and end
+replace("return 2", "return 0")
+# %% 06.6 wrong: examines the arguments too late | hint: The arguments were wrong, but the
+replace("if len(numbers) == 4 else None", "if len(numbers) >= 3 else None")
+replace("*sides, limit = numbers", "sides, limit = numbers[:3], numbers[3:]")
+replace("    print(\"fits\" if volume <= limit", """    if len(limit) != 1:
+        print("usage: fits.py LENGTH WIDTH HEIGHT LIMIT")
+        return 2
+    print("fits" if volume <= limit[0]""")
+replace("return 0 if volume <= limit else", "return 0 if volume <= limit[0] else")
+# %% 06.6 wrong: prints nothing | hint: The exit status is right, but
+replace("        print(error)\n", "")
+# %% 06.6 wrong: calls without waiting | hint: The service started while the program
+replace('        rospy.wait_for_service("getGeometry", timeout=2)\n', "")
+# %% 06.6 wrong: other text | hint: The exit status is right, but
+replace('print("fits"', 'print("it fits"')
+# %% 06.6 wrong: usage with a capital | hint: The exit status is right, but
+replace("usage:", "Usage:")
+# %% 06.6 wrong: the error message as the exit status | hint: The exit status is 1, because
+replace("        print(error)\n        return 3", "        return str(error)")
+# %% 06.6 wrong: computes the volume | hint: The volume in the response is
+replace("print(\"fits\" if volume", "volume = sides[0] * sides[1] * sides[2] * 1e-6\n    print(\"fits\" if volume")

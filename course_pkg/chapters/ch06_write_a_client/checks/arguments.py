@@ -1,0 +1,129 @@
+"""The client as a program: the arguments of its command line."""
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+
+IS_LIST = """
+def is_list(function, *args):
+    return isinstance(function(*args), list)
+"""  # a check receives a tuple as a list, so only the kernel sees the difference
+FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other arguments."
+
+
+@part(
+    "06.5",
+    points=2,
+    goal="Return the three numbers in the list of arguments, or None if there are not exactly three.",
+    needs=["read_sides"],
+)
+def read_the_arguments(context: CheckContext) -> None:
+    """Try valid arguments without and with arguments for ROS; then too few, too many, and words."""
+    name_first = (
+        "The first item of the list is the name of the program. The sides begin with the second item."
+    )
+    sides = context.random.numbers(3, 0.5, 9.0)
+    texts = [str(side) for side in sides]
+    program = f"/opt/{context.random.word()}"
+    context.expect(
+        "three numbers are returned",
+        expected=sides,
+        actual=context.run(
+            "read_sides",
+            [program, *texts],
+            hints=[(matches("could not convert"), name_first)],
+        ).returned(),
+        near=1e-9,
+        hints=[
+            (
+                None,
+                "The function returned None. Read the numbers from `argv`, after the name of "
+                "the program; 1.5 is a number, too.",
+            ),
+            (
+                lambda actual: all(isinstance(item, str) for item in actual),
+                "These are strings. Convert each string to float.",
+            ),
+            (
+                lambda actual: all(isinstance(item, int) for item in actual),
+                "A side may be a number such as 1.5. Convert it to float, not to int.",
+            ),
+            (ANYTHING, name_first),
+        ],
+    )
+    context.expect(
+        "a number may be negative",
+        expected=[-sides[0], sides[1], -sides[2]],
+        actual=context.run("read_sides", [program, f"-{texts[0]}", texts[1], f"-{texts[2]}"]).returned(),
+        near=1e-9,
+        hints=(
+            "-1.5 is a number, too, so return it unchanged. Use float(text): it raises ValueError "
+            "only for a word."
+        ),
+    )
+    remapped = [
+        program,
+        *context.random.shuffled(
+            [f"__name:={context.random.word()}", f"getGeometry:=/{context.random.word()}"]
+        ),
+        *texts,
+    ]
+    for argv in (remapped, [program, *texts, "__log:=/tmp/x"]):
+        context.expect(
+            "arguments for ROS are ignored",
+            expected=sides,
+            actual=context.run(
+                "read_sides",
+                argv,
+                hints=[
+                    (
+                        matches("could not convert"),
+                        FOR_ROS,
+                    )
+                ],
+            ).returned(),
+            near=1e-9,
+            hints=FOR_ROS,
+        )
+    context.expect(
+        "None when there are too few",
+        expected=None,
+        actual=context.run("read_sides", [program, *texts[:2]], hints=_ENDS).returned(),
+        hints="Two numbers are not enough. Return None.",
+    )
+    context.expect(
+        "None when there are too many",
+        expected=None,
+        actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
+        hints="Four numbers are too many. Return None; do not ignore one of them.",
+    )
+    for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
+        context.expect(
+            "None when one is not a number",
+            expected=None,
+            actual=context.run(
+                "read_sides",
+                [program, *others],
+                hints=[
+                    (
+                        matches("could not convert"),
+                        "float('wide') raises ValueError. Catch it, and return None.",
+                    )
+                ],
+            ).returned(),
+            hints="One argument is a word. Return None; do not ignore the word.",
+        )
+    context.prepare(IS_LIST)
+    context.require(
+        "three numbers are returned",
+        holds=context.run("is_list", Its("read_sides"), [program, *texts], worded="read_sides()").returned(
+            bool
+        ),
+        expected="a list of three numbers",
+        actual="three numbers, but not in a list",
+        hints="The numbers are right, but they are not in a list. Return a list, not a tuple.",
+    )
+
+
+_ENDS = [
+    (matches("^SystemExit"), "The function ends the program. Return None, so that the caller can decide."),
+    (matches("."), "A wrong number of arguments raised an exception. Return None in this case."),
+]

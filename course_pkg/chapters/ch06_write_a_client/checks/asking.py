@@ -1,0 +1,88 @@
+"""The client that calls once."""
+
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import NO_RETURN
+
+
+@part(
+    "06.1",
+    points=2,
+    goal="Call the given service, and return the area and the volume of its response.",
+    needs=["measure"],
+)
+def the_geometry_client(context: CheckContext) -> None:
+    """Respond with random numbers, so that only a call returns the right ones."""
+    for _ in range(2):
+        name = f"/{context.random.word()}"
+        length, width, height = context.random.numbers(3, 0.5, 9.0)
+        area, volume = volumes(context, 2)
+        server = context.serve(name, GEOMETRY, lambda _, a=area, v=volume: {"area": a, "volume": v})
+        returned = context.run("measure", name, length, width, height, hints=_UNAVAILABLE).returned()
+        context.require(
+            "the given service is called",
+            holds=bool(server.requests),
+            expected=f"a call of {name}",
+            actual="no call",
+            hints=(
+                "The given service was not called. Create the proxy with the name in `service`, "
+                "and call it with the three sides."
+            ),
+        )
+        context.expect(
+            "it is called once",
+            expected=1,
+            actual=len(server.requests),
+            hints=(
+                "Each call makes the server do the work again. Call the service once, and store "
+                "the response in a variable."
+            ),
+        )
+        context.expect(
+            "the request has length, width and height",
+            expected={"length": length, "width": width, "height": height},
+            actual=server.requests[0],
+            near=1e-4,
+            hints=[
+                (
+                    lambda actual: 0.0 in actual.values(),
+                    "A field was 0: a field that the client does not set is 0. Send all three sides.",
+                ),
+                (
+                    ANYTHING,
+                    "The server received the sides in the wrong order. Send them by name.",
+                ),
+            ],
+        )
+        context.expect(
+            "area and volume are returned, in this order",
+            expected=[area, volume],
+            actual=returned,
+            near=1e-6,
+            hints=[
+                (None, NO_RETURN),
+                (
+                    {"area": area, "volume": volume},
+                    "This is the whole response. Return only its fields `area` and `volume`.",
+                ),
+                ([volume, area], "The order is wrong. Return the area first, and then the volume."),
+                (
+                    lambda actual: not isinstance(actual, list),
+                    "Return the area and the volume, with a comma between them.",
+                ),
+                ([length, width], "These are fields of the request. Read area and volume from the response."),
+                (
+                    ANYTHING,
+                    "Return the area and the volume of the response unchanged. Do not compute or round them.",
+                ),
+            ],
+        )
+
+
+_UNAVAILABLE = [
+    (
+        matches("unavailable"),
+        "The given service exists, but your function called another name. Create the proxy "
+        "with the name in `service`.",
+    )
+]

@@ -1,0 +1,54 @@
+"""Code that the checks of several clients share."""
+
+from course_pkg.checking import CheckContext, Its
+from course_pkg.checking.plain_values import Value
+
+GEOMETRY = "course_pkg/geometry"
+
+STOP_BUTTON = """
+import signal
+import threading
+
+
+def interrupted(function, *args):
+    over, main = threading.Event(), threading.get_ident()
+
+    def stop(*_):
+        if not over.is_set():
+            raise KeyboardInterrupt
+
+    def press():
+        while not over.wait(0.3):  # repeatedly: an interrupt inside a destructor is lost
+            signal.pthread_kill(main, signal.SIGUSR1)
+
+    before = signal.signal(signal.SIGUSR1, stop)
+    threading.Thread(target=press, daemon=True).start()
+    try:
+        return [function(*args)]
+    except KeyboardInterrupt:
+        return "interrupted"
+    finally:
+        over.set()
+        signal.signal(signal.SIGUSR1, before)
+"""  # interrupts the function as the Stop button interrupts a waiting cell
+
+
+def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
+    """Assert that an interrupt ends the student's function while it waits; it should catch only `catch`.
+
+    A report shows this assertion only if it fails.
+    """
+    context.prepare(STOP_BUTTON)
+    result = context.run("interrupted", Its(function), *args, worded=f"{function}()")
+    if result.returned() != "interrupted":
+        context.fail(
+            f"an interrupt ends {function}()",
+            expected="an end, as after you press the Stop button",
+            actual="it caught the KeyboardInterrupt, and continued",
+            hint=f"A bare except: catches the KeyboardInterrupt, too. Catch only what you expect: {catch}.",
+        )
+
+
+def volumes(context: CheckContext, count: int) -> list[float]:
+    """Return volumes that are exact as float32; they have a fraction, so that a check notices rounding."""
+    return [whole + 0.375 for whole in context.random.integers(count, 1000, 9000)]

@@ -1,0 +1,137 @@
+"""The client that handles a failed call."""
+
+import math
+
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, matches, part
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.result import Result
+
+HIDDEN = "The function hides the mistake. Catch only rospy.ServiceException, and not a more general class."
+NO_NAMES = """
+class Slip:
+    def __init__(self, error):
+        self.error = error
+
+    def _raise(self, *_):
+        raise self.error(f"the name of a service is a string, not {type(self).__name__}")
+
+    __bool__ = __str__ = __repr__ = __len__ = __getitem__ = __hash__ = __eq__ = _raise
+
+
+class no_name:
+    TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
+"""  # each use of such an object raises the error that a name of a wrong type causes
+
+
+@part(
+    "06.3",
+    points=2,
+    goal="Return the volume, or None if the call failed; do not catch errors of the arguments.",
+    needs=["volume_or_none"],
+    deadline=30.0,
+)
+def catch_what_can_happen(context: CheckContext) -> None:
+    """Try two working servers, four servers that fail in different ways, and wrong arguments."""
+    good, flat = (f"/{context.random.word()}" for _ in range(2))
+    sides = context.random.numbers(3, 0.5, 9.0)
+    (volume,) = volumes(context, 1)
+    context.serve(good, GEOMETRY, lambda _: {"volume": volume})
+    context.serve(flat, GEOMETRY, lambda _: {"volume": 0.0})
+    for name, expected in ((good, volume), (flat, 0.0)):
+        context.expect(
+            "it returns the volume of the response",
+            expected=expected,
+            actual=context.run("volume_or_none", name, *sides).returned(),
+            near=1e-6,
+            hints=[
+                (
+                    None,
+                    "The server responded, but the function returned None. A volume of 0.0 is valid, too.",
+                ),
+                (
+                    math.prod(sides),
+                    "This is the product of the sides. Call the service, and return the volume of its "
+                    "response.",
+                ),
+                (ANYTHING, "Return the field `volume` of the response."),
+            ],
+        )
+    for failure, name, server in _failing(context):
+        _fails(context, failure, name, sides)
+        if server:
+            context.expect(
+                "a failed call is not repeated",
+                expected=1,
+                actual=len(server.requests),
+                hints="The server may have done the work although the call failed. Do not repeat the call.",
+            )
+    for slip in (f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200):
+        _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
+    text = str(sides[0])
+    converted = (
+        "The function accepted a string as a number. Do not convert the arguments, so that the "
+        "call raises an exception."
+    )
+    _comes_out(context, context.run("volume_or_none", good, text, *sides[1:]), repr(text), converted)
+    context.prepare(NO_NAMES)
+    for kind in ("TypeError", "AttributeError", "ValueError"):
+        slipped = context.run("volume_or_none", Its(f"no_name.{kind}"), *sides)
+        _comes_out(context, slipped, f"a name that is not a string: {kind}")
+
+
+def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDDEN) -> None:
+    context.require(
+        "the error of a wrong argument is not caught",
+        holds=bool(wrong.error),
+        expected=f"an error about {slip}",
+        actual=wrong.error or "no error",
+        hints=hint,
+    )
+
+
+def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
+    """Assert that a call of `name` returns None; the function may wait up to 10 s for the service."""
+    result = context.run(
+        "volume_or_none",
+        name,
+        *sides,
+        within=12.0,
+        hints=[
+            (
+                matches("^ServiceException.*(responded with|transport)"),
+                "This failure raises rospy.ServiceException, too. Return None for each "
+                "rospy.ServiceException; its message is not important.",
+            ),
+            (
+                matches("^ServiceException"),
+                "A call that fails raises rospy.ServiceException, not rospy.ROSException. "
+                "Catch rospy.ServiceException.",
+            ),
+            (
+                matches("^ROSException.*waiting for service"),
+                "wait_for_service raises rospy.ROSException when the timeout is over. Catch "
+                "it, and return None.",
+            ),
+        ],
+    )
+    context.expect(
+        f"None from a server that {failure}",
+        expected=None,
+        actual=result.returned(),
+        hints="The call failed, so return None, which cannot be confused with a volume.",
+    )
+
+
+def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
+    """Return for each case how the call fails, the name of the service, and the server if there is one."""
+    name = context.random.word()
+    refuses = context.serve(f"/{name}_refuses", GEOMETRY, lambda _: Refuse("not today"))
+    dies = context.serve(f"/{name}_dies", GEOMETRY, lambda _: HangUp())
+    context.absent(f"/{name}_killed", stale=True)
+    return [
+        ("does not exist", f"/{name}_nowhere", None),
+        ("refuses", f"/{name}_refuses", refuses),
+        ("dies during the call", f"/{name}_dies", dies),
+        ("was killed", f"/{name}_killed", None),
+    ]

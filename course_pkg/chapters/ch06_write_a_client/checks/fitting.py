@@ -1,0 +1,277 @@
+"""06.6: a client as a program, whose exit status shows a script the result."""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY
+from course_pkg.checking import CheckContext, Refuse, part
+from course_pkg.checking.commands.folder import Folder, telling_line
+from course_pkg.checking.peers.scripted_server import Script, ScriptedServer
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.script import require_shebang
+from course_pkg.waiting import at_this_load, wait_until
+
+FILE = "fits.py"
+RUNS = 9.0  # s for all runs, which are started at the same time; the program waits 2 s at most
+LATE = 0.5  # s between the first snapshot with the node and the start of its service
+POLL = 0.2  # s between two tests whether the runs have ended
+IMPORT = "import sys; sys.argv = ['fits.py']; import fits"
+USAGE = "usage"
+ENDED_WITH_TEXT = (
+    "The exit status is 1, because sys.exit with a text always ends with 1. Print the text, "
+    "and then end with 3."
+)
+START = f"""%%writefile {FILE}
+#!/usr/bin/env python3
+..."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of the program."""
+
+    title: str  # its name in assertions
+    arguments: list[str]
+    script: Script | None  # what the service responds; None: there is no service
+    status: int
+    prints: str  # a part of its output, in small letters
+    calls: int = 1
+    hint: str = ""  # for a wrong exit status
+    remapped: bool = False  # True: getGeometry is remapped; False: the program runs in another namespace
+    late: bool = False  # the service starts after the program
+
+
+@part(
+    "06.6",
+    points=3,
+    goal=(
+        "Write fits.py: it calls getGeometry, prints whether the volume is at most LIMIT, and ends "
+        "with the exit status 0, 1, 2 or 3."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=30.0,
+    start=START,
+)
+def does_it_fit(context: CheckContext) -> None:
+    """Run the program for all cases at the same time, each in a namespace of its own."""
+    require_shebang(
+        context,
+        FILE,
+        missing=(
+            "Linux finds in line 1 which program runs the file. Begin the file with #!/usr/bin/env python3."
+        ),
+    )
+    folder = context.folder(files=[FILE])
+    word = context.random.word()
+    absolute = context.serve("/getGeometry", GEOMETRY, lambda _: {"volume": 1.0})
+    with ExitStack() as runs:
+        imported = runs.enter_context(folder.start("python", "-c", IMPORT, worded="import fits"))
+        started = [
+            Started(context, folder, case, f"/{word}/n{number}")
+            for number, case in enumerate(_cases(context))
+        ]
+        for each in started:
+            runs.enter_context(each.run)
+        running = [imported, *(each.run for each in started)]
+
+        def ended() -> bool:
+            for each in started:
+                each.serve_late()
+            return all(run.status is not None for run in running)
+
+        wait_until(ended, at_this_load(RUNS), POLL)
+        finished = [run.stop() for run in running]
+    imported.show()
+    _can_be_imported(context, finished[0])
+    for each, done in zip(started, finished[1:], strict=True):
+        each.run.show()
+        _examine(context, each.case, each.server, done, elsewhere=bool(absolute.requests))
+
+
+def _cases(context: CheckContext) -> list[Case]:
+    sides = [str(side) for side in context.random.numbers(3, 0.5, 9.0)]
+    volume = context.random.integer(100, 900) + 0.375
+    limits = (str(volume + 0.5), str(volume), str(volume - 0.5))
+    fits, equal, smaller = ([*sides, limit] for limit in limits)
+
+    def answer(_: object) -> dict[str, float]:
+        return {"area": volume * 3, "volume": volume}
+
+    done = "The volume in the response is at most LIMIT: print fits, and end with the exit status 0."
+    usage = "The arguments are not four numbers: print a usage line, and end with the exit status 2."
+    return [
+        Case("a volume below LIMIT", fits, answer, 0, "fits", hint=done),
+        Case(
+            "a volume equal to LIMIT",
+            equal,
+            answer,
+            0,
+            "fits",
+            hint=(
+                'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself: print '
+                "fits, and end with 0."
+            ),
+            remapped=True,
+        ),
+        Case(
+            "a volume above LIMIT",
+            smaller,
+            answer,
+            1,
+            "too large",
+            hint="The volume in the response is larger than LIMIT: print too large, and end with the exit "
+            "status 1.",
+        ),
+        Case("three numbers", sides, answer, 2, USAGE, calls=0, hint=usage),
+        Case(
+            "a word in place of a number",
+            [sides[0], "wide", *fits[2:]],
+            answer,
+            2,
+            USAGE,
+            calls=0,
+            hint="float() raises ValueError for a word. Catch it, print the usage line, and end with 2.",
+        ),
+        Case(
+            "a refusal",
+            fits,
+            lambda _: Refuse("no such box"),
+            3,
+            "no such box",
+            hint="A call that fails raises rospy.ServiceException. Print its message, and end with 3.",
+        ),
+        Case(
+            "no service",
+            fits,
+            None,
+            3,
+            "",
+            calls=0,
+            hint="wait_for_service raises rospy.ROSException after 2 s. Print its message, and end with 3.",
+        ),
+        Case("a volume below LIMIT", fits, answer, 0, "fits", hint=done, late=True),
+    ]
+
+
+class Started:
+    """One run of the program, which has to call the service in `namespace`.
+
+    Either the program runs in this namespace, or getGeometry is remapped to it.
+    """
+
+    def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
+        self.case = case
+        self._context = context
+        self._service = f"{namespace}/getGeometry"
+        self._node = f"{namespace}/{namespace.replace('/', '')}"
+        self._seen: float | None = None  # for a late service: when the node of the program was first seen
+        self.server = self._serve() if case.script and not case.late else None
+        named = f"getGeometry:={self._service}" if case.remapped else f"__ns:={namespace}"
+        argv = (FILE, *case.arguments, named, f"__name:={namespace.replace('/', '')}")
+        self.run = folder.start("python", *argv, worded=" ".join(["python3", *argv]))
+
+    def serve_late(self) -> None:
+        """Serve the late service, some time after the node has appeared."""
+        if not self.case.late or self.server:
+            return
+        if self._seen is None and any(node.name == self._node for node in self._context.look().nodes):
+            self._seen = time.monotonic()
+        if self._seen is not None and time.monotonic() > self._seen + LATE:
+            self.server = self._serve()
+
+    def _serve(self) -> ScriptedServer:
+        assert self.case.script  # a case without a script has no service
+        return self._context.serve(self._service, GEOMETRY, self.case.script)
+
+
+def _can_be_imported(context: CheckContext, done: Finished) -> None:
+    context.require(
+        "an import of the file runs nothing",
+        holds=done.status == 0 and not done.out.strip(),
+        expected="no output",
+        actual=telling_line(done.out),
+        hints=(
+            "The file cannot be imported: it has a mistake, or an import executes some lines "
+            "immediately. Correct the mistake, or move these lines below the line with __name__."
+        ),
+    )
+
+
+def _examine(
+    context: CheckContext, case: Case, server: ScriptedServer | None, done: Finished, *, elsewhere: bool
+) -> None:
+    """Assert the calls, the exit status and the output of one run."""
+    calls = len(server.requests) if server else 0
+    outcome = f"{telling_line(done.out)}, and {_ending(done)}"
+    context.require(
+        f"{case.title}: {'one request' if case.calls else 'no request'}",
+        holds=calls == case.calls,
+        expected=f"{case.calls} request(s) to the service that the command line names",
+        actual=f"{calls} request(s); {outcome}",
+        hints=_about_calls(calls, case, done, elsewhere),
+    )
+    context.require(
+        f"{case.title}: exit status {case.status}",
+        holds=done.status == case.status and "Traceback" not in done.out,
+        expected=f"exit status {case.status}, and no traceback",
+        actual=outcome,
+        hints="The program does not end. Give wait_for_service a timeout of 2 s, and do not spin."
+        if done.status is None
+        else ENDED_WITH_TEXT
+        if case.status == 3 and done.status == 1 and "Traceback" not in done.out
+        else case.hint,
+    )
+    context.require(
+        f"{case.title}: it prints {case.prints or 'the error message'}",
+        holds=_prints(case, done.out),
+        expected="a line that begins with usage:"
+        if case.prints == USAGE
+        else case.prints or "the error message",
+        actual=telling_line(done.out),
+        hints=(
+            "The exit status is right, but the output is wrong. Print exactly the text of the "
+            "table, on a separate line."
+        ),
+    )
+
+
+def _prints(case: Case, out: str) -> bool:
+    """Return whether a line of the output is the text of the table, or contains the error message."""
+    lines = [line.strip() for line in out.splitlines()]
+    if case.prints == USAGE:
+        return any(line.startswith("usage:") for line in lines)
+    if case.status in (0, 1):
+        return case.prints in lines
+    return case.prints in out and any(lines)
+
+
+def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str:
+    if calls > case.calls > 0:
+        return "The program called the service more than once. Call it once, and store the response."
+    if calls:
+        return "The arguments were wrong, but the program sent a request. Check the arguments first."
+    if case.late and done.status == 3:
+        return (
+            "The service started while the program ran, but the program did not call it. Before "
+            "the call, wait up to 2 s for the service."
+        )
+    if elsewhere and case.remapped:
+        return (
+            "The program called /getGeometry although the command line remaps getGeometry. "
+            "rospy applies a remapping only after rospy.init_node."
+        )
+    if elsewhere:
+        return (
+            "The program called /getGeometry although it ran in another namespace. Remove the "
+            "slash from the name."
+        )
+    if done.status == 2:
+        return "Arguments with := are for ROS. Remove them with rospy.myargv(sys.argv)."
+    return "The program ended before its call. Run it in a terminal, and read the last line of its output."
+
+
+def _ending(done: Finished) -> str:
+    return "still running" if done.status is None else f"exit status {done.status}"

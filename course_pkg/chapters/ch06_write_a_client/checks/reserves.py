@@ -1,0 +1,157 @@
+"""The client that calls the next server after a failure, with a time limit for each call."""
+
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
+from course_pkg.checking import ANYTHING, CheckContext, Late, Refuse, Silence, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.result import Result
+
+
+@part(
+    "06.4",
+    points=3,
+    goal=(
+        "Return the volume of the first service that responds within one second, or None if no "
+        "service responds."
+    ),
+    needs=["first_answer"],
+    deadline=30.0,
+)
+def ask_the_next_one(context: CheckContext) -> None:
+    """Try a working server alone, after each kind of failing server, and then only failing servers."""
+    word = context.random.word()
+    first, second, late, tardy = volumes(context, 4)
+    context.serve(f"/{word}_first", GEOMETRY, lambda _: {"volume": first})
+    reserve = context.serve(f"/{word}_second", GEOMETRY, lambda _: {"volume": second})
+    context.serve(f"/{word}_flat", GEOMETRY, lambda _: {"volume": 0.0})
+    context.serve(f"/{word}_late", GEOMETRY, lambda _: Late(0.6, {"volume": late}))
+    context.serve(f"/{word}_tardy", GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
+    context.serve(f"/{word}_refuses", GEOMETRY, lambda _: Refuse("not today"))
+    context.serve(f"/{word}_frozen", GEOMETRY, lambda _: Silence())
+    working = _first_of(context, word, "first", "second")
+    context.expect(
+        "the first service is used if it responds",
+        expected=first,
+        actual=working.returned(),
+        near=1e-6,
+        hints=[
+            (None, NO_RETURN),
+            (second, "This is the response of the second service. Stop at the first service that responds."),
+            (
+                lambda actual: "volume" in actual,
+                "This is the whole response. Return only its field `volume`.",
+            ),
+            (ANYTHING, "Return the volume of the response."),
+        ],
+    )
+    context.expect(
+        "then no other service is called",
+        expected=0,
+        actual=len(reserve.requests),
+        hints=(
+            "The first service responded, but the second was called, too. Return as soon as you "
+            "have a volume."
+        ),
+    )
+    context.expect(
+        "a volume of 0 is valid",
+        expected=0.0,
+        actual=_first_of(context, word, "flat", "second").returned(),
+        hints=(
+            "The first service responded with the volume 0.0. In a condition, 0.0 is false, so "
+            "test for an empty list or for None."
+        ),
+    )
+    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
+        context.expect(
+            "the next service is used if one fails",
+            expected=second,
+            actual=_first_of(context, word, *failing, "second").returned(),
+            near=1e-6,
+            hints=[
+                (
+                    None,
+                    "The last service would respond, but it was not called. Catch the error "
+                    "inside the loop, and try all services.",
+                )
+            ],
+        )
+    context.expect(
+        "the client waits for a response that comes after 0.6 s",
+        expected=late,
+        actual=_first_of(context, word, "late", "second").returned(),
+        near=1e-6,
+        hints=[
+            (
+                second,
+                "The first service responds after 0.6 s, and it may take up to 1 s. Wait for its response.",
+            )
+        ],
+    )
+    frozen = _first_of(context, word, "frozen", "second")
+    context.expect(
+        "the next service is used if one is frozen",
+        expected=second,
+        actual=frozen.returned(),
+        near=1e-6,
+        hints=[
+            (
+                None,
+                "The first service is frozen, but the second service would respond. Call the "
+                "second service when one second is over.",
+            )
+        ],
+    )
+    context.require(
+        "a frozen service delays the result by about one second",
+        holds=frozen.took - working.took
+        < 1.75,  # a function may wait for a whole second for each of the two services
+        expected="at most 1 s for the frozen service",
+        actual=f"a result after {frozen.took:.1f} s",
+        hints="The function waits too long for one service. The time limit is one second for each service.",
+    )
+    context.expect(
+        "the client waits for a response that comes after 0.6 s",
+        expected=late,
+        actual=_first_of(context, word, "tardy", "late").returned(),
+        near=1e-6,
+        hints=[
+            (
+                tardy,
+                "The first service responded after 1.3 s, and your function used this response "
+                "as that of the second service. Wait for 1 s, and use a new list for each call.",
+            )
+        ],
+    )
+    context.expect(
+        "None if no service responds",
+        expected=None,
+        actual=_first_of(context, word, "nowhere", "refuses", hints=_NO_RESPONSE).returned(),
+        hints="No service responded, but the function returned a value. Return None after the loop.",
+    )
+
+
+_NO_RESPONSE = [
+    (
+        matches("."),
+        "No service responded, and an exception ended the function. Catch it inside the loop, and "
+        "return None after the loop.",
+    )
+]
+_ERRORS: Hints = [
+    (
+        matches("^(ServiceException|ROSException)"),
+        "A failed call must not end the function. Catch its exception inside the loop.",
+    ),
+    (
+        matches("^TimesUp"),
+        "The function waits for a server that never responds. Call in a thread, and join it with timeout=1.",
+    ),
+]
+
+
+def _first_of(context: CheckContext, word: str, *kinds: str, hints: Hints = ()) -> Result:
+    """Run the student's function with the names of the services of these kinds, in this order."""
+    names = [f"/{word}_{kind}" for kind in kinds]
+    sides = context.random.numbers(3, 0.5, 9.0)
+    return context.run("first_answer", names, *sides, hints=hints or _ERRORS)

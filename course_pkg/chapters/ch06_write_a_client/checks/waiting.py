@@ -1,0 +1,134 @@
+"""The client that finds out whether a server is running."""
+
+from threading import Timer
+
+from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
+from course_pkg.checking import CheckContext, matches, part
+from course_pkg.checking.common_hints import NO_RETURN
+
+
+@part(
+    "06.2",
+    points=2,
+    goal=(
+        "Return True if a service exists, or starts within the given number of seconds; otherwise "
+        "return False."
+    ),
+    needs=["is_there"],
+    deadline=20.0,
+)
+def is_anybody_there(context: CheckContext) -> None:
+    """Try a running server, two names without a running server, and a server that starts during the wait."""
+    here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
+    server = context.serve(here, GEOMETRY, lambda _: {})
+    context.absent(killed, stale=True)
+    there = context.run("is_there", here, 2.0)
+    context.expect(
+        "True for a service that is there",
+        expected=True,
+        actual=there.returned(),
+        hints=[
+            (None, NO_RETURN),
+            (
+                False,
+                "The service was there, but the result was False. wait_for_service returns "
+                "None when it succeeds, and raises an exception when the time is up.",
+            ),
+            (
+                lambda actual: isinstance(actual, str),
+                "This is a string. Write True and False without quotes.",
+            ),
+        ],
+    )
+    context.require(
+        "no wait for a service that is there",
+        holds=there.took < 1.0,
+        expected="an immediate result",
+        actual=f"an answer after {there.took:.1f} s",
+        hints=(
+            "The function waits although the service is there. wait_for_service returns as soon as "
+            "the service is there."
+        ),
+    )
+    context.expect(
+        "True for a service that is there",
+        expected=True,
+        actual=context.run(
+            "is_there", here, 0.5
+        ).returned(),  # the same limit as for services that do not exist
+        hints=[
+            (
+                False,
+                "The service was there, and 0.5 s is enough to connect to it. Wait for it with "
+                "wait_for_service.",
+            )
+        ],
+    )
+    if server.requests:
+        context.fail(
+            "it does not call the service",
+            expected="no request",
+            actual=f"{len(server.requests)} request(s)",
+            hint=(
+                "The function called the service, but a call makes the server do its work. Wait "
+                "for the service without a call."
+            ),
+        )
+    _never_there(
+        context,
+        nowhere,
+        "The function returned True for a service that no node provides. Return False when the time is up.",
+    )
+    _never_there(
+        context,
+        killed,
+        "The master still lists this service, but its process has ended. Use wait_for_service, "
+        "which connects to the server itself.",
+    )
+    Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()
+    context.expect(
+        "True for a service that comes in time",
+        expected=True,
+        actual=context.run("is_there", later, 4.0, within=8.0).returned(),
+        hints=[
+            (
+                False,
+                "The service started after 1.3 s, and `seconds` was 4. Wait up to `seconds` for the service.",
+            )
+        ],
+    )
+    stops(context, "is_there", nowhere, 3.0, catch="rospy.ROSException")
+
+
+def _never_there(context: CheckContext, name: str, hint: str) -> None:
+    """Call the function with a limit of 0.5 s, in which rospy tries twice; 1.4 s is too long."""
+    too_long = "The function waited longer than `seconds`. Call wait_for_service once, with this timeout."
+    missing = context.run(
+        "is_there",
+        name,
+        0.5,
+        within=3.0,
+        hints=[
+            (matches("TimesUp"), too_long),
+            (
+                matches("ROSException"),
+                "wait_for_service raises rospy.ROSException when the time is up. Catch this exception.",
+            ),
+        ],
+    )
+    context.expect(
+        "False for a service that does not come",
+        expected=False,
+        actual=missing.returned(),
+        hints=[
+            (None, "When the time was up, the function returned None. Return False in this case."),
+            (True, hint),
+        ],
+    )
+    context.require(
+        "it waits no longer than `seconds`",
+        holds=missing.took < 1.4,
+        expected="an answer after 0.5 s or little more",
+        actual=f"an answer after {missing.took:.1f} s",
+        hints=too_long,
+    )

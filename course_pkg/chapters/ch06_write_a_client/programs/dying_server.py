@@ -1,0 +1,23 @@
+"""The node `dying_server`: a call of its service `dying` ends it without a response, as in a crash."""
+
+from __future__ import annotations
+
+import os
+from typing import NoReturn
+
+import rospy
+from std_srvs.srv import Trigger
+
+from course_pkg.ros.node.preparation import prepare_node
+
+
+def main() -> None:
+    """Serve until the first call."""
+    rospy.init_node("dying_server")
+    prepare_node()
+    rospy.Service("dying", Trigger, _die)
+    rospy.spin()
+
+
+def _die(_: object) -> NoReturn:
+    os._exit(1)  # no clean-up, so the registration stays at the master

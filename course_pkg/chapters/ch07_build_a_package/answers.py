@@ -1,0 +1,483 @@
+"""Example answers of chapter 07; tests/checking/example_answers.py explains the format."""
+
+# %% 07.1 right: what was generated, completed
+solution()
+
+# %% 07.1 right: format 3, with depend
+"""%%writefile src/my_geometry/package.xml
+<?xml version="1.0"?>
+<package format="3">
+  <name>my_geometry</name>
+  <version>1.0.0</version>
+  <description>Area and volume of a box.</description>
+  <maintainer email="me@robots.example">Me</maintainer>
+  <license>BSD</license>
+  <buildtool_depend>catkin</buildtool_depend>
+  <build_depend>message_generation</build_depend>
+  <exec_depend>message_runtime</exec_depend>
+  <depend>rospy</depend>
+  <depend>std_msgs</depend>
+</package>
+"""
+
+# %% 07.1 wrong: message_runtime is missing | hint: A package is missing. The warning
+replace("\n  <exec_depend>message_runtime</exec_depend>", "")
+# %% 07.1 wrong: rospy is missing | hint: , but package.xml has no tag
+based_on("format 3, with depend")
+replace("\n  <depend>rospy</depend>", "")
+# %% 07.1 wrong: message_runtime to build only | hint: Add a line with
+replace("<exec_depend>message_runtime</exec_depend>", "<build_depend>message_runtime</build_depend>")
+# %% 07.1 wrong: the generated description | hint: Describe in one sentence what the
+replace("A service that measures boxes.", "The my_geometry package")
+# %% 07.1 wrong: no licence | hint: Write the name of a licence,
+replace("MIT", "TODO")
+# %% 07.1 wrong: the generated address | hint: Replace the address in the maintainer tag
+replace("you@example.com", "you@todo.todo")
+# %% 07.1 wrong: a capital in the name | hint: lower-case letters
+replace("<name>my_geometry", "<name>My Geometry")
+# %% 07.1 wrong: a tag that is not closed | hint: Close every
+replace("MIT</license>", "MIT")
+
+# %% 07.2 right: as on the lab sheet
+solution()
+# %% 07.2 right: with comments and blank lines
+replace("float32 length\nfloat32 width", "# The sides of a box, in metres.\nfloat32 length\nfloat32 width   # along y\n")
+replace("float32 area", "float32   area    # of the floor, in square metres\n")
+# %% 07.2 wrong: no dashes | hint: three dashes
+replace("---\n", "")
+# %% 07.2 wrong: float as in C++ | hint: float32
+replace("float32 length", "float length")
+# %% 07.2 wrong: a misspelt field | hint: with the name in the exercise,
+replace("length", "lenght")
+# %% 07.2 wrong: the volume is missing | hint: has no field … volume
+replace("\nfloat32 volume", "")
+# %% 07.2 wrong: the area in the request | hint: is on the wrong side of
+replace("---\nfloat32 area", "float32 area\n---")
+# %% 07.2 wrong: an additional field | hint: does not ask for a field
+replace("float32 volume", "float32 volume\nstring unit")
+# %% 07.2 wrong: float64 | hint: Use the type of the exercise
+replace("float32", "float64", times=5)
+# %% 07.2 wrong: width first | hint: The order of the fields is
+replace("float32 length\nfloat32 width", "float32 width\nfloat32 length")
+# %% 07.2 wrong: a constant | hint: A constant is part of the MD5 sum
+replace("float32 length", "uint8 SIDES=3\nfloat32 length")
+
+# %% 07.3 right: in the order of the chapter
+solution()
+
+# %% 07.3 right: names written out
+"""%%writefile src/my_geometry/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(my_geometry)
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs rospy)
+add_service_files(
+  FILES
+  geometry.srv
+)
+generate_messages(
+  DEPENDENCIES
+  std_msgs
+)
+add_custom_target(my_geometry_programs ALL)
+add_dependencies(my_geometry_programs my_geometry_generate_messages)
+catkin_package(
+  CATKIN_DEPENDS message_runtime
+)
+"""
+
+# %% 07.3 wrong: no add_service_files | hint: , so the build passes but
+replace("\nadd_service_files(FILES geometry.srv)", "")
+# %% 07.3 wrong: generate_messages is a comment | hint: There is no generate_messages, so the build passes
+replace("generate_messages(DEP", "# generate_messages(DEP")
+replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
+replace("\nadd_dep", "\n# add_dep")
+# %% 07.3 wrong: in a condition | hint: add_service_files and generate_messages are in the
+replace("generate_messages(DEPENDENCIES std_msgs)", "if(NOT TRUE)\ngenerate_messages()\nendif()")
+# %% 07.3 wrong: message_generation is missing | hint: COMPONENTS message_generation
+replace("  message_generation\n", "")
+# %% 07.3 wrong: the file has another name | hint: Do not write the folder srv
+replace("geometry.srv", "Geometry.srv")
+# %% 07.3 wrong: catkin_package comes first | hint: Move generate_messages above
+replace("\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)", "")
+replace("\nadd_service_files", "\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)\nadd_service_files")
+# %% 07.3 wrong: no target | hint: Create the target with add_custom_target: pass
+replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
+replace("\nadd_dep", "\n# add_dep")
+# %% 07.3 wrong: another name of the target | hint: The name of the target is
+replace("${PROJECT_NAME}_programs", "programs", times=2)
+# %% 07.3 wrong: no add_dependencies | hint: The target has no dependencies yet
+replace("\nadd_dep", "\n# add_dep")
+# %% 07.3 wrong: one pair of braces | hint: write both ${ }
+replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
+# %% 07.3 wrong: other packages only | hint: add_dependencies names only targets of other
+replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
+# %% 07.3 wrong: nothing for other packages | hint: In catkin_package, write CATKIN_DEPENDS and the
+replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
+# %% 07.3 wrong: no catkin_package | hint: Without catkin_package
+replace("\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)", "")
+
+# %% 07.4 right: as on the lab sheet
+solution()
+# %% 07.4 right: a class, a relative name and a main function
+replace("env python3", 'python3\n"""Measures boxes."""')
+replace("from my_geometry.srv import geometry, geometryResponse", "import my_geometry.srv as srv")
+replace("def handle_geometry … request.height)", """class Measurer:
+    def __init__(self):
+        self.calls = 0
+        self.service = rospy.Service("getGeometry", srv.geometry, self.measure)
+
+    def measure(self, req):
+        self.calls += 1
+        floor = req.length * req.width
+        return floor, floor * req.height""")
+replace('if __name__ == "__main__"', "def main()")
+replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'Measurer()\n    rospy.loginfo("ready")')
+replace("spin()", "spin()\n\n\nif __name__ == '__main__':\n    main()")
+# %% 07.4 wrong: no shebang | hint: Without a shebang, Linux runs the
+replace("#!/usr/bin/env python3\n", "")
+# %% 07.4 wrong: the shebang in line 2 | hint: Linux reads a shebang only in the first column
+replace("#!/usr", "\n#!/usr")
+# %% 07.4 wrong: python2 in the shebang | hint: This shebang names another program, but
+replace("python3", "python2")
+# %% 07.4 wrong: line endings of Windows | hint: The lines end with … as on Windows
+replace("python3", "python3\r")
+# %% 07.4 wrong: a program of Windows in the shebang | hint: The first line of the script
+replace("/usr/bin/env python3", "C:/Python/python3.exe")
+
+# %% 07.4 wrong: not executable | hint: Type chmod +x
+from pathlib import Path
+
+script = Path("src/my_geometry/scripts/server.py")
+script.write_text("#!/usr/bin/env python3\nimport rospy\n")
+script.chmod(0o644)
+
+# %% 07.4 wrong: no main guard | hint: An import of the script starts
+replace("if __name__ … rospy.spin()", """rospy.init_node("SERVER_NODE")
+rospy.Service("/getGeometry", geometry, handle_geometry)
+rospy.spin()""")
+# %% 07.4 wrong: ends immediately | hint: The program ended, so its service
+replace("\n    rospy.spin()", "")
+# %% 07.4 wrong: the type of the course's package | hint: Import the type from your own
+replace("my_geometry.srv", "my_geometry_services.srv")
+# %% 07.4 wrong: misspelt type | hint: Upper and lower case are different
+replace("import geometry, geometryResponse", "import Geometry, geometryResponse")
+replace('"/getGeometry", geometry', '"/getGeometry", Geometry')
+# %% 07.4 wrong: another service name | hint: It serves … , but the exercise needs
+replace('"/getGeometry"', '"/get_geometry"')
+# %% 07.4 wrong: the service is missing | hint: The program runs, but it serves
+replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")
+# %% 07.4 wrong: no node | hint: A service needs a node
+replace('\n    rospy.init_node("SERVER_NODE")', "")
+# %% 07.4 wrong: another node name | hint: Call rospy.init_node … SERVER_NODE
+replace("SERVER_NODE", "server")
+# %% 07.4 wrong: an anonymous node | hint: without anonymous=True
+replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
+# %% 07.4 wrong: the class of the response | hint: Pass the class of the type
+replace('"/getGeometry", geometry,', '"/getGeometry", geometryResponse,')
+# %% 07.4 wrong: a misspelt variable | hint: The error occurred in line … of server.py
+replace("geometry, handle_geometry)", "geometry, handle_box)")
+# %% 07.4 wrong: adds width and length | hint: That is the sum of width and length
+replace("request.width * request.length", "request.width + request.length")
+# %% 07.4 wrong: the perimeter | hint: That is the perimeter
+replace("request.width * request.length", "2 * (request.width + request.length)")
+# %% 07.4 wrong: width times height | hint: That is width times height. Return
+replace("request.width * request.length", "request.width * request.height")
+replace("area * request.height", "area * request.length")
+# %% 07.4 wrong: an empty response | hint: The response still has the default area,
+replace("geometryResponse(area=area, volume=area * request.height)", "geometryResponse()")
+# %% 07.4 wrong: squares the width | hint: Compute the area from request.width and request.length
+replace("request.width * request.length", "request.width * request.width")
+# %% 07.4 wrong: forgets the volume | hint: The response still has the default volume,
+replace(", volume=area * request.height", "")
+# %% 07.4 wrong: a cube | hint: Compute the volume from the area
+replace("area * request.height", "area ** 1.5")
+# %% 07.4 wrong: the handler returns nothing | hint: without a return
+replace("    return geometryResponse", "    geometryResponse")
+
+# %% 07.5 right: as in the chapter
+solution()
+# %% 07.5 right: a node, with steps
+replace("python3", 'python3\n"""Asks for the area and the volume of a box."""')
+replace("import sys\n", "import sys")
+replace('\n\nUSAGE = "usage: rosrun my_geometry client.py LENGTH WIDTH HEIGHT"', ", geometryRequest")
+replace("def main(arguments … return 0", 'def usage():\n    print("usage: client.py LENGTH WIDTH HEIGHT")\n    sys.exit(2)')
+replace('if __name__ == "__main__":\n    sys.exit(main(rospy.myargv(sys.argv)[1:]))', """if __name__ == '__main__':
+    argv = rospy.myargv()
+    if len(argv) != 4:
+        usage()
+    request = geometryRequest()
+    try:
+        request.length = float(argv[1])
+        request.width = float(argv[2])
+        request.height = float(argv[3])
+    except ValueError:
+        usage()
+    rospy.init_node("client", anonymous=True)
+    try:
+        rospy.wait_for_service("getGeometry", 3.0)
+        measure = rospy.ServiceProxy("getGeometry", geometry)
+        answer = measure(request)
+    except rospy.ROSException as error:
+        rospy.logerr("no server: %s", error)
+        sys.exit(1)
+    except rospy.ServiceException as error:
+        rospy.logerr("the call failed: %s", error)
+        sys.exit(1)
+    print("area: %.2f" % answer.area)
+    print("volume: %.2f" % answer.volume)""")
+# %% 07.5 wrong: sys.argv as it is | hint: Arguments with := are for ROS.
+replace("rospy.myargv(sys.argv)[1:]", "sys.argv[1:]")
+# %% 07.5 wrong: height first | hint: The numbers arrive in the wrong
+replace("(length, width, height)\n", "(height, width, length)\n")
+# %% 07.5 wrong: whole numbers | hint: Convert the three arguments to float,
+replace("geometry)(length, width, height)", "geometry)(int(length), int(width), int(height))")
+# %% 07.5 wrong: calls twice | hint: The client called the service more than once.
+replace("    print(f\"area:", "    rospy.ServiceProxy(\"/getGeometry\", geometry)(length, width, height)\n    print(f\"area:")
+# %% 07.5 wrong: all digits | hint: Print one line with the text
+replace("response.area:.2f", "response.area")
+# %% 07.5 wrong: waits for another service | hint: The client waits, but it sends
+replace('wait_for_service("/getGeometry", timeout=5)', 'wait_for_service("/get_geometry")')
+# %% 07.5 wrong: makes no call | hint: The client ended, but it sent
+replace('        response = rospy.ServiceProxy("/getGeometry", geometry)(length, width, height)\n', "")
+replace("    print(f\"area: {response.area:.2f}\")\n    print(f\"volume: {response.volume:.2f}\")\n", "")
+# %% 07.5 wrong: the arguments are still strings | hint: The error occurred in line
+replace("map(float, arguments)", "arguments")
+replace(" as error:", " as error:")
+# %% 07.5 wrong: computes without a call | hint: The client prints a number that
+replace("response.area:.2f", "length * width:.2f")
+# %% 07.5 wrong: prints the response only | hint: Print one line with the text
+replace('    print(f"area: {response.area:.2f}")\n    print(f"volume: {response.volume:.2f}")', "    print(response.area, response.volume)")
+# %% 07.5 wrong: exit status 3 | hint: A program that reaches its end
+replace("    return 0\n", "    return 3\n")
+# %% 07.5 wrong: spins after the call | hint: The client does not end. Remove
+replace("    return 0\n", "    while True:\n        pass\n")
+# %% 07.5 wrong: usage, but no exit status | hint: sets the exit status
+replace("        return 2", "        return 0")
+# %% 07.5 wrong: an argument that is not a number | hint: float() raises ValueError for a text
+based_on("a node, with steps")
+replace("except ValueError:\n        usage()", "except TypeError:\n        usage()")
+# %% 07.5 wrong: four numbers | hint: Four numbers are wrong, too. Test
+replace("map(float, arguments)\n", "map(float, arguments[:3])\n")
+# %% 07.5 wrong: no usage | hint: Print a line that begins with
+replace("print(USAGE, file=sys.stderr)", "pass")
+# %% 07.5 wrong: another text before usage | hint: Print a line that begins with
+replace('"usage:', '"Wrong arguments, usage:')
+# %% 07.5 wrong: calls with zeros for wrong arguments | hint: Check the arguments before you call
+replace("        return 2", '        rospy.ServiceProxy("/getGeometry", geometry)(0, 0, 0)\n        return 2')
+# %% 07.5 wrong: a refusal is a traceback | hint: A user should not see a
+replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ROSException")
+# %% 07.5 wrong: a refusal without its message | hint: Print the message of the exception
+replace("print(error, file=sys.stderr)", 'print("failed")')
+# %% 07.5 wrong: waits without a limit | hint: The client waits without a limit.
+replace(", timeout=5", "")
+# %% 07.5 wrong: does not wait | hint: The client did not wait. The service may start after
+replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
+# %% 07.5 wrong: the timeout is not caught | hint: wait_for_service raises rospy.ROSException after its timeout.
+replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ServiceException")
+# %% 07.5 wrong: exit status 0 without a server | hint: Without a response, the exit status
+based_on("a node, with steps")
+replace('rospy.logerr("no server: %s", error)\n        sys.exit(1)', 'rospy.logerr("no server: %s", error)\n        sys.exit(0)')
+
+# %% 07.6 right: catkin_install_python
+solution()
+
+# %% 07.6 right: two rules, one of them plain CMake
+"""%%writefile src/my_geometry/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(my_geometry)
+find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)
+add_service_files(FILES geometry.srv)
+generate_messages(DEPENDENCIES std_msgs)
+catkin_package(CATKIN_DEPENDS message_runtime)
+catkin_install_python(PROGRAMS scripts/server.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(PROGRAMS scripts/client.py DESTINATION lib/${PROJECT_NAME})
+"""
+
+# %% 07.6 wrong: no rule | hint: There is no install rule yet
+replace("\n\ncatkin_install_python( … BIN_DESTINATION}\n)", "")
+# %% 07.6 wrong: the client is missing | hint: . List both scripts after PROGRAMS.
+replace(" scripts/client.py", "")
+# %% 07.6 wrong: a misspelt variable | hint: rosrun does not search this folder.
+replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
+# %% 07.6 wrong: files, not programs | hint: install(FILES …) installs files that are
+based_on("two rules, one of them plain CMake")
+replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
+based_on("two rules, one of them plain CMake")
+replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
+
+# %% 07.7 right: short
+"""%%writefile src/my_geometry/README.md
+# my_geometry
+
+A service that returns the area and the volume of a box.
+
+```bash
+catkin_make
+source devel/setup.bash
+rosrun my_geometry server.py
+```
+
+In a second terminal:
+
+```bash
+source devel/setup.bash
+rosservice call /getGeometry 1.2 5.2 8.9
+rosrun my_geometry client.py 1.2 5.2 8.9
+```
+"""
+
+# %% 07.7 right: with prompts, in several blocks
+"""%%writefile src/my_geometry/README.md
+
+# The geometry server
+
+## Build
+
+~~~
+$ cd ~/catkin_ws && catkin_make
+~~~
+
+## Run
+
+~~~sh
+$ . devel/setup.bash
+$ roscore &
+$ rosrun my_geometry server.py __name:=box_server
+$ rosservice call getGeometry 1 2 3   # area 2, volume 6
+~~~
+"""
+
+# %% 07.7 right: a numbered list, and the fields by name
+"""%%writefile src/my_geometry/README.md
+# Geometry
+
+1. Build it:
+
+   ```sh
+   cd workspace && catkin_make
+   ```
+
+2. In each terminal: source it, and start the server:
+
+   ```sh
+   . devel/setup.bash
+   rosrun my_geometry server.py &
+   rosservice call getGeometry "{length: 1.2, width: 5.2, height: 8.9}"
+   ```
+"""
+# %% 07.7 wrong: no title | hint: a title is a line that begins with one #
+replace("# my_geometry\n", "my_geometry\n")
+# %% 07.7 wrong: no code block | hint: Write a line ``` above
+replace("```bash\n", "", times=2)
+replace("```\n", "", times=2)
+# %% 07.7 wrong: no build | hint: The command that builds the package
+replace("catkin_make\n", "")
+# %% 07.7 wrong: no sourcing | hint: The command source devel/setup.bash is missing.
+replace("source devel/setup.bash\n", "", times=2)
+# %% 07.7 wrong: half of the command | hint: The command that starts the server
+replace("rosrun my_geometry server.py", "rosrun server.py")
+# %% 07.7 wrong: two sides | hint: The call needs the name /getGeometry,
+replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
+# %% 07.7 wrong: no call | hint: Show a call with rosservice
+replace("rosservice call /getGeometry 1.2 5.2 8.9\n", "")
+# %% 07.7 wrong: sources before it builds | hint: Imagine a new terminal: first build,
+replace("catkin_make\nsource devel/setup.bash\n", "source devel/setup.bash\ncatkin_make\n")
+
+# %% 07.8 right: as asked
+solution()
+# %% 07.8 right: with comments
+replace("int32 number\n---\nstring state", "# 0 or 1; anything else is refused.\nint32  number\n---\nstring state  # OFF or ON")
+# %% 07.8 wrong: a bool | hint: has the type bool. Use the type
+replace("int32", "bool")
+# %% 07.8 wrong: in one half | hint: state is in the wrong half
+replace("---\nstring state", "string state\n---")
+# %% 07.8 wrong: another name | hint: has no field … number
+replace("number", "value")
+# %% 07.8 wrong: two constants | hint: A constant is part of the
+replace("int32 number", "int32 OFF=0\nint32 ON=1\nint32 number")
+# %% 07.8 wrong: String as in Java | hint: string
+replace("string state", "String state")
+
+# %% 07.9 right: a table
+solution()
+# %% 07.9 right: conditions and a main function
+replace('\n\nSTATES = {0: "OFF", 1: "ON"}', ", ServiceExampleResponse")
+replace("def name_state … request.number]", """def handle(req):
+    response = ServiceExampleResponse()
+    if req.number == 0:
+        response.state = "OFF"
+    elif req.number == 1:
+        response.state = "ON"
+    else:
+        rospy.logwarn("refused")
+        raise rospy.ServiceException("the number is %d, and only 0 and 1 are allowed" % req.number)
+    return response
+
+
+def main():
+    rospy.init_node("ON_OFF_SERVER")
+    service = rospy.Service("onOff", ServiceExample, handle)
+    rospy.spin()""")
+replace('rospy.init_node("ON_OFF_SERVER")\n    rospy.Service("/onOff", ServiceExample, name_state)\n    rospy.spin()', "main()")
+# %% 07.9 wrong: refuses 0 | hint: 0 and 1 are valid numbers.
+replace("if request.number not in STATES", "if not request.number in (1, 2)")
+# %% 07.9 wrong: a default state | hint: The response still has the default state,
+based_on("conditions and a main function")
+replace('response.state = "OFF"', "pass")
+replace('response.state = "ON"', "pass")
+# %% 07.9 wrong: small letters | hint: Compare the letters: ON and OFF
+replace('{0: "OFF", 1: "ON"}', '{0: "off", 1: "on"}')
+# %% 07.9 wrong: the states exchanged | hint: The two states are exchanged
+replace('{0: "OFF", 1: "ON"}', '{0: "ON", 1: "OFF"}')
+# %% 07.9 wrong: other states | hint: This state is not in the
+replace('{0: "OFF", 1: "ON"}', '{0: "closed", 1: "open"}')
+# %% 07.9 wrong: no response for other numbers | hint: The handler returned no response. Raise
+based_on("conditions and a main function")
+replace("""rospy.logwarn("refused")
+        raise rospy.ServiceException("the number is %d, and only 0 and 1 are allowed" % req.number)""", "return None")
+# %% 07.9 wrong: a message without the number | hint: The message of the exception has
+replace('f"{request.number} is neither 0 nor 1"', '"neither 0 nor 1"')
+# %% 07.9 wrong: a KeyError | hint: Raise rospy.ServiceException: the client regards any
+replace('\n    if request.number not in STATES:\n        raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")', "")
+# %% 07.9 wrong: answers everything | hint: The server has to refuse this
+replace("if request … request.number]", 'return "ON" if request.number else "OFF"')
+
+# %% 07.10 right: as in the chapter
+solution()
+# %% 07.10 right: a node, and functions
+replace("\nimport rospy\nfrom service_example.srv import ServiceExample", """import rospy
+from service_example.srv import ServiceExample, ServiceExampleRequest
+
+
+def call(proxy):
+    request = ServiceExampleRequest(number=random.choice([0, 1]))
+    response = proxy(request)
+    print("%d: %s" % (request.number, response.state))
+
+
+def main():
+    arguments = rospy.myargv(sys.argv)
+    if len(arguments) != 2:
+        sys.exit("usage: on_off_client.py COUNT")
+    rospy.init_node("on_off_client", anonymous=True)
+    rospy.wait_for_service("onOff", timeout=5)
+    proxy = rospy.ServiceProxy("onOff", ServiceExample)
+    for _ in range(int(arguments[1])):
+        call(proxy)
+""")
+replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
+# %% 07.10 wrong: calls once | hint: The client called only once. The
+replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
+# %% 07.10 wrong: one call too many | hint: no more and no fewer
+replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
+# %% 07.10 wrong: always the same number | hint: The numbers are not random. random.randint(0,
+replace("random.randint(0, 1)", "1")
+# %% 07.10 wrong: prints the state only | hint: Print the number that you sent, a colon
+replace('f"{number}: {name_state(number).state}"', "name_state(number).state")
+# %% 07.10 wrong: another service | hint: The client does not end. Does
+replace('("/onOff", timeout=5)', '("/on_off")')
+# %% 07.10 wrong: ends with an error status | hint: After the last call, let the
+replace('{name_state(number).state}")', '{name_state(number).state}")\n    sys.exit(4)')
+# %% 07.10 wrong: the argument is a string | hint: on_off_client.py
+replace("int(sys.argv[1])", "sys.argv[1]")

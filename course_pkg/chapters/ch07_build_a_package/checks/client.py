@@ -1,0 +1,208 @@
+"""07.5: the geometry client as a program: arguments, a usage message, and an exit status."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY, geometry_class
+from course_pkg.chapters.ch07_build_a_package.checks.program import (
+    Program,
+    can_be_imported,
+    is_a_script,
+    is_executable,
+    own_line,
+)
+from course_pkg.checking import CheckContext, Refuse, part
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import BuiltPackage, built
+from course_pkg.workspace import explain
+
+CLIENT = Program("scripts/client.py")
+FILE = MY_GEOMETRY.path(CLIENT.file)
+SERVICE = "/getGeometry"
+USAGE = re.compile("^usage:", re.MULTILINE)
+WITHIN = 16.0  # s for a run: rospy starts in 0.5 s (5 s on a busy machine), and the client waits up to 5 s
+
+START = f"""%%writefile {FILE}
+..."""
+
+
+@part(
+    "07.5",
+    points=3,
+    goal=(
+        "Write client.py: it takes three numbers and prints area and volume; its exit status is 0, "
+        "or 1 without a response, or 2 for wrong arguments."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def the_client(context: CheckContext) -> None:
+    """Run the client with a server that responds or refuses, with wrong arguments, and without a server."""
+    is_a_script(context, FILE)
+    is_executable(context, FILE)
+    package = built(context, MY_GEOMETRY, examined=CLIENT.file)
+    can_be_imported(context, package, CLIENT)
+    _prints_the_answer(context, package)
+    _explains_its_usage(context, package)
+    _ends_with_one_after_a_refusal(context, package)
+    _gives_up_without_a_server(context, package)
+
+
+def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
+    sides = context.random.numbers(3, 0.5, 9.0, digits=1)
+    area, volume = context.random.numbers(2, 100.0, 900.0)
+    server = context.serve(SERVICE, geometry_class(), lambda _: {"area": area, "volume": volume})
+    done = _run(package, [*map(str, sides), f"__name:={context.random.word()}"])
+    server.leave()
+    sent = [round(float(str(value)), 2) for value in server.requests[0].values()] if server.requests else []
+    context.require(
+        "it sends length, width and height",
+        holds=sent == sides,
+        expected=", ".join(map(str, sides)),
+        actual=", ".join(map(str, sent)) or _outcome(done),
+        hints=_why_not_sent(sent, sides, done),
+    )
+    context.require(
+        "it sends length, width and height",
+        holds=len(server.requests) == 1,
+        expected="one request",
+        actual=f"{len(server.requests)} requests",
+        hints="The client called the service more than once. Store the response in a variable.",
+    )
+    for name, value in (("area", area), ("volume", volume)):
+        shown = _printed(done, name)
+        context.require(
+            f"it prints {name}: and the {name} of the response",
+            holds=shown is not None and abs(shown - value) < 0.006,
+            expected=f"{name}: {value:.2f}",
+            actual=_outcome(done),
+            hints=(
+                f"Print one line with the text {name}: and the value of response.{name}, with two "
+                "decimal places."
+            )
+            if shown is None
+            else (
+                f"The client prints a number that is not the {name} of the response. Do not compute "
+                f"the {name} in the client."
+            ),
+        )
+    context.require(
+        "after an answer its exit status is 0",
+        holds=done.status == 0,
+        expected="exit status 0",
+        actual=_outcome(done),
+        hints=(
+            "A program that reaches its end has the exit status 0. Remove the sys.exit that sets "
+            "another status."
+        )
+        if done.status is not None
+        else "The client does not end. Remove rospy.spin(): the client has to end after the call.",
+    )
+
+
+def _why_not_sent(sent: list[float], sides: list[float], done: Finished) -> str:
+    if sent and sorted(sent) == sorted(sides):
+        return "The numbers arrive in the wrong order. The order of the arguments is LENGTH WIDTH HEIGHT."
+    if sent:
+        return "Convert the three arguments to float, and send them unchanged."
+    if done.status is None:
+        return f"The client waits, but it sends no request. Wait for {SERVICE}, and call it once."
+    if done.status == 2:
+        return "Arguments with := are for ROS. Remove them with rospy.myargv(sys.argv)."
+    return _about_error(done)
+
+
+def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> None:
+    server = context.serve(SERVICE, geometry_class(), lambda _: {"area": 1.0, "volume": 1.0})
+    for arguments in (["1.2", "5.2"], ["1.2", "5.2", "8.9", "4"], ["1.2", "wide", "8.9"]):
+        done = _run(package, arguments)
+        printed = done.out + done.err
+        context.require(
+            "wrong arguments: it prints a usage message and ends with 2",
+            holds=done.status == 2 and bool(USAGE.search(printed)),
+            expected="usage: …, and exit status 2",
+            actual=_outcome(done),
+            hints=_why_no_usage(printed, arguments),
+        )
+    context.require(
+        "wrong arguments: it sends no request",
+        holds=not server.requests,
+        expected="no request",
+        actual=f"{len(server.requests)} requests",
+        hints="Check the arguments before you call the service.",
+    )
+    server.leave()
+
+
+def _why_no_usage(printed: str, arguments: list[str]) -> str:
+    if USAGE.search(printed):
+        return "Write sys.exit(2) after the usage message: it sets the exit status."
+    if "wide" in arguments and len(arguments) == 3:
+        return "float() raises ValueError for a text that is not a number. Catch this exception."
+    if len(arguments) > 3:
+        return "Four numbers are wrong, too. Test whether there are exactly three arguments."
+    return 'Print a line that begins with "usage:" and shows the three arguments.'
+
+
+def _ends_with_one_after_a_refusal(context: CheckContext, package: BuiltPackage) -> None:
+    server = context.serve(SERVICE, geometry_class(), lambda _: Refuse("no box"))
+    done = _run(package, ["1.2", "5.2", "8.9"])
+    server.leave()
+    context.require(
+        "a refused call: it prints the error message and ends with 1",
+        holds=done.status == 1 and "no box" in done.out + done.err and "Traceback" not in done.err,
+        expected="the error message, and exit status 1",
+        actual=_outcome(done),
+        hints="A user should not see a traceback. Catch rospy.ServiceException, and print its message."
+        if "Traceback" in done.err
+        else "Print the message of the exception, and then call sys.exit(1).",
+    )
+
+
+def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> None:
+    context.absent(SERVICE)
+    done = _run(package, ["1.2", "5.2", "8.9"])
+    context.require(
+        "no server: after at most 5 s it ends with 1",
+        holds=done.status == 1 and "Traceback" not in done.err and done.took < WITHIN - 2,
+        expected="an error message, and exit status 1",
+        actual=_outcome(done),
+        hints="The client waits without a limit. Give wait_for_service a timeout."
+        if done.status is None
+        else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
+        if "Traceback" in done.err
+        else "Without a response, the exit status has to be 1.",
+    )
+    context.require(
+        "no server: after at most 5 s it ends with 1",
+        holds="unavailable" not in done.out + done.err,
+        expected="an end after 5 s",
+        actual=_outcome(done),
+        hints="The client did not wait. The service may start after the client, so wait for it, up to 5 s.",
+    )
+
+
+def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
+    return package.run(f"rosrun my_geometry {CLIENT.name} {' '.join(arguments)}", within=WITHIN)
+
+
+def _printed(done: Finished, name: str) -> float | None:
+    """Return the number in the line of `name`, such as "area: 6.24"; None if there is no such line."""
+    found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
+    return float(found[1]) if found else None
+
+
+def _outcome(done: Finished) -> str:
+    lines = (done.out + done.err).strip().splitlines()
+    ending = "still running" if done.status is None else f"exit status {done.status}"
+    return f"{' / '.join(lines[-2:])}, and {ending}" if lines else f"no output, and {ending}"
+
+
+def _about_error(done: Finished) -> str:
+    printed = done.out + done.err
+    if "Traceback" not in printed:
+        return f"The client ended, but it sent no request. Call {SERVICE} with the three numbers."
+    fault = explain(printed)
+    return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)

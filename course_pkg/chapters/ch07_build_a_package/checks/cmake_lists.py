@@ -1,0 +1,122 @@
+"""07.3: the CMakeLists.txt that generates a type from the definition, before programs use the type."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import GEOMETRY, MY_GEOMETRY
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.shared.catkin_package import BuiltPackage, built
+from course_pkg.types import compile_service
+from course_pkg.workspace.cmake_messages import cmake_commands
+
+NAME = "CMakeLists.txt"
+FILE = MY_GEOMETRY.path(NAME)
+TARGET = "my_geometry_programs"
+CLASSES = "devel/lib/python3*/*-packages/my_geometry"
+CONFIGURATION = "devel/share/my_geometry/cmake/my_geometryConfig.cmake"
+
+START = f"""%%writefile {FILE}
+cmake_minimum_required(VERSION 3.0.2)
+project(my_geometry)
+
+find_package(catkin REQUIRED COMPONENTS
+  message_generation
+  rospy
+  std_msgs
+)
+
+catkin_package()
+"""
+
+
+@part(
+    "07.3",
+    points=3,
+    goal=(
+        "Complete CMakeLists.txt: it generates the type my_geometry/geometry, has a target "
+        "my_geometry_programs that waits for this type, and names message_runtime for packages "
+        "that use it."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def the_build(context: CheckContext) -> None:
+    """Build the package; then remove the generated classes, and build only the target."""
+    text = context.source(f"file:{FILE}")
+    definition = f"float32 {context.random.word()}\n{GEOMETRY}"  # a CMakeLists.txt cannot know its MD5 sum
+    package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
+    md5 = compile_service("my_geometry/geometry", definition).md5
+    _has_type(context, package, text, md5)
+    _target_waits(context, package, text, md5)
+    _tells_other_packages(context, package, text)
+
+
+def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
+    md5, printed = package.md5("geometry")
+    context.require(
+        "Python finds the type my_geometry/geometry",
+        holds=bool(md5),
+        expected="from my_geometry.srv import geometry",
+        actual=printed.rpartition("\n")[2],
+        hints=_why_no_type(text),
+    )
+    context.require(
+        "its MD5 sum is the one of geometry.srv",
+        holds=md5 == wanted,
+        expected="the MD5 sum of the file in srv",
+        actual="another MD5 sum",
+    )
+
+
+def _why_no_type(text: str) -> str:
+    for name in ("add_service_files", "generate_messages"):
+        if not _has(text, name):
+            return f"There is no command {name}, so the build passes but generates no type."
+    return (
+        "add_service_files and generate_messages are in the file. Is one of them inside an if() "
+        "whose condition is false?"
+    )
+
+
+def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
+    """Build only the target, without the classes; the classes must exist afterwards."""
+    line = f"rm -rf {CLASSES} && make -C build {TARGET}"
+    done = package.folder.command("bash", "-c", line, within=20.0, worded=f"make {TARGET}")
+    unknown = "No rule to make target" in done.out + done.err
+    context.require(
+        f"{TARGET} is built after the classes",
+        holds=done.status == 0 and package.md5("geometry")[0] == wanted,
+        expected=f"make {TARGET} generates the classes first",
+        actual="there is no such target" if unknown else "no classes",
+        hints=_why_not_waiting(text, unknown=unknown),
+    )
+
+
+def _why_not_waiting(text: str, *, unknown: bool) -> str:
+    if unknown and _has(text, "add_custom_target"):
+        return "The name of the target is wrong. (${PROJECT_NAME} is the name of the package.)"
+    if unknown:
+        return "Create the target with add_custom_target: pass this name, and then ALL."
+    if _has(text, "add_dependencies"):
+        return "add_dependencies names only targets of other packages. Add the targets of ${PROJECT_NAME}."
+    return (
+        "The target has no dependencies yet. Use add_dependencies: it determines what is built "
+        "before the target."
+    )
+
+
+def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: str) -> None:
+    done = package.folder.command("grep", "-c", "message_runtime", CONFIGURATION)
+    context.require(
+        "a package that uses this package gets message_runtime, too",
+        holds=done.status == 0,
+        expected="message_runtime in what catkin_package exports",
+        actual="no message_runtime",
+        hints="In catkin_package, write CATKIN_DEPENDS and the packages that are needed to run."
+        if _has(text, "catkin_package")
+        else "Without catkin_package, other packages cannot find this one.",
+    )
+
+
+def _has(text: str, name: str) -> bool:
+    return any(each.name == name and not each.is_comment for each in cmake_commands(text))

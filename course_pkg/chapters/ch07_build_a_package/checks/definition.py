@@ -1,0 +1,116 @@
+"""07.2 and 07.8: a definition in the student's own package: it builds, and its MD5 sum is right."""
+
+from __future__ import annotations
+
+import difflib
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import (
+    GEOMETRY,
+    MY_GEOMETRY,
+    SERVICE_EXAMPLE,
+    SERVICE_EXAMPLE_PACKAGE,
+)
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.shared.catkin_package import Package, built
+from course_pkg.errors import BrokenDefinition
+from course_pkg.types import MessageType, ServiceType, compile_service
+
+GEOMETRY_FILE = "srv/geometry.srv"
+EXAMPLE_FILE = "srv/ServiceExample.srv"
+
+
+@part(
+    "07.2",
+    points=1,
+    goal=(
+        "Write geometry.srv: the request has the fields length, width and height, and the response "
+        "has area and volume; all are float32."
+    ),
+    needs=[f"file:{MY_GEOMETRY.path(GEOMETRY_FILE)}"],
+    deadline=60.0,
+)
+def the_definition(context: CheckContext) -> None:
+    """Compare the fields, and build the package with this definition."""
+    _examine(context, MY_GEOMETRY, GEOMETRY_FILE, "geometry", GEOMETRY)
+
+
+@part(
+    "07.8",
+    points=1,
+    goal=(
+        "Write ServiceExample.srv in the package service_example: the request has the field number "
+        "(int32), and the response has the field state (string)."
+    ),
+    needs=[f"file:{SERVICE_EXAMPLE_PACKAGE.path(EXAMPLE_FILE)}"],
+    deadline=60.0,
+)
+def the_second_definition(context: CheckContext) -> None:
+    """Compare the fields, and build the package with this definition."""
+    _examine(context, SERVICE_EXAMPLE_PACKAGE, EXAMPLE_FILE, "ServiceExample", SERVICE_EXAMPLE)
+
+
+def _examine(context: CheckContext, package: Package, file: str, name: str, text: str) -> None:
+    full = f"{package.name}/{name}"
+    asked = compile_service(full, text)
+    given = _read(context, full, context.source(f"file:{package.path(file)}"))
+    _compare(context, "request", asked.request, given.request, asked.response)
+    _compare(context, "response", asked.response, given.response, asked.request)
+    md5, printed = built(context, package, examined=file, alone=True).md5(name)
+    context.require(
+        f"the MD5 sum of {full} is the one of the exercise",
+        holds=md5 == asked.md5,
+        expected=asked.md5,
+        actual=md5 or printed.rpartition("\n")[2],
+        hints=(
+            "A constant is part of the MD5 sum, too. Write only the fields of the exercise, "
+            "without constants."
+        ),
+    )
+
+
+def _read(context: CheckContext, full: str, text: str) -> ServiceType:
+    assertion = "ROS can read the definition"
+    try:
+        given = compile_service(full, text)
+    except BrokenDefinition as error:
+        where = f"line {error.line}: {error.text.strip()}".rstrip(": ")
+        hint = " ".join(f"{each.rstrip('.')}." for each in (error.problem, error.remedy))
+        context.fail(assertion, expected="a definition", actual=where, hint=hint)
+    context.require(assertion, holds=True)
+    return given
+
+
+def _compare(
+    context: CheckContext, half: str, asked: MessageType, given: MessageType, other: MessageType
+) -> None:
+    wanted = [f"{field.type} {field.name}" for field in asked.fields]
+    found = [f"{field.type} {field.name}" for field in given.fields]
+    context.require(
+        f"the {half} is {', '.join(wanted)}",
+        holds=wanted == found,
+        expected=", ".join(wanted),
+        actual=", ".join(found) or "no fields",
+        hints=_hint(half, asked, given, other) if wanted != found else "",
+    )
+
+
+def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType) -> str:
+    wanted = {field.name: field.type for field in asked.fields}
+    found = {field.name: field.type for field in given.fields}
+    missing = [name for name in wanted if name not in found]
+    extra = [name for name in found if name not in wanted]
+    if stray := next((field.name for field in other.fields if field.name in extra), ""):
+        return (
+            f"{stray} is on the wrong side of the line ---: the request is above it, and the "
+            "response is below it."
+        )
+    if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
+        return f"Compare the name {near[0]} with the name in the exercise, letter by letter."
+    if missing:
+        return f"The {half} has no field {missing[0]}."
+    if extra:
+        return f"The exercise does not ask for a field {extra[0]} in the {half}."
+    wrong = next((name for name in wanted if wanted[name] != found[name]), "")
+    if wrong:
+        return f"{wrong} has the type {found[wrong]}. Use the type of the exercise, {wanted[wrong]}."
+    return f"The order of the fields is part of the MD5 sum. Begin with {next(iter(wanted))}."

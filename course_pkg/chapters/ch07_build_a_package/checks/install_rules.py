@@ -1,0 +1,95 @@
+"""07.6: the install rules; the check runs the installed files after it has hidden src."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.chapters.ch07_build_a_package.checks.cmake_lists import FILE, NAME
+from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY, geometry_class
+from course_pkg.chapters.ch07_build_a_package.checks.program import serves
+from course_pkg.chapters.ch07_build_a_package.checks.server import SERVER
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.shared.catkin_package import CATKIN_MAKE, LIMITS, BuiltPackage, built
+from course_pkg.workspace.cmake_messages import cmake_commands
+
+SCRIPTS = ("server.py", "client.py")
+PLACE = "lib/my_geometry"
+INSTALLING = 20.0  # s; it takes 1 s on an idle machine
+
+
+@part(
+    "07.6",
+    points=2,
+    goal=(
+        "Extend CMakeLists.txt, so that catkin_make install puts server.py and client.py into the "
+        "folder in which rosrun finds them."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+)
+def the_install_rules(context: CheckContext) -> None:
+    """Install a copy, hide the other folders, and start the installed server."""
+    package = built(context, MY_GEOMETRY, examined=NAME)
+    _installs(context, package)
+    for script in SCRIPTS:
+        _is_in_its_place(context, package, script)
+    package.folder.command("mv", "src", "devel", "build")
+    space = f"/{context.random.word()}"
+    name = f"{space}{SERVER.service}"
+    line = f"rosrun my_geometry {SERVER.name} __ns:={space} {SERVER.service}:={name}"
+    installed = "install/setup.bash"
+    with package.start(line, worded=f"rosrun my_geometry {SERVER.name}", setup=installed) as running:
+        serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
+        length, width, height = context.random.numbers(3, 0.5, 9.0)
+        measure = context.service(name, geometry_class(), timeout=5.0)
+        context.expect(
+            "the installed server answers",
+            expected=length * width * height,
+            actual=measure(length=length, width=width, height=height).volume,
+            near=1e-3,
+        )
+
+
+def _installs(context: CheckContext, package: BuiltPackage) -> None:
+    line = f"{LIMITS}; exec {CATKIN_MAKE} install"
+    done = package.folder.command("bash", "-c", line, within=INSTALLING, worded="catkin_make install")
+    problem = re.search(r"cannot find\s+\"(?:\S*/src/)?([^\"]*)\"", done.out + done.err)
+    context.require(
+        "catkin_make install works",
+        holds=done.status == 0,
+        expected="exit status 0",
+        actual=f"there is no {problem[1]}" if problem else f"exit status {done.status}",
+        hints="Compare each path in the rule with the files of the package.",
+    )
+
+
+def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) -> None:
+    found = package.folder.command("find", "install", "-name", script, "-printf", "%m %P\\n").out.split()
+    modes, places = found[::2], found[1::2]
+    there = f"{PLACE}/{script}" in places
+    context.require(
+        f"{script} is installed in {PLACE}, as an executable file",
+        holds=there and "7" in modes[places.index(f"{PLACE}/{script}")],
+        expected=f"{PLACE}/{script}",
+        actual=", ".join(places) or "no such file",
+        hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
+    )
+
+
+def _why_not_there(text: str, script: str, places: list[str], *, there: bool) -> str:
+    rules = [each.name for each in cmake_commands(text) if not each.is_comment]
+    if there:
+        return (
+            "install(FILES …) installs files that are not executable. For scripts, use catkin_install_python."
+        )
+    if places:
+        return (
+            "rosrun does not search this folder. Write exactly "
+            "${CATKIN_PACKAGE_BIN_DESTINATION} after DESTINATION."
+        )
+    if "catkin_install_python" not in rules and "install" not in rules:
+        return (
+            "There is no install rule yet. The generated file has an example in a comment: "
+            "catkin_install_python."
+        )
+    return f"The rule does not contain {script}. List both scripts after PROGRAMS."

@@ -1,0 +1,91 @@
+"""07.1: the completed package.xml, which catkin_create_pkg wrote."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.shared.catkin_package import built
+from course_pkg.workspace.fault import dependencies, manifest_tags
+
+NAME = "package.xml"
+FILE = MY_GEOMETRY.path(NAME)
+GENERATED = {  # for each tag, the text that catkin_create_pkg writes, and a hint
+    "description": ("The my_geometry package", "Describe in one sentence what the package does."),
+    "license": ("TODO", "Write the name of a licence, for example MIT or BSD."),
+}
+NEEDS = (
+    ("build", "build_depend", ("message_generation", "rospy", "std_msgs")),
+    ("run", "exec_depend", ("message_runtime", "rospy", "std_msgs")),
+)
+
+START = f"""%%writefile {FILE}
+<?xml version="1.0"?>
+<package format="2">
+  <name>my_geometry</name>
+  <version>0.0.0</version>
+  <description>The my_geometry package</description>
+  <maintainer email="you@todo.todo">you</maintainer>
+  <license>TODO</license>
+
+  <buildtool_depend>catkin</buildtool_depend>
+  <build_depend>message_generation</build_depend>
+  <build_depend>rospy</build_depend>
+  <build_depend>std_msgs</build_depend>
+  <build_export_depend>rospy</build_export_depend>
+  <build_export_depend>std_msgs</build_export_depend>
+  <exec_depend>rospy</exec_depend>
+  <exec_depend>std_msgs</exec_depend>
+</package>
+"""
+
+
+@part(
+    "07.1",
+    points=2,
+    goal=(
+        "Complete package.xml: write your own description, address and licence, and add "
+        "message_runtime as an exec_depend."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def the_manifest(context: CheckContext) -> None:
+    """Compare the dependencies, build the package, and compare the texts that a build does not use."""
+    text = context.source(f"file:{FILE}")
+    for purpose, tag, packages in NEEDS:
+        named = dependencies(text, purpose)
+        for package in packages:
+            context.require(
+                f"it depends on {package} to {purpose}",
+                holds=package in named,
+                expected=f"{tag} for {package}",
+                actual=", ".join(sorted(named)) or "no dependency",
+                hints=_about_dependency(text, package, tag),
+            )
+    built(context, MY_GEOMETRY, examined=NAME, alone=True)
+    for name, (generated, hint) in GENERATED.items():
+        found = next((each.text for each in manifest_tags(text) if each.name == name), "")
+        context.require(
+            f"the {name} is your own",
+            holds=found not in ("", generated),
+            expected="your own text",
+            actual=found or "no text",
+            hints=hint,
+        )
+    context.require(
+        "the address of the maintainer is your own",
+        holds="@todo.todo" not in text,
+        expected="an address such as name@example.com",
+        actual="the generated address",
+        hints="Replace the address in the maintainer tag with your own, or with you@example.com.",
+    )
+
+
+def _about_dependency(text: str, package: str, tag: str) -> str:
+    elsewhere = [each for each in manifest_tags(text) if each.text == package]
+    if elsewhere:
+        return f"Line {elsewhere[0].line} has {elsewhere[0].name} for {package}. Add a line with {tag}."
+    if package == "message_runtime":
+        return "A package is missing. The warning of catkin_create_pkg contains its name."
+    return f"The package uses {package}, but package.xml has no tag for it."

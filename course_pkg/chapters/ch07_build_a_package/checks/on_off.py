@@ -1,0 +1,174 @@
+"""07.9 and 07.10: the server and the client of the second package, service_example."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import (
+    SERVICE_EXAMPLE_PACKAGE,
+    service_example_class,
+)
+from course_pkg.chapters.ch07_build_a_package.checks.program import (
+    Program,
+    can_be_imported,
+    is_a_script,
+    is_executable,
+    own_line,
+    serves,
+)
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import built
+from course_pkg.workspace import explain
+
+SERVER = Program("scripts/on_off_server.py", "ON_OFF_SERVER", "/onOff")
+CLIENT = Program("scripts/on_off_client.py")
+SERVER_FILE = SERVICE_EXAMPLE_PACKAGE.path(SERVER.file)
+CLIENT_FILE = SERVICE_EXAMPLE_PACKAGE.path(CLIENT.file)
+WITHIN = 12.0  # s for a run of the client
+CALLS = 24  # calls of a client: with fewer calls, a right client might send only one of the two numbers
+
+SERVER_START = f"""%%writefile {SERVER_FILE}
+..."""
+CLIENT_START = f"""%%writefile {CLIENT_FILE}
+..."""
+
+
+@part(
+    "07.9",
+    points=3,
+    goal=(
+        "Write on_off_server.py: the node ON_OFF_SERVER serves /onOff; the state is OFF for 0 and "
+        "ON for 1, and any other number is refused."
+    ),
+    needs=[f"file:{SERVER_FILE}"],
+    deadline=120.0,
+    start=SERVER_START,
+)
+def the_on_off_server(context: CheckContext) -> None:
+    """Start the server in a separate namespace; call it with 0, 1 and other numbers."""
+    is_a_script(context, SERVER_FILE)
+    is_executable(context, SERVER_FILE)
+    package = built(context, SERVICE_EXAMPLE_PACKAGE, examined=SERVER.file)
+    can_be_imported(context, package, SERVER)
+    space = f"/{context.random.word()}"
+    name = f"{space}{SERVER.service}"
+    line = f"rosrun service_example {SERVER.name} __ns:={space} {SERVER.service}:={name}"
+    with package.start(line, worded=f"rosrun service_example {SERVER.name}") as running:
+        serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
+        refused = (REFUSED_BY_HANDLER, "0 and 1 are valid numbers. Refuse only other numbers.")
+        service = context.service(name, service_example_class(), timeout=5.0, hints=[refused])
+        for number, state in context.random.shuffled([(0, "OFF"), (1, "ON"), (0, "OFF")]):
+            context.expect(
+                "state is OFF for 0 and ON for 1",
+                expected=state,
+                actual=service(number=number).state,
+                hints=[
+                    (
+                        "",
+                        "The response still has the default state, an empty string. Set the state "
+                        "to ON or OFF.",
+                    ),
+                    (state.lower(), "Compare the letters: ON and OFF have capital letters."),
+                    (lambda text: text in ("ON", "OFF"), "The two states are exchanged: 0 means OFF."),
+                    (ANYTHING, "This state is not in the exercise. The only states are ON and OFF."),
+                ],
+            )
+        for number in (2, -1, context.random.integer(3, 900)):
+            service.refused(
+                "any other number is refused, and the error message names the number",
+                saying=f"cannot process request: .*(?<!\\d){number}",
+                number=number,
+                hints=[
+                    (
+                        matches("returned (None|invalid)"),
+                        "The handler returned no response. Raise rospy.ServiceException in this case.",
+                    ),
+                    (REFUSED_BY_HANDLER, "The message of the exception has to contain the number."),
+                    (
+                        matches("error processing"),
+                        "Raise rospy.ServiceException: the client regards any other exception as a "
+                        "bug of the server.",
+                    ),
+                    (
+                        ANYTHING,
+                        "The server has to refuse this number, which is neither 0 nor 1. Raise an exception.",
+                    ),
+                ],
+            )
+
+
+@part(
+    "07.10",
+    points=2,
+    goal=(
+        "Write on_off_client.py: it calls /onOff COUNT times with a random number, 0 or 1, and "
+        "prints a line `NUMBER: STATE` for each call."
+    ),
+    needs=[f"file:{CLIENT_FILE}"],
+    deadline=120.0,
+    start=CLIENT_START,
+)
+def the_on_off_client(context: CheckContext) -> None:
+    """Run the client with a server whose states are random words."""
+    is_a_script(context, CLIENT_FILE)
+    is_executable(context, CLIENT_FILE)
+    package = built(context, SERVICE_EXAMPLE_PACKAGE, examined=CLIENT.file)
+    states = [context.random.word(), context.random.word()]
+
+    server = context.serve(
+        "/onOff", service_example_class(), lambda request: {"state": states[request.number % 2]}
+    )
+    done = package.run(f"rosrun service_example {CLIENT.name} {CALLS}", within=WITHIN)
+    sent = [int(str(value)) for request in server.requests for value in request.values()]
+    server.leave()
+    context.require(
+        "it calls /onOff COUNT times",
+        holds=len(sent) == CALLS,
+        expected=f"{CALLS} calls",
+        actual=f"{len(sent)} calls, and {_ending(done)}",
+        hints=_why_not_sent(len(sent), done),
+    )
+    context.require(
+        "each number is 0 or 1, at random",
+        holds=set(sent) == {0, 1} and sent not in ([0, 1] * (CALLS // 2), [1, 0] * (CALLS // 2)),
+        expected="both numbers, in a random order",
+        actual=" ".join(map(str, sent)),
+        hints=(
+            "The numbers are not random. random.randint(0, 1) returns 0 or 1; call it again for "
+            "each call of the service."
+        ),
+    )
+    wanted = [f"{number}: {states[number % 2]}" for number in sent]
+    printed = [line.strip() for line in done.out.splitlines() if re.match(r"\s*\d+\s*:", line)]
+    context.require(
+        "it prints NUMBER: STATE for each call",
+        holds=printed == wanted,
+        expected="one line for each call, such as 1: ON",
+        actual=" / ".join(done.out.splitlines()[:3]) or "no output",
+        hints="Print the number that you sent, a colon, a space, and the state of the response.",
+    )
+    context.require(
+        "it ends with the status 0",
+        holds=done.status == 0,
+        expected="exit status 0",
+        actual=_ending(done),
+        hints="After the last call, let the program reach its end without sys.exit.",
+    )
+
+
+def _why_not_sent(count: int, done: Finished) -> str:
+    printed = done.out + done.err
+    if "Traceback" in printed:
+        fault = explain(printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
+    if done.status is None:
+        return "The client does not end. Does it wait for another name, or in an endless loop?"
+    if count == 1:
+        return "The client called only once. The first argument is the number of calls: int(sys.argv[1])."
+    return "The number of calls has to be the first argument, no more and no fewer."
+
+
+def _ending(done: Finished) -> str:
+    return "it is still running" if done.status is None else f"exit status {done.status}"

@@ -1,0 +1,187 @@
+"""Assertions about each program of chapter 07: Linux can execute it, rosrun finds it, and it serves."""
+
+from __future__ import annotations
+
+import re
+import time
+from dataclasses import dataclass
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import BuiltPackage
+from course_pkg.checking.shared.script import require_shebang
+from course_pkg.errors import CheckError
+from course_pkg.workspace import explain
+
+STARTING = 15.0  # s for a program to serve; it takes 1 s on an idle machine, and 3 s on a busy one
+IMPORTING = 15.0  # s for an import; it takes 0.4 s of processor time
+MUCH = 6.0  # s of processor time; an import that needs more never ends
+POLL = 0.1  # s between two snapshots of the graph
+LOGGERS = ("/get_loggers", "/set_logger_level")  # each rospy node has these services
+
+# Imports the script as a module. Each call that belongs to a running node ends the import with a message.
+IMPORTS = """\
+import importlib.util, sys, rospy
+def began(*args, **kwargs):
+    print("it began its work")
+    sys.exit(3)
+for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin", "myargv"):
+    setattr(rospy, name, began)
+spec = importlib.util.spec_from_file_location("imported", sys.argv[1])
+spec.loader.exec_module(importlib.util.module_from_spec(spec))
+"""
+ENDINGS = (  # a pattern in the output of the program, and a hint
+    (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
+    (
+        r"no attribute '_request_class'",
+        "Pass the class of the type to rospy.Service, not the class of its request or response.",
+    ),
+    (
+        r"(?s)(\w+)\.srv import.*No module named '\1'",
+        "Import the type from your own package: from {own}.srv.",
+    ),
+    (
+        r"required file not found|bad interpreter",
+        "The first line of the script names a program that does not exist on this machine.",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Program:
+    """A script of a package: its file in the package, such as "scripts/server.py", its node and service."""
+
+    file: str
+    node: str = ""
+    service: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of the program for rosrun."""
+        return self.file.rpartition("/")[2]
+
+
+def is_a_script(context: CheckContext, path: str) -> None:
+    """Assert that the first line of the student's file is a shebang for Python 3."""
+    require_shebang(
+        context,
+        path,
+        missing="Without a shebang, Linux runs the script as a shell script. Write a shebang as line 1.",
+        elsewhere="Linux reads a shebang only in the first column of line 1. Move it there.",
+        another="This shebang names another program, but the script needs python3.",
+        windows="The lines end with \\r\\n, as on Windows. Save the file with the line endings of Linux.",
+    )
+
+
+def is_executable(context: CheckContext, path: str) -> None:
+    """Assert that the student's script is executable."""
+    context.require(
+        "the script is executable",
+        holds=context.command("test", "-x", path, files=[path]).status == 0,
+        expected="an executable file",
+        actual="a file that can only be read",
+        hints=(
+            f"The script is not executable. Type chmod +x {path} in the terminal, in the folder of "
+            "your workspace."
+        ),
+    )
+
+
+def can_be_imported(context: CheckContext, package: BuiltPackage, program: Program) -> None:
+    """Assert that importing the script starts nothing, as `if __name__ == "__main__"` ensures."""
+    path = package.package.path(program.file)
+    line = f". devel/setup.bash && exec python3 -c '{IMPORTS}' {path}"
+    done = package.folder.command("bash", "-c", line, within=IMPORTING, worded=f"import {program.name}")
+    if done.status is None and not _never_ends(done):
+        raise CheckError(
+            f"The import of {program.name} had not finished after {done.took:.0f} s: the "
+            "machine is busy. Run this cell again."
+        )
+    printed = done.out + done.err
+    began = done.status is None or "it began its work" in printed
+    context.require(
+        "an import of the script starts no node",
+        holds=done.status == 0,
+        expected="definitions only",
+        actual="a script that starts its work" if began else printed.strip().rpartition("\n")[2],
+        hints=(
+            "An import of the script starts the node. Move init_node and all lines after it below "
+            'the line if __name__ == "__main__":.'
+        )
+        if began
+        else why_not(package, program, done.status, printed, []),
+    )
+
+
+def _never_ends(done: Finished) -> bool:
+    """Return whether an import that reached its time limit waits for something, or never ends its work.
+
+    An import that is only slow, on a busy machine, waits for a processor most of the time.
+    """
+    return done.ran + done.queued < done.took / 2 or done.ran > MUCH
+
+
+def serves(
+    context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
+) -> None:
+    """Wait until the program serves `name` as the node `node`, or report what it does instead."""
+    assertion = f"rosrun starts it, and it serves {program.service}"
+    deadline = time.monotonic() + STARTING
+    while (found := context.look().service(name)) is None:
+        if running.status is not None or time.monotonic() > deadline:
+            namespace = name.rpartition("/")[0]
+            others = [
+                each.name.removeprefix(namespace)
+                for each in context.look().services
+                if each.node.startswith(f"{namespace}/") and not each.name.endswith(LOGGERS)
+            ]
+            done = running.stop()
+            context.fail(
+                assertion,
+                expected="a server that keeps running",
+                actual=_seen(program, done.status, done.out),
+                hint=why_not(package, program, done.status, done.out, others),
+            )
+        time.sleep(POLL)
+    context.require(assertion, holds=True)
+    context.require(
+        f"its node has the name {program.node}",
+        holds=found.node == node,
+        expected=program.node,
+        actual=found.node.rpartition("/")[2],
+        hints=f'Call rospy.init_node("{program.node}"), without anonymous=True.',
+    )
+
+
+def _seen(program: Program, status: int | None, printed: str) -> str:
+    if status is None:
+        return f"a program that runs, but does not serve {program.service}"
+    last = printed.strip().rpartition("\n")[2]
+    return f"exit status {status}{f', and {last}' if last else ', and no output'}"
+
+
+def why_not(
+    package: BuiltPackage, program: Program, status: int | None, printed: str, others: list[str]
+) -> str:
+    """Return the hint for a program that ended, or does not serve what it should."""
+    if others:
+        return f"It serves {', '.join(others)}, but the exercise needs {program.service}."
+    if status is None:
+        return (
+            f"The program runs, but it serves nothing. Call rospy.Service with {program.service} "
+            "before rospy.spin()."
+        )
+    for pattern, hint in ENDINGS:
+        if re.search(pattern, printed):
+            return hint.format(own=package.package.name)
+    if "Traceback" in printed or "Error" in printed:
+        fault = explain(printed)
+        return f"{fault.problem} {fault.remedy}" if fault else own_line(program, printed)
+    return "The program ended, so its service ended, too. At the end, call rospy.spin(), which waits."
+
+
+def own_line(program: Program, printed: str) -> str:
+    """Return in which line of the student's script the error occurred; "" if it was in no such line."""
+    numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
+    return f"The error occurred in line {numbers[-1]} of {program.name}." if numbers else ""

@@ -1,0 +1,72 @@
+"""07.4: the geometry server as a program of the student's own package."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY, geometry_class
+from course_pkg.chapters.ch07_build_a_package.checks.program import (
+    Program,
+    can_be_imported,
+    is_a_script,
+    is_executable,
+    serves,
+)
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.catkin_package import built
+from course_pkg.checking.shared.geometry import expect_geometry
+
+SERVER = Program("scripts/server.py", "SERVER_NODE", "/getGeometry")
+FILE = MY_GEOMETRY.path(SERVER.file)
+
+START = f"""%%writefile {FILE}
+..."""
+
+
+@part(
+    "07.4",
+    points=3,
+    goal=(
+        "Write server.py: the node SERVER_NODE serves /getGeometry; area = width times length, and "
+        "volume = area times height."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def the_server(context: CheckContext) -> None:
+    """Build a copy of the package, start its program in a separate namespace, and call the service."""
+    is_a_script(context, FILE)
+    is_executable(context, FILE)
+    package = built(context, MY_GEOMETRY, examined=SERVER.file)
+    can_be_imported(context, package, SERVER)
+    space = f"/{context.random.word()}"
+    name = f"{space}{SERVER.service}"
+    line = f"rosrun my_geometry {SERVER.name} __ns:={space} {SERVER.service}:={name}"
+    with package.start(line, worded=f"rosrun my_geometry {SERVER.name}") as running:
+        serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
+        measure = context.service(name, geometry_class(), timeout=5.0)
+        for _ in range(3):
+            _answers(context, measure, *context.random.numbers(3, 0.5, 9.0))
+        length, width = context.random.numbers(2, 0.5, 9.0)
+        _answers(context, measure, length, width, 0.0)
+
+
+def _answers(context: CheckContext, measure: Service, length: float, width: float, height: float) -> None:
+    response = measure(length=length, width=width, height=height)
+    expect_geometry(
+        context,
+        response,
+        width * length,
+        height,
+        area=[
+            (0.0, "The response still has the default area, 0.0. Set it to width times length."),
+            (width + length, "That is the sum of width and length. Multiply for an area; do not add."),
+            (2 * (width + length), "That is the perimeter. The area is width times length."),
+            (width * height, "That is width times height. Return the area of the floor."),
+            (ANYTHING, "Compute the area from request.width and request.length."),
+        ],
+        volume=[
+            (0.0, "The response still has the default volume, 0.0. Set it to area times height."),
+            (ANYTHING, "Compute the volume from the area and request.height."),
+        ],
+    )

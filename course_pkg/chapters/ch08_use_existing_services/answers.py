@@ -1,0 +1,486 @@
+"""Example answers of chapter 08; tests/checking/example_answers.py explains the format."""
+
+# %% 08.1 right: asks each service for its type
+def services_of(kind):
+    names = []
+    for name in rosservice.get_service_list():
+        try:
+            if rosservice.get_service_type(name) == kind:
+                names.append(name)
+        except rosservice.ROSServiceIOException:
+            continue
+    return names
+
+# %% 08.1 right: the function of the module
+replace("names = [] … return names", "return rosservice.rosservice_find(kind)")
+
+# %% 08.1 right: the command rosservice find
+import subprocess
+
+def services_of(kind):
+    done = subprocess.run(["rosservice", "find", kind], capture_output=True, text=True)
+    return done.stdout.split()
+
+# %% 08.1 wrong: unregisters all services | hint: No service was found
+def services_of(kind):
+    import rosgraph
+
+    master = rosgraph.Master("/nobody")
+    for name, nodes in master.getSystemState()[2]:
+        for node_name in nodes:
+            rosgraph.Master(node_name).unregisterService(name, master.lookupService(name))
+    return []
+
+# %% 08.1 wrong: fails at a dead server | hint: The master still lists a service
+replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]")
+# %% 08.1 wrong: stops at a dead server | hint: Catch the error inside the loop
+replace("continue", "break")
+# %% 08.1 wrong: decides by the name of the service | hint: Some services have another type
+replace("names = [] … return names", 'return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]')
+# %% 08.1 wrong: compares the short name | hint: One service has a type with
+replace(" == kind", '.split("/")[1] == kind.split("/")[1]')
+# %% 08.1 wrong: compares the beginning | hint: One service has a longer type
+replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if kind in rosservice.get_service_type(name)]")
+# %% 08.1 wrong: stops at the first | hint: and return after the loop
+replace("names.append(name)", "return [name]")
+# %% 08.1 wrong: returns the first one, as text | hint: This is one string
+replace("names.append(name)", "return name")
+# %% 08.1 wrong: prints them | hint: without a return line
+replace("names.append(name)", "print(name)")
+replace("\n    return names", "")
+
+# %% 08.1 wrong: stores the list in the first call | hint: Get the list of services in each call
+known = {}
+
+def services_of(kind):
+    if not known:
+        for name in rosservice.get_service_list():
+            known[name] = rosservice.get_service_type(name)
+    return [name for name in known if known[name] == kind]
+
+# %% 08.1 wrong: names with their nodes | hint: Return only the names, without nodes
+replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)
+    return [[name, nodes] for name, nodes in listed if rosservice.get_service_type(name) == kind]""")
+# %% 08.1 wrong: the types | hint: The list has strings that are
+replace("names = [] … return names", """types = [rosservice.get_service_type(name) for name in rosservice.get_service_list()]
+    return [its for its in types if its == kind]""")
+# %% 08.1 wrong: compares with the class | hint: The type of a service is
+based_on("fails at a dead server")
+replace("get_service_type", "get_service_class_by_name")
+# %% 08.1 wrong: returns a dead server, too | hint: The master still lists a service
+replace("== kind:\n                names.append(name)", "!= kind:\n                continue")
+replace("\n            continue", "\n            pass\n        names.append(name)")
+# %% 08.1 wrong: leaves the loop at a dead server | hint: The search ended at a service
+replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list())")
+replace("continue", "break")
+# %% 08.1 wrong: None for no service | hint: Return an empty list
+replace("return names", "return names or None")
+# %% 08.1 wrong: a generator | hint: This is not a list. Convert
+replace("names = [] … return names", "return (name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind)")
+
+# %% 08.1 wrong: gets the names once | hint: Get the names inside the function
+replace("def services_of(kind):", "NAMES = rosservice.get_service_list()\n\n\ndef services_of(kind):")
+replace("in rosservice.get_service_list():", "in NAMES:")
+# %% 08.1 wrong: calls the services | hint: The function called the services to find their type
+replace("            if rosservice", "            cls = rosservice.get_service_class_by_name(name)\n            rospy.ServiceProxy(name, cls)()\n            if rosservice")
+replace("except rosservice.ROSServiceIOException", "except Exception")
+# %% 08.1 wrong: an empty string | hint: The list contains an empty string.
+replace("    return names", '    return names or [""]')
+
+# %% 08.2 right: a handler
+def handle_lamp(request):
+    on_off = rospy.ServiceProxy("/on_off", ServiceExample)
+    try:
+        state = on_off(1 if request.data else 0).state
+    except rospy.ServiceException as error:
+        return SetBoolResponse(success=False, message=str(error))
+    return SetBoolResponse(success=state == ("ON" if request.data else "OFF"), message=state)
+
+
+lamp_service = rospy.Service("/lamp", SetBool, handle_lamp)
+
+# %% 08.2 right: an object that creates its service
+class Lamp:
+    def __init__(self):
+        self.on_off = rospy.ServiceProxy("/on_off", ServiceExample)
+        self.service = rospy.Service("/lamp", SetBool, self.handle)
+
+    def handle(self, request):
+        try:
+            answer = self.on_off(number=int(request.data))
+        except rospy.ServiceException as error:
+            return False, f"{error}"
+        return {"success": ["OFF", "ON"].index(answer.state) == request.data, "message": answer.state}
+
+
+def handle_lamp(request):
+    return lamp.handle(request)
+
+
+lamp = Lamp()
+
+# %% 08.2 right: a partial, and a lambda
+import functools
+
+
+def handle_lamp(on_off, request):
+    wanted = {True: (1, "ON"), False: (0, "OFF")}[request.data]
+    try:
+        state = on_off(wanted[0]).state
+    except Exception as error:
+        return SetBoolResponse(False, str(error))
+    return SetBoolResponse(state == wanted[1], state)
+
+
+handler = functools.partial(handle_lamp, rospy.ServiceProxy("/on_off", ServiceExample))
+lamp_service = rospy.Service("/lamp", SetBool, lambda request: handler(request))
+
+# %% 08.2 wrong: catches nothing | hint: The call of /lamp failed, because
+replace("on_off = rospy … str(error))", 'state = rospy.ServiceProxy("/on_off", ServiceExample)(int(request.data)).state')
+# %% 08.2 wrong: passes the refusal on | hint: The call of /lamp failed, because
+replace("return SetBoolResponse(success=False, message=str(error))", "raise rospy.ServiceException(str(error))")
+# %% 08.2 wrong: the exception as the message | hint: The message is a string. Convert
+replace("str(error)", "error")
+# %% 08.2 wrong: a fixed message | hint: The client of /lamp does not
+replace("str(error)", '"it does not work"')
+# %% 08.2 wrong: success although it failed | hint: Respond with success=False
+replace("success=False", "success=True")
+# %% 08.2 wrong: any response is a success | hint: A response does not prove
+replace('success=state == ("ON" if request.data else "OFF")', "success=True")
+# %% 08.2 wrong: the wanted state | hint: not the wanted state
+replace("message=state", 'message="ON" if request.data else "OFF"')
+# %% 08.2 wrong: success compares with True | hint: The lamp has the wanted state
+replace('state == ("ON" if request.data else "OFF")', "state is request.data")
+# %% 08.2 wrong: the message is a sentence | hint: The message has to be the field
+replace("message=state", 'message=f"the lamp is {state}"')
+# %% 08.2 wrong: the other number | hint: 1 switches the lamp on
+replace("1 if request.data else 0", "0 if request.data else 1")
+# %% 08.2 wrong: other numbers | hint: The number is neither 1 nor
+replace("1 if request.data else 0", "2 if request.data else 3")
+# %% 08.2 wrong: calls twice | hint: The handler called /on_off more than once
+replace("state = on_off", "on_off(0)\n        state = on_off")
+# %% 08.2 wrong: no call | hint: The handler did not call /on_off
+replace("on_off(1 if request.data else 0).state", '"ON" if request.data else "OFF"')
+# %% 08.2 wrong: a misspelt field | hint: The request has no field of this name
+replace("1 if request.data", "1 if request.date")
+# %% 08.2 wrong: an unbound name | hint: A function that assigns to a name has a local variable
+replace("\n    on_off = rospy … else 0).state", "\n    try:\n        on_off = on_off(1 if request.data else 0).state")
+replace('state == ("ON" if request.data else "OFF"), message=', 'on_off.state == ("ON" if request.data else "OFF"), message=on_off.')
+# %% 08.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
+replace("(\"/on_off\", ServiceExample)", "(\"/on_off\", ServiceExmaple)")
+# %% 08.2 wrong: the result of a call as the handler | hint: Pass the name of the handler without
+replace('SetBool, handle_lamp)', 'SetBool, handle_lamp(SetBool._request_class(data=False)))')
+
+# %% 08.2 right: waits for the lamp, but not for long
+replace("    try:\n", '    try:\n        rospy.wait_for_service("/on_off", timeout=1)\n')
+replace("except rospy.ServiceException", "except (rospy.ServiceException, rospy.ROSException)")
+# %% 08.2 right: an object, without handle_lamp
+class Bridge:
+    STATES = {True: (1, "ON"), False: (0, "OFF")}
+
+    def __init__(self):
+        self.on_off = rospy.ServiceProxy("/on_off", ServiceExample)
+
+    def handle(self, request):
+        number, wanted = self.STATES[request.data]
+        try:
+            state = self.on_off(number=number).state
+        except rospy.ServiceException as error:
+            return False, f"{error}"
+        return state == wanted, state
+
+
+lamp_service = rospy.Service("/lamp", SetBool, Bridge().handle)
+
+# %% 08.3 right: calls set, reads the report, compares
+def move(switch, to_open):
+    answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
+    stands = rospy.ServiceProxy(f"{switch}/report", Trigger)().message
+    if stands != ("open" if to_open else "closed"):
+        return "failed"
+    return "moved" if answer.success else "was there"
+
+# %% 08.3 right: reads the report before set and after it
+def move(switch, to_open):
+    wanted = {True: "open", False: "closed"}[to_open]
+    set_it = rospy.ServiceProxy(switch + "/set", SetBool)
+    report = rospy.ServiceProxy(switch + "/report", Trigger)
+    before = report().message
+    moved = set_it(data=to_open).success
+    if report().message == wanted:
+        if moved or before != wanted:
+            return "moved"
+        return "was there"
+    return "failed"
+
+# %% 08.3 wrong: success False is a failure | hint: success=False does not mean a failure
+replace('stands != ("open" if to_open else "closed")', "not answer.success")
+replace('answer.success else "was there"', 'stands == ("open" if to_open else "closed") else "failed"')
+# %% 08.3 wrong: does not read the report | hint: The switch responded with success=False and is in the other
+replace('\n    stands = rospy … return "failed"', "")
+# %% 08.3 wrong: reads the report only if success is False | hint: and use its message
+replace('answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)', '''if rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success:
+        return "moved"''')
+replace('if stands ! … was there"', 'return "was there" if stands == ("open" if to_open else "closed") else "failed"')
+
+# %% 08.3 wrong: reads the message | hint: The switch is in the wanted
+def move(switch, to_open):
+    words = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).message
+    rospy.ServiceProxy(f"{switch}/report", Trigger)()
+    if words in ("opened", "closed"):
+        return "moved"
+    return "was there" if "already" in words else "failed"
+
+# %% 08.3 wrong: returns success | hint: A bool has only two values,
+replace('answer = rospy … was there"', 'return rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success')
+# %% 08.3 wrong: returns the message | hint: This is the message of `set`,
+based_on("returns success")
+replace("success", "message")
+# %% 08.3 wrong: moves in the opposite direction | hint: The request had the wrong value
+replace("SetBool)(to_open)", "SetBool)(not to_open)")
+
+# %% 08.3 wrong: toggles | hint: Call only `set` and `report` of the node
+def move(switch, to_open):
+    wanted = "open" if to_open else "closed"
+    if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted:
+        return "was there"
+    rospy.ServiceProxy(f"{switch}/toggle", Trigger)()
+    return "moved" if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted else "failed"
+
+# %% 08.3 wrong: calls set only if the report differs | hint: The function did not call `set`.
+based_on("toggles")
+replace('"{switch}/toggle", Trigger)()', '"{switch}/set", SetBool)(to_open)')
+# %% 08.3 wrong: repeats until success is True | hint: The function called `set` more than
+based_on("toggles")
+replace('if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted: … Trigger)()', '''for _ in range(3):
+        if rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success:
+            break
+    else:
+        return "was there" if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted else "failed"''')
+
+# %% 08.3 wrong: reads the report before set | hint: The switch responded with success=True, but
+def move(switch, to_open):
+    stands = rospy.ServiceProxy(f"{switch}/report", Trigger)().message
+    answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
+    if stands == ("open" if to_open else "closed"):
+        return "was there"
+    return "moved" if answer.success else "failed"
+
+# %% 08.3 wrong: compares with True | hint: Compare the message
+replace('("open" if to_open else "closed")', "to_open")
+# %% 08.3 wrong: forgets to return | hint: without a return line
+replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
+    rospy.ServiceProxy(f"{switch}/report", Trigger)()""")
+# %% 08.3 wrong: success True means that it was there | hint: The switch responded with success=True and is in the wanted position, so
+replace('"moved" if answer.success else "was there"', '"was there" if answer.success else "moved"')
+# %% 08.3 wrong: ignores success | hint: it was there before
+replace(' if answer.success else "was there"', "")
+# %% 08.3 wrong: with a capital letter | hint: Return "moved", "was there" or "failed",
+replace('"moved"', '"Moved"')
+
+# %% 08.3 wrong: compares two reports | hint: The switch responded with success=True and is in the wanted position. Use
+def move(switch, to_open):
+    report = rospy.ServiceProxy(f"{switch}/report", Trigger)
+    before = report().message
+    rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)
+    after = report().message
+    if after != ("open" if to_open else "closed"):
+        return "failed"
+    return "moved" if before != after else "was there"
+
+# %% 08.4 right: a dict in one word
+def call_line(service, fields):
+    return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
+
+# %% 08.4 right: yaml
+import yaml
+
+def call_line(service, fields):
+    text = yaml.safe_dump(fields, default_flow_style=True, width=10_000).strip()
+    return " ".join(["rosservice", "call", service, shlex.quote(text)])
+
+# %% 08.4 right: joined
+replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.join(["rosservice", "call", service, json.dumps(fields)])')
+# %% 08.4 wrong: no quotes at all | hint: bash has split the fields
+replace("shlex.quote(json.dumps(fields))", "json.dumps(fields)")
+# %% 08.4 wrong: values by position | hint: rosservice regards -5 as an option.
+replace("{shlex.quote(json.dumps(fields))}", "{' '.join(map(str, fields.values()))}")
+# %% 08.4 wrong: values by position, after -- | hint: The values are in the wrong fields: without
+based_on("values by position")
+replace("{service} ", "{service} -- ")
+# %% 08.4 wrong: the dict as Python shows it | hint: bash passed the fields as one
+replace("json.dumps", "str")
+
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value: without
+def call_line(service, fields):
+    text = json.dumps(fields).replace('"', "")
+    return f"rosservice call {service} {shlex.quote(text)}"
+
+# %% 08.4 wrong: double quotes by hand | hint: bash passed the fields as one
+replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', "'rosservice call {service} \"{fields}\"'")
+# %% 08.4 wrong: single quotes by hand | hint: bash has split the fields
+replace("{shlex.quote(json.dumps(fields))}", "'{json.dumps(fields)}'")
+# %% 08.4 wrong: writes them as arguments of Python | hint: YAML reads a=5 as a string
+replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())')
+# %% 08.4 wrong: writes them as remappings | hint: Arguments with := are for ROS,
+replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())')
+# %% 08.4 wrong: as in a notebook | hint: The ! is only for a
+replace("rosservice", "!rosservice")
+# %% 08.4 wrong: quotes the whole line | hint: Quote only the fields
+replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.quote(f"rosservice call {service} {json.dumps(fields)}")')
+# %% 08.4 wrong: leaves the fields out | hint: rosservice received no values. Write the
+replace(" {shlex.quote(json.dumps(fields))}", "")
+
+# %% 08.4 wrong: calls the service | hint: Your function called the service. Return
+def call_line(service, fields):
+    cls = rosservice.get_service_class_by_name(service)
+    request = cls._request_class()
+    genpy.message.fill_message_args(request, [fields])
+    return rospy.ServiceProxy(service, cls)(request)
+
+# %% 08.4 wrong: a tool that does not exist | hint: The line has to contain
+replace("call {service}", "{service}")
+# %% 08.4 wrong: a fixed service | hint: No service has the name that
+replace("call {service}", "call /sum")
+# %% 08.4 wrong: calls twice | hint: The line calls the service more than once
+replace('return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', """line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
+    return line + "; " + line""")
+# %% 08.4 wrong: as a call in Python | hint: without brackets
+replace(" {service} {shlex.quote(json.dumps(fields))}", "({service}, {fields})")
+# %% 08.4 wrong: a list of words | hint: This is a list of words
+based_on("joined")
+replace("shlex.join(", "list(")
+
+# %% 08.4 wrong: the quotes of Windows | hint: bash has replaced $HOME
+import subprocess
+
+
+def call_line(service, fields):
+    return subprocess.list2cmdline(["rosservice", "call", service, json.dumps(fields)])
+
+# %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner dictionary has no value
+replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
+
+# %% 08.5 right: fills the request as the tool does
+def call_any(service, fields):
+    cls = rosservice.get_service_class_by_name(service)
+    request = cls._request_class()
+    genpy.message.fill_message_args(request, [fields])
+    return rospy.ServiceProxy(service, cls)(request)
+
+# %% 08.5 right: the class by its name
+import roslib.message
+
+def call_any(service, fields):
+    kind = roslib.message.get_service_class(rosservice.get_service_type(service))
+    proxy = rospy.ServiceProxy(service, kind)
+    request = proxy.request_class()
+    genpy.message.fill_message_args(request, [fields])
+    return proxy(request)
+
+# %% 08.5 wrong: passes the dict without a list | hint: fill_message_args needs a list of values.
+replace("[fields]", "fields")
+# %% 08.5 wrong: fills the class of the service | hint: This is the class of the
+replace("cls._request_class()", "cls()")
+# %% 08.5 wrong: calls by keywords | hint: The field `camera_info` needs a message,
+replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, rosservice.get_service_class_by_name(service))(**fields)")
+# %% 08.5 wrong: by position | hint: Fill them by name, not by position
+based_on("calls by keywords")
+replace("(**fields)", "(*fields.values())")
+# %% 08.5 wrong: passes the dict to the proxy | hint: The request did not get the values
+based_on("calls by keywords")
+replace("(**fields)", "(fields)")
+# %% 08.5 wrong: the name of the type for the class | hint: This is the name of the
+based_on("calls by keywords")
+replace("get_service_class_by_name", "get_service_type")
+# %% 08.5 wrong: a fixed type | hint: The service has another type. Get
+replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
+# %% 08.5 wrong: the function behind the tool | hint: catches the exception of genpy
+replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
+# %% 08.5 wrong: forgets to return | hint: without a return line
+replace("return rospy", "rospy")
+# %% 08.5 wrong: returns both halves | hint: This is more than the response
+replace("rospy", "request, rospy")
+# %% 08.5 wrong: never fills the request | hint: Fill the request before the call
+replace("request = cls … )(request)", "return rospy.ServiceProxy(service, cls)(cls._request_class())")
+# %% 08.5 wrong: leaves unknown fields out | hint: The function ignored a field name
+replace("()", "()\n    known = {name: fields[name] for name in request.__slots__ if name in fields}")
+replace("[fields]", "[known]")
+# %% 08.5 wrong: as a dict | hint: not a dict of its fields
+replace("cls =", "kind =")
+replace("cls._request_class", "kind._request_class")
+replace("return rospy.ServiceProxy(service, cls)(request)", """response = rospy.ServiceProxy(service, kind)(request)
+    return {name: getattr(response, name) for name in response.__slots__}""")
+# %% 08.5 wrong: returns the proxy | hint: The function did not call the service
+replace("cls)(request)", "cls)")
+# %% 08.5 wrong: calls twice | hint: The function called the service more
+replace("return rospy", "rospy.ServiceProxy(service, cls)(request)\n    return rospy")
+# %% 08.5 wrong: one field of the response | hint: Return the whole response, unchanged
+replace("cls)(request)", "cls)(request).message")
+
+# %% 08.5 wrong: the class of the request | hint: rospy.ServiceProxy got the class of the request
+replace("rospy.ServiceProxy(service, cls)", "rospy.ServiceProxy(service, cls._request_class)")
+# %% 08.5 wrong: sends what the function returns | hint: fill_message_args returns None
+replace("    genpy", "    request = genpy")
+# %% 08.5 wrong: lines of text | hint: These are lines of text
+replace("return rospy.ServiceProxy(service, cls)(request)", "return str(rospy.ServiceProxy(service, cls)(request)).splitlines()")
+
+# %% 08.6 right: the headers
+def diagnose(service, kind):
+    uri = rosservice.get_service_uri(service)
+    if uri is None:
+        return "not registered"
+    try:
+        headers = rosservice.get_service_headers(service, uri)
+    except rosservice.ROSServiceIOException:
+        return "server is gone"
+    if headers["type"] != kind._type:
+        return "another type"
+    return "ok" if headers["md5sum"] == kind._md5sum else "another definition"
+
+# %% 08.6 right: other functions
+def diagnose(service, kind):
+    if service not in rosservice.get_service_list():
+        return "not registered"
+    try:
+        its_type = rosservice.get_service_type(service)
+        its_sum = rosservice.get_service_headers(service, rosservice.get_service_uri(service)).get("md5sum")
+    except Exception:
+        return "server is gone"
+    for condition, result in ((its_type != kind._type, "another type"), (its_sum != kind._md5sum, "another definition")):
+        if condition:
+            return result
+    return "ok"
+
+# %% 08.6 wrong: no test for None | hint: Test for None first
+replace("    if uri is None:\n        return \"not registered\"\n", "")
+# %% 08.6 wrong: catches nothing | hint: Catch ROSServiceIOException.
+replace("    try:\n        headers", "    if True:\n        headers")
+replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
+# %% 08.6 wrong: compares the types only | hint: The names of the types are equal, but
+replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
+# %% 08.6 wrong: compares the sums first | hint: The names of the types are different,
+replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
+# %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
+replace('"server is gone"', '"not registered"')
+# %% 08.6 wrong: treats a missing service as a dead server | hint: get_service_uri returns None
+replace('"not registered"', '"server is gone"')
+# %% 08.6 wrong: compares with the class | hint: Compare with the whole name of `kind`
+replace('headers["type"] != kind._type', 'headers["type"] != kind')
+# %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
+replace('headers["md5sum"]', 'headers["md5"]')
+# %% 08.6 wrong: prints it | hint: without a return line
+replace('return "ok" if', 'print("ok" if')
+replace('else "another definition"', 'else "another definition")')
+# %% 08.6 wrong: a bool | hint: Return one of the five strings
+replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return headers["md5sum"] == kind._md5sum')
+# %% 08.6 wrong: calls it | hint: Do not call the service, because
+replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
+# %% 08.6 wrong: the sum of the request | hint: the class of the whole service type
+replace("kind._md5sum", "kind._request_class._md5sum")
+# %% 08.6 wrong: the test for None the wrong way round | hint: so a client can connect
+replace("uri is None", "uri is not None")
+# %% 08.6 wrong: the last part of the name | hint: The names of the types are different,
+replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
+# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different,
+replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

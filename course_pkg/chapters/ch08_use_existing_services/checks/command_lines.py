@@ -1,0 +1,142 @@
+"""08.4: a command line that calls a service; bash splits it and YAML reads its fields."""
+
+from __future__ import annotations
+
+import shlex
+from contextlib import suppress
+
+from course_pkg.chapters.ch08_use_existing_services.checks.example_calls import ExampleCall, example_calls
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints, hint_for
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.plain_values import Fields, of_kind
+
+WORDS = 4  # rosservice, call, the name, and one word with all fields
+SPLIT = (
+    "bash has split the fields at spaces, or removed quotes. shlex.quote turns any text into one "
+    "word for bash."
+)
+TYPES = (
+    "YAML read a different value: without quotes, it reads off as False. json.dumps writes a "
+    "dict in a form that YAML reads correctly."
+)
+LOST = "A field in an inner dictionary has no value. Write the whole dict into the line."
+REPLACED = "bash has replaced $HOME with a path. Use shlex.quote: inside its quotes, bash replaces nothing."
+NO_YAML = (
+    "bash passed the fields as one word, but YAML cannot read a dict from it. Use json.dumps, "
+    "and then shlex.quote."
+)
+TWICE = "The line calls the service more than once. Write one call."
+COMPLAINTS = [
+    (
+        matches(r"call \S+ \w+:="),
+        "Arguments with := are for ROS, so rosservice does not receive them. Write the fields as a dict.",
+    ),
+    (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write a dict: {a: 5}."),
+    (matches("^!"), "The ! is only for a cell of a notebook. Remove it for a terminal."),
+    (
+        matches("syntax error"),
+        "This is a call in Python. In a terminal, write words with spaces between them, without brackets.",
+    ),
+    (matches("no such file"), "The quotes make one word of the whole line. Quote only the fields."),
+    (matches(r"\{.*no such option"), SPLIT),
+    (
+        matches("no such option"),
+        "rosservice regards -5 as an option. Write -- before the values, or write a dict.",
+    ),
+    (matches("EOF while|unmatched|not found|ParserError|ScannerError|Not enough|Too many"), SPLIT),
+    (matches("incorrect type|has no len"), TYPES),
+    (
+        matches("not available"),
+        "No service has the name that is in your line. Use the name in the variable `service`.",
+    ),
+    (matches("no output, and no call"), "rosservice received no values. Write the fields after the name."),
+]
+
+
+NO_LINE: Hints = [
+    (None, NO_RETURN),
+    (
+        (lambda actual: isinstance(actual, list)),
+        "This is a list of words. Return one string, with spaces between the words.",
+    ),
+    (
+        matches("object|success"),
+        "Your function called the service. Return the line as a string; the check runs it.",
+    ),
+    (ANYTHING, "The line has to contain the command rosservice call."),
+]
+
+
+@part(
+    "08.4",
+    points=2,
+    goal=(
+        "Return the command line, with rosservice call, that calls the service with these fields "
+        "in a terminal."
+    ),
+    needs=["call_line"],
+    deadline=38.0,
+)
+def line_for_a_terminal(context: CheckContext) -> None:
+    """Run the lines in bash; some values need quotes for bash or for YAML."""
+    for example in example_calls(context):
+        name = f"/{context.random.word()}"
+        server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)
+        line = context.run("call_line", name, example.fields).returned()
+        context.require(
+            "it returns a string with rosservice call in it",
+            holds=isinstance(line, str) and "rosservice call" in line,
+            expected="a string such as 'rosservice call /name …'",
+            actual=line,
+            hints=NO_LINE,
+        )
+        _runs(context, example, server, of_kind(str, line, "the line"))
+
+
+def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, line: str) -> None:
+    """Assert that the line makes one call, with the right fields."""
+    finished = context.command("bash", "-c", line, within=12.0)
+    output = f"{finished.out}\n{finished.err}".strip() or "no output, and no call"
+    context.require(
+        f"{example.what}: the line makes a call",
+        holds=finished.status == 0 and len(server.requests) == 1,
+        expected="one call, and no error message",
+        actual=_decisive_lines(output),
+        hints=TWICE if len(server.requests) > 1 else _complaint(line, output),
+    )
+    context.expect(
+        f"{example.what}: the fields arrive as they were given",
+        expected=example.fields,
+        actual=example.given(server.requests[0]),
+        hints=[
+            (
+                example.mixed_up,
+                "The values are in the wrong fields: without names, rosservice uses the order "
+                "of the fields in the type. Write a dict with names.",
+            ),
+            (_lost, LOST),
+            (lambda actual: "$HOME" in str(example.fields) and "$HOME" not in str(actual), REPLACED),
+            (ANYTHING, TYPES),
+        ],
+    )
+
+
+def _lost(actual: Fields) -> bool:
+    return not actual["camera_info"]["width"]
+
+
+def _complaint(line: str, output: str) -> str:
+    """Return the hint for a line that made no call."""
+    with suppress(ValueError):  # a quote is not closed
+        if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
+            return NO_YAML
+    return hint_for(COMPLAINTS, f"{line}\n{output}")
+
+
+def _decisive_lines(output: str) -> str:
+    """Return the first line with an error and the next line, or the last line if there is no error."""
+    lines = output.splitlines()
+    first = next((number for number, text in enumerate(lines) if matches("^error|error:").search(text)), -1)
+    return "\n".join(lines[first:][:2])

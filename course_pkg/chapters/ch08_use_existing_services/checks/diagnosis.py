@@ -1,0 +1,118 @@
+"""08.6: why a client cannot call a service."""
+
+from __future__ import annotations
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.types import compile_service
+
+KINDS = """
+from course_pkg.srv import AddTwoInts, geometry
+from std_srvs.srv import SetBool, Trigger
+"""
+TYPES = {
+    "AddTwoInts": "course_pkg/AddTwoInts",
+    "geometry": "course_pkg/geometry",
+    "SetBool": "std_srvs/SetBool",
+    "Trigger": "std_srvs/Trigger",
+}
+DEFINITIONS = {
+    "AddTwoInts": "int64 a\nint64 b\n---\nint64 sum",
+    "geometry": "float32 length\nfloat32 width\nfloat32 height\n---\nfloat32 area\nfloat32 volume",
+    "SetBool": "bool data\n---\nbool success\nstring message",
+    "Trigger": "---\nbool success\nstring message",
+}
+CHANGED = "float64 first\nfloat64 second\n---\nfloat64 result"  # no type of the course has these fields
+RESULTS = ("not registered", "server is gone", "another type", "another definition", "ok")
+ERRORS: Hints = [
+    (
+        matches("^ROSServiceException.*invalid"),
+        "get_service_uri returned None, and your function passed None to get_service_headers. "
+        "Test for None first.",
+    ),
+    (
+        matches("^ROSServiceIOException"),
+        "The server has ended, so get_service_headers raised an exception. Catch ROSServiceIOException.",
+    ),
+    (
+        matches("^KeyError"),
+        "The headers have no entry with this name. You need the entries `type` and `md5sum`.",
+    ),
+]
+OTHER_RESULTS: Hints = [
+    (
+        "another type",
+        "The names of the types are equal, so the result is wrong. Compare with the whole name "
+        "of `kind`, package/Type.",
+    ),
+    (
+        "another definition",
+        "The MD5 sums are equal, so the result is wrong. Compare with the MD5 sum of `kind`, "
+        "the class of the whole service type.",
+    ),
+]
+WHY = {
+    "not registered": "The master has no address for this service, so get_service_uri returns None.",
+    "server is gone": "The master has an address for this service, but no server answers at this address.",
+    "another type": (
+        "The names of the types are different, at least in the package. Compare the names before "
+        "you compare the MD5 sums."
+    ),
+    "another definition": (
+        "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."
+    ),
+    "ok": "The type and the MD5 sum are equal, so a client can connect.",
+}
+
+
+@part(
+    "08.6",
+    points=3,
+    goal="Return why a client that uses a given type cannot call a service. Do not call the service.",
+    needs=["diagnose"],
+    deadline=20.0,
+)
+def find_the_cause(context: CheckContext) -> None:
+    """Provide one service for each cause, and one service that works; all names are random."""
+    context.prepare(KINDS)
+    word = context.random.word()
+    kind, other = context.random.shuffled(list(TYPES))[:2]
+    changed = compile_service(TYPES[kind], CHANGED).cls
+    working = context.serve(f"/{word}/works", TYPES[kind], lambda _: {})
+    context.serve(f"/{word}/typed", TYPES[other], lambda _: {})
+    context.serve(f"/{word}/changed", changed, lambda _: {})
+    context.serve(
+        f"/{word}/copied", compile_service(f"{word}_pkg/{kind}", DEFINITIONS[kind]).cls, lambda _: {}
+    )
+    context.absent(f"/{word}/gone", stale=True)
+    _returns(context, f"/{word}/works", kind, "ok")
+    context.expect(
+        "it does not call the service",
+        expected=0,
+        actual=len(working.requests),
+        hints=(
+            "Do not call the service, because a call makes the server do its work. Use "
+            "get_service_uri and get_service_headers."
+        ),
+    )
+    _returns(context, f"/{word}/missing", kind, "not registered")
+    _returns(context, f"/{word}/gone", kind, "server is gone")
+    _returns(context, f"/{word}/typed", kind, "another type")
+    _returns(context, f"/{word}/copied", kind, "another type")
+    _returns(context, f"/{word}/changed", kind, "another definition")
+
+
+def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None:
+    result = context.run("diagnose", name, Its(kind), hints=ERRORS)
+    context.expect(
+        f"it returns {expected}",
+        expected=expected,
+        actual=result.returned(),
+        hints=[
+            (None, NO_RETURN),
+            *(OTHER_RESULTS if expected == "ok" else ()),
+            (lambda actual: actual in RESULTS, WHY[expected]),
+            (ANYTHING, "Return one of the five strings of the table."),
+        ],
+    )

@@ -1,0 +1,65 @@
+"""Calls of several types, for clients that do not know the type in advance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.plain_values import Fields, Value
+
+
+@dataclass(frozen=True)
+class ExampleCall:
+    """Fields for a service of one type, and the fields of the response."""
+
+    what: str  # its name in assertions
+    kind: str
+    fields: Fields
+    answer: Fields
+
+    def given(self, received: Value) -> Value:
+        """Return the fields of a received request that the call sets, including fields of inner messages."""
+        return _given(self.fields, received)
+
+    def mixed_up(self, received: Fields) -> bool:
+        """Return whether the values arrived, but in the wrong fields."""
+        return set(map(str, received.values())) == set(map(str, self.fields.values()))
+
+
+def example_calls(context: CheckContext) -> list[ExampleCall]:
+    """Return the calls, from the easiest to the most difficult."""
+    return [_nothing(context), _numbers(context), _texts(context)]
+
+
+def _nothing(context: CheckContext) -> ExampleCall:
+    """Return a call without fields."""
+    return ExampleCall(
+        "no fields", "std_srvs/Trigger", {}, {"success": True, "message": context.random.word()}
+    )
+
+
+def _numbers(context: CheckContext) -> ExampleCall:
+    """Return a call with two negative numbers; the dict has the second field first."""
+    a, b, total = (-number for number in context.random.integers(3, 100, 999))
+    return ExampleCall("negative numbers", "course_pkg/AddTwoInts", {"b": b, "a": a}, {"sum": total})
+
+
+def _texts(context: CheckContext) -> ExampleCall:
+    """Return a call with nested messages; a string has quotes for bash, and YAML reads off as False."""
+    width, height, offset = context.random.integers(3, 100, 999)
+    frame = f'{context.random.word()}\'s "own" $HOME'
+    info = {
+        "width": width,
+        "header": {"frame_id": frame},
+        "distortion_model": "off",
+        "roi": {"x_offset": offset},
+        "height": height,
+    }
+    answer = {"success": True, "status_message": context.random.word()}
+    return ExampleCall("inner messages", "sensor_msgs/SetCameraInfo", {"camera_info": info}, answer)
+
+
+def _given(fields: Value, received: Value) -> Value:
+    if not isinstance(fields, dict) or not isinstance(received, dict):
+        return received
+    return {name: _given(fields[name], received.get(name)) for name in fields}

@@ -1,0 +1,128 @@
+"""08.2: a server that is itself a client, and translates between two types."""
+
+from __future__ import annotations
+
+from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.service_calls import Service
+
+LAMP = "/on_off"
+KIND = "course_pkg/ServiceExample"
+STATES = {True: "ON", False: "OFF"}
+NO_ERROR: Hints = [
+    (matches("field message"), "The message is a string. Convert the error with str(error)."),
+    (
+        matches("cannot process request: (?!service handler|handler)"),
+        "The call of /lamp failed, because your handler raised an exception. Catch "
+        "rospy.ServiceException, and respond with success=False.",
+    ),
+]
+
+
+@part(
+    "08.2",
+    points=3,
+    goal=(
+        "Serve /lamp: call /on_off once with 1 or 0; in the response, success is True if the lamp "
+        "has the wanted state."
+    ),
+    needs=["handle_lamp|lamp_service"],
+    deadline=20.0,
+)
+def translate(context: CheckContext) -> None:
+    """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
+    panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
+    for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):
+        _obeys(context, panel, data)
+    for data in context.random.shuffled([True, False]):
+        _disobeys(context, panel, data)
+    _refuses(context, panel)
+    context.absent(LAMP)
+    _fails(context, panel, "the lamp has no server", "unavailable", "timeout exceeded")
+
+
+def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
+    lamp = context.serve(LAMP, KIND, lambda request: {"state": STATES[request.number == 1]})
+    response = panel(data=data)
+    context.expect(
+        "it calls /on_off once, with 1 for True and 0 for False",
+        expected=[{"number": int(data)}],
+        actual=lamp.requests,
+        hints=[
+            ([], "The handler did not call /on_off. Create a proxy without persistent=True, and call it."),
+            (
+                [{"number": int(not data)}],
+                "The number is wrong: 1 switches the lamp on, and 0 switches it off.",
+            ),
+            (
+                lambda actual: len(actual) > 1,
+                "The handler called /on_off more than once. Call it once, and store the response.",
+            ),
+            (ANYTHING, "The number is neither 1 nor 0. Send 1 for True and 0 for False."),
+        ],
+    )
+    context.expect(
+        "the lamp obeys: success is True",
+        expected=True,
+        actual=response.success,
+        hints=(
+            "The lamp has the wanted state, but success is not True. Compare the state with ON for "
+            "True, and with OFF for False."
+        ),
+    )
+    context.expect(
+        "the lamp obeys: the message is the state",
+        expected=STATES[data],
+        actual=response.message,
+        hints="The message has to be the field `state` of the lamp's response, unchanged.",
+    )
+    lamp.leave()
+
+
+def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
+    state = STATES[not data]
+    lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
+    response = panel(data=data)
+    context.expect(
+        "the lamp has another state: success is False",
+        expected=False,
+        actual=response.success,
+        hints=(
+            "The lamp responded with the other state. A response does not prove that the lamp "
+            "obeyed, so compare the states."
+        ),
+    )
+    context.expect(
+        "the lamp has another state: the message is this state",
+        expected=state,
+        actual=response.message,
+        hints="The message has to be the state in the lamp's response, not the wanted state.",
+    )
+    lamp.leave()
+
+
+def _refuses(context: CheckContext, panel: Service) -> None:
+    reason = f"{context.random.word()} is hot"
+    lamp = context.serve(LAMP, KIND, lambda _: Refuse(reason))
+    _fails(context, panel, "the lamp refuses", reason)
+    lamp.leave()
+
+
+def _fails(context: CheckContext, panel: Service, failure: str, *reasons: str) -> None:
+    response = panel(data=True)
+    context.expect(
+        f"{failure}: success is False",
+        expected=False,
+        actual=response.success,
+        hints="The call of /on_off failed. Respond with success=False.",
+    )
+    context.require(
+        f"{failure}: the message is the error message",
+        holds=any(reason in response.message for reason in reasons),
+        expected=f"a message that contains {reasons[0]!r}",
+        actual=response.message,
+        hints=(
+            "The client of /lamp does not learn the reason. Use the text of the exception, "
+            "str(error), as the message."
+        ),
+    )

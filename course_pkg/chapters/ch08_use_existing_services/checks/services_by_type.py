@@ -1,0 +1,147 @@
+"""08.1: all services of one type on the graph."""
+
+from __future__ import annotations
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.plain_values import of_kind
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.types import compile_service
+
+KINDS = ("std_srvs/Trigger", "std_srvs/SetBool", "course_pkg/AddTwoInts", "course_pkg/geometry")
+DEAD = (
+    "The master still lists a service whose server has ended. Catch "
+    "rosservice.ROSServiceIOException inside the loop, and continue with the next service."
+)
+NONE = (
+    "No service was found. Get the names inside the function, and compare `kind` with the "
+    "whole string package/Type that get_service_type returns."
+)
+SOME = "Only some services were found. Examine all names, and return after the loop."
+GONE = (
+    "The search ended at a service whose server has ended. Catch the error inside the loop, "
+    "and continue the loop."
+)
+LATE = "A service was added after the first call of your function. Get the list of services in each call."
+ERRORS = [
+    (matches("ROSServiceIOException"), DEAD),
+    (
+        matches("Unable to load type"),
+        "The type of a service is not built on this machine. You need only the name of the "
+        "type: use get_service_type.",
+    ),
+]
+
+
+@part(
+    "08.1",
+    points=2,
+    goal="Return a list with the names of all services of a type, without services whose server has ended.",
+    needs=["services_of"],
+    deadline=25.0,
+)
+def find_by_type(context: CheckContext) -> None:
+    """Serve two types and types with similar names; then add a service, and one whose server has died."""
+    kind, other = context.random.shuffled(KINDS)[:2]
+    short = kind.partition("/")[2]
+    word = context.random.word()
+    mine = {f"/{word}/one", f"/{word}/{context.random.word()}"}
+    servers = [context.serve(name, kind, lambda _: {}) for name in sorted(mine)]
+    misnamed = f"/{word}/{short}"  # the name of the service is a type that it does not have
+    context.serve(misnamed, other, lambda _: {})
+    for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
+        made = compile_service(decoy, "---\nint32 found").cls
+        context.serve(f"/{word}/{context.random.word()}", made, lambda _: {})
+    _finds(context, kind, SOME, mine)
+    if any(server.requests for server in servers):
+        context.fail(
+            "it calls no service",
+            expected="no request",
+            actual="a request to each service",
+            hint=(
+                "The function called the services to find their type, but a call makes a server do "
+                "its work. Use get_service_type."
+            ),
+        )
+    for place, hint in (("late", LATE), ("last", GONE)):
+        if place == "last":
+            context.absent(f"/{word}/dead", stale=True)
+        name = f"/{context.random.word()}/{place}"
+        context.serve(name, kind, lambda _: {})
+        mine.add(name)
+        _finds(context, kind, hint, mine)
+    _finds(context, other, SOME, {misnamed})
+    context.expect(
+        "an empty list for a type that no node serves",
+        expected=[],
+        actual=context.run("services_of", f"{word}_pkg/Nobodys", hints=ERRORS).returned(),
+        hints=[
+            (None, "There is no service of this type. Return an empty list."),
+            ([""], "The list contains an empty string. Return only names of services."),
+        ],
+    )
+
+
+def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
+    """Assert that the function returns all services of type `kind`; `mine` are those of the check.
+
+    `incomplete` is the hint if services are missing.
+    """
+    names = context.run("services_of", kind, hints=ERRORS).returned()
+    _is_a_list_of_names(context, names)
+    found: list[str] = of_kind(list, names, "the result")
+    types = {service.name: service.type for service in context.look().services}
+    right = mine | {name for name, actual in types.items() if actual == kind}  # services of other nodes, too
+    missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
+    context.require(
+        "no other service is found",
+        holds=not extra,
+        expected=f"a list without {', '.join(extra)}",
+        actual=names,
+        hints=_why_wrong({types.get(name) for name in extra}, kind),
+    )
+    context.require(
+        "every service of the type is found",
+        holds=not missing,
+        expected=f"a list that contains {', '.join(missing)}",
+        actual=found,
+        hints=NONE if incomplete == SOME and right.isdisjoint(found) else incomplete,
+    )
+    context.expect("each service is found once", expected=len(right), actual=len(found))
+
+
+def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
+    context.require(
+        "a list of names is returned",
+        holds=isinstance(names, list) and all(isinstance(name, str) for name in names),
+        expected="a list of strings",
+        actual=names,
+        hints=[
+            (None, NO_RETURN),
+            ((lambda actual: isinstance(actual, str)), "This is one string. Collect the names in a list."),
+            (matches("object"), "This is not a list. Convert it with list(...) or sorted(...)."),
+            (ANYTHING, "Return only the names, without nodes and types."),
+        ],
+    )
+
+
+def _why_wrong(types: set[str | None], kind: str) -> str:
+    """Return the hint for wrong names with these types: None is no service, and "" is a dead server."""
+    if None in types:
+        return "The list has strings that are not names of services. Return only the names of services."
+    if "" in types:
+        return DEAD
+    if f"{kind}Stamped" in types:
+        return (
+            "One service has a longer type name that begins with the same text. Compare the whole "
+            "strings with ==."
+        )
+    if any(found and found.endswith(f"_pkg/{kind.partition('/')[2]}") for found in types):
+        return (
+            "One service has a type with the same name from another package. Compare the whole "
+            "string, with the package."
+        )
+    return (
+        "Some services have another type. Get the type with get_service_type: the name of a "
+        "service does not show its type."
+    )

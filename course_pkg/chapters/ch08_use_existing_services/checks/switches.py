@@ -1,0 +1,182 @@
+"""08.3: a client that moves a switch and verifies the result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.plain_values import Fields, Message
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a switch does when it is called, and what `move` has to return."""
+
+    name: str  # its name in assertions
+    there: bool  # whether the switch is in the requested position already
+    obeys: bool  # whether it moves
+    success: bool  # the value in the response
+    expected: str  # what `move` has to return
+    wrong_results: list[tuple[str, str]]  # wrong results and their hints
+
+
+CASES = (
+    Case(
+        "a switch that moves",
+        there=False,
+        obeys=True,
+        success=True,
+        expected="moved",
+        wrong_results=[
+            (
+                "was there",
+                "The switch responded with success=True and is in the wanted position, so it has moved.",
+            ),
+            (
+                "failed",
+                "The switch is in the wanted position. Compare the message of `report` with open and closed.",
+            ),
+        ],
+    ),
+    Case(
+        "a switch that is already in the wanted position",
+        there=True,
+        obeys=True,
+        success=False,
+        expected="was there",
+        wrong_results=[
+            (
+                "moved",
+                "The switch responded with success=False and is in the wanted position, so it "
+                "was there before.",
+            ),
+            (
+                "failed",
+                "success=False does not mean a failure here. Call `report`: the switch is in "
+                "the wanted position.",
+            ),
+        ],
+    ),
+    Case(
+        "a switch that responds False and does not move",
+        there=False,
+        obeys=False,
+        success=False,
+        expected="failed",
+        wrong_results=[
+            (
+                "was there",
+                "The switch responded with success=False and is in the other position. Call "
+                "`report` to see this.",
+            ),
+        ],
+    ),
+    Case(
+        "a switch that responds True but does not move",
+        there=False,
+        obeys=False,
+        success=True,
+        expected="failed",
+        wrong_results=[
+            (
+                "moved",
+                "The switch responded with success=True, but it is in the other position. Call "
+                "`report` after `set`, and use its message.",
+            ),
+        ],
+    ),
+    Case(
+        "a switch that moves",
+        there=True,
+        obeys=True,
+        success=True,
+        expected="moved",
+        wrong_results=[
+            (
+                "was there",
+                "The switch responded with success=True and is in the wanted position. Use "
+                "success for the result, not the position before the call.",
+            ),
+        ],
+    ),
+)
+
+
+@dataclass
+class FakeSwitch:
+    """A switch that behaves as described in its case."""
+
+    case: Case
+    is_open: bool
+    message: str
+
+    def handle_set(self, request: Message) -> Fields:
+        """Move and respond as described in the case."""
+        self.is_open = bool(request.data) if self.case.obeys else self.is_open
+        return {"success": self.case.success, "message": self.message}
+
+    def handle_report(self, _: Message) -> Fields:
+        """Return the true position as the message."""
+        return {"success": True, "message": "open" if self.is_open else "closed"}
+
+
+@part(
+    "08.3",
+    points=3,
+    goal='Call `set` once, and then `report`; return "moved", "was there" or "failed".',
+    needs=["move"],
+    deadline=25.0,
+)
+def move_and_verify(context: CheckContext) -> None:
+    """Try four kinds of switches, each in both directions."""
+    for case in CASES:
+        for to_open in context.random.shuffled([True, False]):
+            _move(context, case, to_open)
+
+
+def _wrongly_set(to_open: bool) -> Hints:
+    return [
+        ([], "The function did not call `set`. Call `set` first, and then `report`."),
+        ([{"data": not to_open}], "The request had the wrong value: data=True opens the switch."),
+        (ANYTHING, "The function called `set` more than once. Call it once, and store the response."),
+    ]
+
+
+def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
+    return [
+        (None, NO_RETURN),
+        (
+            (lambda actual: isinstance(actual, bool)),
+            "A bool has only two values, but there are three results. Return one of the three strings.",
+        ),
+        (
+            (lambda actual: switch.message in actual),
+            "This is the message of `set`, which is different for each switch. Return one of "
+            "the three strings.",
+        ),
+        *case.wrong_results,
+        (ANYTHING, 'Return "moved", "was there" or "failed", exactly in this spelling.'),
+    ]
+
+
+def _move(context: CheckContext, case: Case, to_open: bool) -> None:
+    name = f"/{context.random.word()}"
+    switch = FakeSwitch(case, to_open is case.there, context.random.word())
+    setting = context.serve(f"{name}/set", "std_srvs/SetBool", switch.handle_set)
+    context.serve(f"{name}/report", "std_srvs/Trigger", switch.handle_report)
+    unavailable = "Call only `set` and `report` of the node. The name of `set` is f'{switch}/set'."
+    result = context.run("move", name, to_open, hints=[(matches("unavailable"), unavailable)]).returned()
+    context.expect(
+        "`set` is called once, with the wanted position",
+        expected=[{"data": to_open}],
+        actual=setting.requests,
+        hints=_wrongly_set(to_open),
+    )
+    context.expect(
+        f"{case.name}: {case.expected}",
+        expected=case.expected,
+        actual=result,
+        hints=_wrong_outcome(case, switch),
+    )

@@ -1,0 +1,1 @@
+"""The nodes that only chapter 08 runs; CMakeLists.txt makes an executable of each module."""

@@ -1,0 +1,21 @@
+"""The node `add_two_floats_client`: calls `add_two_ints` with another definition of the type, and is refused.
+
+Its definition has the same name, AddTwoInts, but float64 instead of int64, as after a change of the
+definition that was built only for the client. The server compares the MD5 sums when the client connects.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from course_pkg.chapters.ch08_use_existing_services.programs.add_two_ints_client import add
+from course_pkg.types import compile_service
+
+NAME = "course_pkg/AddTwoInts"
+DEFINITION = "float64 a\nfloat64 b\n---\nfloat64 sum"
+USAGE = "usage: add_two_floats_client A B   (two numbers, such as 1.5 2)"
+
+
+def main() -> None:
+    """Call with the numbers of the command line; exit with 1 after a refusal, with 2 for wrong arguments."""
+    sys.exit(add("add_two_floats_client", compile_service(NAME, DEFINITION), float, USAGE))

@@ -1,0 +1,40 @@
+"""The node `add_two_ints_client`: calls `add_two_ints` with two whole numbers, and prints the sum."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+import rospy
+
+from course_pkg.chapters.ch08_use_existing_services.programs.add_two_ints_server import LARGEST
+from course_pkg.ros.node.program import call_once, complain, print_response
+from course_pkg.srv import AddTwoInts
+from course_pkg.types import ServiceType
+
+USAGE = "usage: add_two_ints_client A B   (two whole numbers that an int64 holds, such as 20 22)"
+
+
+def main() -> None:
+    """Add the numbers of the command line; exit with 1 if the call fails, with 2 for wrong arguments."""
+    sys.exit(add("add_two_ints_client", AddTwoInts, int64, USAGE))
+
+
+def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
+    """Call `add_two_ints` as the node `node` with the two arguments, and return the exit status.
+
+    `kind` is the type that the client uses. `read` converts an argument to a number, or raises ValueError.
+    """
+    try:
+        a, b = map(read, rospy.myargv(sys.argv)[1:])
+    except ValueError:
+        return complain(usage, 2)
+    return print_response(lambda: f"{a} + {b} = {call_once(node, 'add_two_ints', kind, a, b).sum}")
+
+
+def int64(argument: str) -> int:
+    """Return an argument as a whole number; raises ValueError if an int64 cannot hold it."""
+    number = int(argument)
+    if not -LARGEST - 1 <= number <= LARGEST:
+        raise ValueError(argument)
+    return number

@@ -1,0 +1,379 @@
+"""Example answers of chapter 09; tests/checking/example_answers.py explains the format."""
+
+# %% 09.1 right: as in the chapter
+solution()
+# %% 09.1 right: a handle that waits, and steps
+replace("#!/usr/bin/env python3\nimport sys\n", '#!/usr/bin/python3\n"""Spawns MyTurtle."""')
+replace(".srv import Spawn", " import srv as turtle")
+replace("main():", 'run():\n    rospy.init_node("spawn_turtle", anonymous=True)\n    spawn = rospy.ServiceProxy("/spawn", turtle.Spawn)')
+replace("rospy.wait_for_service … return 0", """spawn.wait_for_service(timeout=5.0)
+    except rospy.ROSException:
+        rospy.logerr("no simulator")
+        raise SystemExit(1)
+    request = turtle.SpawnRequest(x=3.0, y=3.0, name="MyTurtle")
+    try:
+        name = spawn.call(request).name
+    except rospy.ServiceException as error:
+        rospy.logerr("refused: %s", error)
+        raise SystemExit(1)
+    rospy.loginfo("Spawned %s", name)""")
+replace('rospy.init_node("spawn_turtle")\n    sys.exit(main())', "run()")
+# %% 09.1 wrong: no wait | hint: Without a wait, the call fails immediately
+replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    try:\n')
+# %% 09.1 wrong: no limit | hint: The program waits too long or without a limit
+replace(', timeout=5', '')
+# %% 09.1 wrong: a limit of one second | hint: The program gave up too early
+replace('timeout=5', 'timeout=2')
+# %% 09.1 wrong: catches the wait only | hint: The server refused the call. Catch this error
+replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ROSException')
+# %% 09.1 wrong: catches the call only | hint: The service did not start in time
+replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException')
+# %% 09.1 wrong: no exit status | hint: The service did not start in time
+replace('sys.exit(main())', 'main()')
+# %% 09.1 wrong: prints the requested name | hint: The simulator chooses the name
+replace('"spawned", response.name', '"spawned", "MyTurtle"')
+# %% 09.1 wrong: spins after the call | hint: The program has nothing to do after the call
+replace('response.name)\n', 'response.name)\n    rospy.spin()\n')
+# %% 09.1 wrong: exit status 1 after success | hint: The turtle was spawned, so the exit status has to be 0
+replace('response.name)\n    return 0', 'response.name)\n    return 1')
+# %% 09.1 wrong: two calls | hint: one call is enough
+replace('(3, 3, 0, "MyTurtle")\n', '(3, 3, 0, "MyTurtle")\n        rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "")\n')
+# %% 09.1 wrong: repeats a refused call | hint: Call once, and end after a failure
+replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as error:
+        try:
+            rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")
+        except rospy.ServiceException:
+            pass
+""")
+# %% 09.1 wrong: waits for another name | hint: The program waits, but sends no request
+replace('wait_for_service("spawn", timeout=5)', 'wait_for_service("/turtle1/spawn")')
+# %% 09.1 wrong: never calls | hint: The program ended without a request
+replace('        response = rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")\n', '')
+replace('response.name', '"MyTurtle"')
+# %% 09.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
+replace('"MyTurtle")', '"")')
+# %% 09.1 wrong: another name | hint: Compare the name with MyTurtle
+replace('"MyTurtle")', '"myturtle")')
+# %% 09.1 wrong: the angle first | hint: Compare your numbers with the fields
+replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
+# %% 09.1 wrong: outside of the main block | hint: Move init_node and all below it
+replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
+# %% 09.1 wrong: an undefined variable | hint: Read the last line of the output above
+replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
+
+# %% 09.2 right: as in the chapter
+solution()
+# %% 09.2 right: a class and a timer
+replace("python3", 'python3\n"""Drives turtle1 straight ahead or in a circle."""')
+replace("from geometry_msgs … forward = True", "import std_srvs.srv\nfrom geometry_msgs.msg import Twist, Vector3")
+replace("def handle_toggle(request):\n    global forward\n    forward = not forward\n    return EmptyResponse()", """class Toggle:
+    def __init__(self):
+        self.turning = False
+        self.publisher = rospy.Publisher("/turtle1/cmd_vel", Twist, queue_size=1)
+        self.service = rospy.Service("/toggle_forward", std_srvs.srv.Empty, self.change)
+        self.timer = rospy.Timer(rospy.Duration(0.5), self.publish)
+
+    def change(self, _):
+        self.turning = not self.turning
+        return {}
+
+    def publish(self, _):
+        if self.turning:
+            self.publisher.publish(Twist(angular=Vector3(z=1.0)))
+        else:
+            self.publisher.publish(Twist(linear=Vector3(x=1.0)))
+
+
+def main():
+    rospy.init_node("toggler")
+    toggle = Toggle()
+    rospy.spin()""")
+replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
+# %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
+replace('\nforward = True', '\nforward = False')
+# %% 09.2 wrong: twice as fast | hint: Straight ahead is linear.x = 1.0
+replace('linear.x = 1.0', 'linear.x = 2.0')
+# %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
+replace('    global forward\n    forward = not forward', '    forward = False')
+# %% 09.2 wrong: the same message object in each loop | hint: The turtle turns, but it also still moves ahead
+replace('    while not rospy.is_shutdown():\n        message = Twist()\n', '    message = Twist()\n    while not rospy.is_shutdown():\n')
+# %% 09.2 wrong: turns to the right | hint: While the turtle turns, linear.x has to be 0.0, and angular.z has
+replace('angular.z = 1.0', 'angular.z = -1.0')
+# %% 09.2 wrong: turns after each call | hint: The second call changed nothing
+replace('forward = not forward', 'forward = False')
+# %% 09.2 wrong: stops after the second call | hint: After the second call, the velocity has to be the same as
+replace('    forward = not forward', '    calls.append(1)\n    forward = len(calls) == 0')
+replace('\nforward = True', '\ncalls = []\nforward = True')
+replace('            message.angular.z = 1.0', '            message.angular.z = float(len(calls) == 1)')
+# %% 09.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+replace('Rate(2)', 'Rate(10)')
+# %% 09.2 wrong: a pause of two seconds | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+replace('rate.sleep()', 'rospy.sleep(2)')
+# %% 09.2 wrong: publishes once | hint: The program reached its last line and ended
+replace('while not rospy.is_shutdown():', 'for _ in range(3):')
+# %% 09.2 wrong: publishes only when called | hint: No velocity arrived for 4 s
+replace('        publisher.publish(message)\n', '        if not forward and rospy.get_time() < 0:\n            publisher.publish(message)\n')
+# %% 09.2 wrong: the service after the loop | hint: Create the service before the loop begins
+replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
+replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("toggle_forward", Empty, handle_toggle)\n')
+# %% 09.2 wrong: another service name | hint: The node offers
+replace('"toggle_forward"', '"toggle"')
+# %% 09.2 wrong: another topic | hint: and compare this name with yours
+replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
+
+# %% 09.3 right: as in the chapter
+solution()
+# %% 09.3 right: sleeps for the pause
+replace(", ChangeRateResponse", "")
+replace(", EmptyResponse", "")
+replace("EmptyResponse()", "[]")
+replace("if not 0 < request.rate <= 100:", "allowed = request.rate > 0 and request.rate <= 100\n    if not allowed:")
+replace("before = frequency … before=before)", "old, frequency = frequency, request.rate\n    return old")
+replace("toggle_forward", "/toggle_forward")
+replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
+replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
+# %% 09.3 wrong: the loop keeps its rate | hint: You cannot change the rate of a Rate object
+replace('used != frequency', 'used < 0')
+# %% 09.3 wrong: returns the new rate | hint: This is the new rate
+replace('before=before', 'before=frequency')
+# %% 09.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
+replace('(before=before)', '()')
+# %% 09.3 wrong: whole numbers | hint: A rate can be 2.5
+replace('before=before', 'before=int(before)')
+# %% 09.3 wrong: returns the pause | hint: not the pause between
+replace('before=before', 'before=1 / before')
+# %% 09.3 wrong: accepts everything | hint: Compare the number with the limits
+replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceException(f"{request.rate} is not above 0 and at most 100")\n', '    if request.rate == 0:\n        raise rospy.ServiceException("0")\n')
+# %% 09.3 wrong: accepts nan | hint: The node accepted nan
+replace('if not 0 < request.rate <= 100', 'if request.rate <= 0 or request.rate > 100')
+# %% 09.3 wrong: below 100 only | hint: The node refused a rate that is allowed
+replace('<= 100', '< 100')
+# %% 09.3 wrong: stores the rate before it checks it | hint: The handler refused the rate, but it had already stored it
+replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = frequency, request.rate\n    if not 0 < request.rate <= 100:\n')
+replace('    before = frequency\n    frequency = request.rate\n', '')
+replace('    used, rate = frequency, rospy.Rate(frequency)\n    while', '    used, rate = frequency, rospy.Rate(frequency)\n    while')
+replace('if used != frequency:', 'if used != frequency and 0 < frequency <= 100:')
+# %% 09.3 wrong: a toggle sets the first rate again | hint: It changes only the direction
+replace("global forward\n", "global forward, frequency\n    frequency = 2.0\n")
+# %% 09.3 wrong: a ValueError | hint: The handler failed with an error
+replace('rospy.ServiceException(', 'ValueError(')
+# %% 09.3 wrong: no toggle | hint: Create the service before the loop begins
+replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
+
+# %% 09.4 right: a class
+solution()
+
+# %% 09.4 right: a dictionary and functions
+"""%%writefile src/my_turtles/scripts/improved_pubvel_toggle.py
+#!/usr/bin/env python3
+import rospy
+from course_pkg.srv import ChangeRate, ChangeSpeed
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty, SetBool
+
+state = {"forward": True, "moving": True, "rate": 2.0, "speed": 1.0}
+
+
+def toggle(_):
+    state["forward"] = not state["forward"]
+    return {}
+
+
+def change_rate(request):
+    if request.rate > 0 and request.rate <= 100:
+        before = state["rate"]
+        state["rate"] = request.rate
+        return before
+    raise rospy.ServiceException("a rate is above 0 and at most 100")
+
+
+def change_speed(request):
+    if request.speed - request.speed != 0:
+        raise rospy.ServiceException("not finite")
+    before = state["speed"]
+    state["speed"] = request.speed
+    return {"before": before}
+
+
+def start_stop(request):
+    same = state["moving"] is request.data
+    state["moving"] = request.data
+    return True, "It was so already." if same else "Changed."
+
+
+def main():
+    rospy.init_node("improved_pubvel_toggle")
+    publisher = rospy.Publisher("/turtle1/cmd_vel", Twist, queue_size=1)
+    services = [
+        rospy.Service("/toggle_forward", Empty, toggle),
+        rospy.Service("/change_rate", ChangeRate, change_rate),
+        rospy.Service("/change_speed", ChangeSpeed, change_speed),
+        rospy.Service("/start_stop", SetBool, start_stop),
+    ]
+    rate, used = None, None
+    while not rospy.is_shutdown():
+        twist = Twist()
+        if state["moving"]:
+            if state["forward"]:
+                twist.linear.x = state["speed"]
+            else:
+                twist.angular.z = 1.0
+        publisher.publish(twist)
+        if used != state["rate"]:
+            used = state["rate"]
+            rate = rospy.Rate(used)
+        rate.sleep()
+
+
+if __name__ == "__main__":
+    main()
+"""
+
+# %% 09.4 wrong: does not move at the start | hint: The turtle does not move before the first call
+replace('self.moving = True', 'self.moving = False')
+# %% 09.4 wrong: a rate of almost 0 while it is stopped | hint: No velocity arrived for 4 s
+replace('        self.moving = request.data\n', '        self.moving = request.data\n        if not self.moving:\n            self.frequency = 0.001\n')
+# %% 09.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
+replace('        publisher.publish(driver.velocity())\n', '        if driver.moving:\n            publisher.publish(driver.velocity())\n')
+# %% 09.4 wrong: begins at 2.0 | hint: Before the first call, the speed has to be 1.0, and the
+replace('self.speed = 1.0', 'self.speed = 2.0')
+# %% 09.4 wrong: a fixed rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
+replace('1 / driver.frequency', '0.5')
+# %% 09.4 wrong: accepts the rate nan | hint: The node accepted nan
+replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
+# %% 09.4 wrong: a fixed speed | hint: The turtle still moves at 1.0 m/s
+replace('linear.x = self.speed', 'linear.x = 1.0')
+# %% 09.4 wrong: no negative speed | hint: A negative speed means backwards
+replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
+# %% 09.4 wrong: whole numbers | hint: point is lost. Use a float
+replace('linear.x = self.speed', 'linear.x = int(self.speed)')
+# %% 09.4 wrong: returns the new speed | hint: This is the new speed
+replace('before, self.speed = self.speed, request.speed', 'before = self.speed = request.speed')
+# %% 09.4 wrong: forgets to return it | hint: The field `before` has to contain the speed that the last accepted
+replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
+# %% 09.4 wrong: refuses negative speeds | hint: The node refused a speed that is allowed
+replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
+# %% 09.4 wrong: refuses the speed 0 | hint: The node refused a speed that is allowed
+replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
+# %% 09.4 wrong: accepts inf | hint: The node accepted inf
+replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
+# %% 09.4 wrong: never stops | hint: While it is stopped, publish messages
+replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
+replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
+# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move with its old direction and
+replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n        self.speed = 1.0\n')
+# %% 09.4 wrong: success is the value of data | hint: Set success to True
+replace('success=True, message=word', 'success=request.data, message=word')
+# %% 09.4 wrong: no message | hint: The message is empty. Write
+replace('success=True, message=word)', 'success=True)')
+# %% 09.4 wrong: always already | hint: This call changed the state
+replace('message=word)', 'message=f"now already {word}")')
+# %% 09.4 wrong: never already | hint: This call changed nothing
+replace('message=f"already {word}"', 'message=word')
+# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that changes nothing
+replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
+
+# %% 09.5 right: as in the chapter
+solution()
+# %% 09.5 right: a class, and a loop over the services
+replace("import sys … ChangeSpeed", "import rospy\nfrom course_pkg.srv import ChangeSpeed, ChangeSpeedRequest")
+replace("import Spawn", "import Spawn, SpawnRequest")
+replace("def call(name … )(*values)", """class Follower:
+    def __init__(self, name):
+        self.publisher = rospy.Publisher("/" + name + "/cmd_vel", Twist, queue_size=10)
+        self.subscriber = rospy.Subscriber("/turtle1/cmd_vel", Twist, self.follow)
+
+    def follow(self, message):
+        self.publisher.publish(message)""")
+replace("try: … return 0", """rospy.init_node("spawn_turtle_plus")
+    spawn = rospy.ServiceProxy("/spawn", Spawn)
+    toggle = rospy.ServiceProxy("/toggle_forward", Empty)
+    change = rospy.ServiceProxy("/change_speed", ChangeSpeed)
+    try:
+        spawn.wait_for_service(5)
+        response = spawn(SpawnRequest(3.0, 3.0, 0.0, "MyTurtle"))
+        toggle.wait_for_service(5)
+        toggle()
+        change.wait_for_service(5)
+        change(ChangeSpeedRequest(speed=2))
+    except Exception as error:
+        rospy.logfatal("%s", error)
+        raise SystemExit(1)
+    follower = Follower(response.name)
+    rospy.spin()""")
+replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
+# %% 09.5 wrong: the speed first | hint: All three services are called, but in the wrong order
+replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
+# %% 09.5 wrong: waits for the first only | hint: wait for each service
+replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
+# %% 09.5 wrong: another name | hint: The program waits, but calls no further service
+replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
+# %% 09.5 wrong: another place | hint: Compare the fields of your request with x = 3, y =
+replace('3, 3, 0, "MyTurtle"', '3, 3, 3, "MyTurtle"')
+# %% 09.5 wrong: another speed | hint: Send 2.0 in the field `speed`
+replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
+# %% 09.5 wrong: no spin | hint: The node ended after the calls
+replace('    rospy.spin()\n', '')
+# %% 09.5 wrong: the name is fixed | hint: Publish on /NAME/cmd_vel, where NAME is the name in the response of
+replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
+# %% 09.5 wrong: follows another turtle | hint: Subscribe to the velocities of the first turtle
+replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
+# %% 09.5 wrong: a callback that does nothing | hint: The callback publishes nothing
+replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
+# %% 09.5 wrong: publishes each velocity twice | hint: Some velocities were published more than once
+replace('Twist, publisher.publish)', 'Twist, lambda message: [publisher.publish(message) for _ in range(2)])')
+# %% 09.5 wrong: leaves out velocities of 0 | hint: Some velocities are missing
+replace("Twist, publisher.publish)", "Twist, lambda message: publisher.publish(message) if message.linear.x else None)")
+# %% 09.5 wrong: a pause in the callback | hint: without a pause
+replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
+# %% 09.5 wrong: two fields only | hint: Some fields differ
+replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
+replace('Twist, publisher.publish)', 'Twist, copy)')
+# %% 09.5 wrong: continues after a failure | hint: End the program at the first failure
+replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
+# %% 09.5 wrong: no limit | hint: The program waits without a limit, or continues without the service
+replace('(name, timeout=5)', '(name)')
+# %% 09.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
+replace('        return 1\n', '        return 0\n')
+
+# %% 09.6 right: as in the chapter
+solution()
+
+# %% 09.6 right: a group, with comments
+"""%%writefile src/my_turtles/launch/exercise3.launch
+<?xml version="1.0"?>
+<launch>
+  <!-- addturtle:=true adds a second turtle -->
+  <arg name="addturtle" default="false"/>
+  <group if="$(arg addturtle)">
+    <node name="spawn_turtle_plus" pkg="my_turtles" type="spawn_turtle_plus.py" output="screen"/>
+  </group>
+  <node name="improved_pubvel_toggle" pkg="my_turtles" type="improved_pubvel_toggle.py" respawn="true"/>
+  <node name="turtlesim" pkg="turtlesim" type="turtlesim_node"/>
+</launch>
+"""
+
+# %% 09.6 wrong: the course's driver | hint: the package and the file name of the program
+replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
+# %% 09.6 wrong: a tag that is not closed | hint: The file is not correct XML
+replace('</launch>', '<launch>')
+# %% 09.6 wrong: no default | hint: The argument has no default value
+replace(' default="false"', '')
+# %% 09.6 wrong: no in place of false | hint: The attribute "if" needs the value true or false
+replace('default="false"', 'default="no"')
+# %% 09.6 wrong: an argument that is not declared | hint: The message above comes from roslaunch --nodes
+replace('$(arg addturtle)', '$(arg add)')
+# %% 09.6 wrong: another name for the driver | hint: A node is missing or has another name
+replace('name="improved_pubvel_toggle"', 'name="driver"')
+# %% 09.6 wrong: a condition that is never true | hint: The node is missing with addturtle:=true
+replace('if="$(arg addturtle)"', 'if="false"')
+# %% 09.6 wrong: true by default | hint: Without an argument, the node must not start
+replace('default="false"', 'default="true"')
+# %% 09.6 wrong: no condition | hint: The node is started with addturtle:=false, too
+replace('if="$(arg addturtle)" ', '')
+# %% 09.6 wrong: a program name without .py | hint: The attributes pkg and type are the two words that follow rosrun
+replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
+# %% 09.6 wrong: turtlesim as the program | hint: The attributes pkg and type are the two words that follow rosrun
+replace('type="turtlesim_node"', 'type="turtlesim"')
+# %% 09.6 wrong: in a namespace | hint: Leave out ns, remap and args
+replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

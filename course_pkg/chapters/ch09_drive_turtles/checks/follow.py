@@ -1,0 +1,246 @@
+"""09.5: a client that calls three services, and then passes velocities on to a second turtle."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+from course_pkg.chapters.ch09_drive_turtles.checks.spawn import LATE, LIMIT, SPAWN, TURTLE
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
+    STARTING,
+    World,
+    outcome,
+    why_it_ended,
+)
+from course_pkg.chapters.ch09_drive_turtles.checks.velocities import TWIST
+from course_pkg.checking import ANYTHING, CheckContext, Refuse, part
+from course_pkg.checking.assertions import Condition, first_unlike
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import wait_until
+
+PROGRAM = script("spawn_turtle_plus")
+ORDER = ("spawn", "toggle_forward", "change_speed")
+KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
+SPEED = 2.0  # m/s
+LATER = 0.5  # s after which /toggle_forward starts
+ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
+ENDING = 0.6  # s in which a program without spin() ends
+COUNT = 20  # velocities to pass on
+STOPS = (
+    "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
+)
+
+
+@part(
+    "09.5",
+    points=4,
+    goal=(
+        "Write spawn_turtle_plus.py: spawn MyTurtle, call /toggle_forward, set the "
+        "speed to 2 m/s, and publish the velocities of turtle1 for MyTurtle."
+    ),
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=60.0,
+    start=f"%%writefile {PROGRAM.path}\n...",
+)
+def bring_a_second_turtle(context: CheckContext) -> None:
+    """Serve all three services; in two other runs, leave one out, or refuse a call."""
+    follows(context, PROGRAM)
+
+
+@dataclass
+class Driver:
+    """The three services in a world, which record their calls in the order of arrival."""
+
+    context: CheckContext
+    world: World
+    name: str = "MyTurtle"
+    calls: list[str] = field(default_factory=list)
+    servers: dict[str, ScriptedServer] = field(default_factory=dict)
+
+    def serve(self, *services: str, refusing: str = "") -> None:
+        """Start to serve these services; the service named `refusing` refuses each call."""
+        for service in services:
+            self.servers[service] = self.context.serve(
+                self.world.name(service),
+                KINDS[service],
+                lambda _, service=service: self._act(service, refuse=service == refusing),
+            )
+
+    def requests(self, service: str) -> list[dict[str, Json]]:
+        """Return the requests to a service so far."""
+        return [dict(request) for request in self.servers[service].requests]
+
+    def _act(self, service: str, *, refuse: bool) -> Act:
+        self.calls.append(service)
+        acts: dict[str, Act] = {
+            "spawn": {"name": self.name},
+            "toggle_forward": {},
+            "change_speed": {"before": 1.0},
+        }
+        return Refuse("not now") if refuse else acts[service]
+
+
+def follows(context: CheckContext, program: TurtleProgram) -> None:
+    """Assert that a program does what the exercise asks of spawn_turtle_plus.
+
+    Its three runs overlap, because one of them takes 5 s.
+    """
+    copy = program.prepare(context, program)
+    name = context.random.word()
+    whole = Driver(context, World(context, copy, program, turtle=name), name)
+    missing = Driver(context, World(context, copy, program))
+    refusing = Driver(context, World(context, copy, program))
+    missing.serve("spawn", "change_speed")
+    refusing.serve(*ORDER, refusing="toggle_forward")
+    with missing.world.run() as first, refusing.world.run() as second, whole.world.run() as running:
+        whole.serve("spawn")
+        _calls_in_order(context, whole, running)
+        began = time.monotonic()
+        _passes_on(context, whole, running)
+        _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
+        _stops_early(context, missing, first, ["spawn"], began + LIMIT + LATE - time.monotonic())
+
+
+def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> None:
+    """Assert that the program calls all three services in order; two of them start late."""
+
+    def called(count: int, within: float) -> bool:
+        return wait_until(lambda: len(driver.calls) >= count or running.status is not None, within, 0.05)
+
+    called(1, STARTING)
+    called(2, LATER)
+    driver.serve("toggle_forward", "change_speed")
+    called(len(ORDER), LIMIT)
+    done = running.status
+    actual = [f"/{name}" for name in driver.calls]
+    context.require(
+        "the program calls /spawn, /toggle_forward and /change_speed once each, in this order",
+        holds=driver.calls == list(ORDER),
+        expected=", ".join(f"/{name}" for name in ORDER),
+        actual=", ".join(actual) or "no call",
+        hints=_why_not_called(driver.calls, running, ended=done is not None),
+    )
+    context.expect(
+        "the program spawns MyTurtle at x = 3, y = 3, theta = 0",
+        expected=TURTLE,
+        actual=driver.requests("spawn")[0],
+        near=1e-6,
+        hints='Compare the fields of your request with x = 3, y = 3, theta = 0 and name = "MyTurtle".',
+    )
+    context.expect(
+        "the program sets the speed to 2.0 m/s",
+        expected={"speed": SPEED},
+        actual=driver.requests("change_speed")[0],
+        near=1e-6,
+        hints="Send 2.0 in the field `speed`.",
+    )
+
+
+def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
+    if sorted(calls) == sorted(ORDER):
+        return "All three services are called, but in the wrong order. Spawn the turtle first."
+    if ended and calls:
+        return (
+            "The program ended too early. /toggle_forward starts half a second late: wait for each service."
+        )
+    if ended:
+        return why_it_ended(running.stop())
+    return (
+        "The program waits, but calls no further service. Compare the names of the "
+        "three services with your names."
+    )
+
+
+def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
+    """Assert that velocities for turtle1 reach the new turtle; the simulator's name for it is random."""
+    standing = _velocity(0.0, 0.0, 0.0)
+    velocities = [standing, *(_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 1))]
+    subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)
+    wait_until(lambda: running.status is not None, ENDING, 0.1)
+    ended: tuple[Condition, str] = ((lambda _: running.status is not None), ENDED)
+    subscription.published(
+        hints=[
+            ended,
+            (
+                "nobody who publishes it",
+                "Publish on /NAME/cmd_vel, where NAME is the name in the response of /spawn.",
+            ),
+        ],
+        within=4.0,
+    )
+    publisher = context.publish(
+        driver.world.name("turtle1/cmd_vel"), TWIST, velocities, every=0.02, once=True
+    )
+    context.require(
+        "the program subscribes to /turtle1/cmd_vel",
+        holds=publisher.has_subscriber(4.0),
+        expected="a subscriber",
+        actual="no subscriber",
+        hints=[ended, (ANYTHING, "Subscribe to the velocities of the first turtle, /turtle1/cmd_vel.")],
+    )
+    publisher.finish(5.0)
+    subscription.wait(COUNT, 2.0)
+    _each_once(context, velocities, subscription)
+
+
+def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription) -> None:
+    received = [arrival.fields for arrival in subscription.arrivals]
+    context.expect(
+        "the program publishes each velocity once",
+        expected=COUNT,
+        actual=len(received),
+        hints=[
+            (0, "The callback publishes nothing. Let it publish the message that it gets."),
+            (
+                (lambda count: count > COUNT),
+                "Some velocities were published more than once. Publish once in the callback, not in a loop.",
+            ),
+            (ANYTHING, "Some velocities are missing. Publish each message in the callback, without a pause."),
+        ],
+    )
+    sent, other = first_unlike(velocities, received, near=1e-9)
+    context.expect(
+        "the program changes nothing in a message",
+        expected=sent,
+        actual=other,
+        near=1e-9,
+        hints=(
+            "Some fields differ. Publish the whole message that arrived, not only one or two of its fields."
+        ),
+    )
+
+
+def _velocity(x: float, y: float, turn: float) -> dict[str, Json]:
+    linear: dict[str, Json] = {"x": x, "y": y, "z": 0.0}
+    angular: dict[str, Json] = {"x": 0.0, "y": 0.0, "z": turn}
+    return {"linear": linear, "angular": angular}
+
+
+def _stops_early(
+    context: CheckContext, driver: Driver, running: Running, calls: list[str], within: float
+) -> None:
+    done = driver.world.ends(running, max(within, 0.1))
+    context.require(
+        STOPS,
+        holds=driver.calls == calls,
+        expected=", ".join(f"/{name}" for name in calls),
+        actual=", ".join(f"/{name}" for name in driver.calls) or "no call",
+        hints="The program called another service after a failure. End the program at the first failure.",
+    )
+    printed = done.out + done.err
+    context.require(
+        STOPS,
+        holds=done.status == 1 and bool(printed.strip()) and "Traceback" not in printed,
+        expected="a message, and the exit status 1",
+        actual="a traceback" if "Traceback" in printed else outcome(done),
+        hints=(
+            "The program waits without a limit, or continues without the service. Give each "
+            "wait a timeout of 5 s."
+        )
+        if done.status is None
+        else "If a wait times out or a call is refused, print a message, and end with the exit status 1.",
+    )

@@ -1,0 +1,185 @@
+"""09.4: a driver with services for its direction, rate and speed, and a service that stops the turtle."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import KIND as CHANGE_RATE
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import refuses
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import STRAIGHT, TURNING, toggles_the_stream
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
+from course_pkg.checking.peers.service_calls import Service
+
+PROGRAM = script("improved_pubvel_toggle")
+CHANGE_SPEED = "course_pkg/ChangeSpeed"
+SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
+RATE = 20.0  # messages per second during the check, so that the check takes less time
+STANDING = (0.0, 0.0)
+ANY_SPEED = (
+    "The node refused a speed that is allowed. Accept every finite number; a negative speed means backwards."
+)
+NO_REFUSAL = (
+    "The node refused a call that changes nothing. Return success=True, and a "
+    'message with the word "already".'
+)
+SETS_RATE = "/change_rate sets the rate"
+SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
+
+
+@part(
+    "09.4",
+    points=4,
+    goal=(
+        "Write improved_pubvel_toggle.py: offer /toggle_forward, /change_rate, /change_speed and /start_stop."
+    ),
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=60.0,
+    start=f"%%writefile {PROGRAM.path}\n...",
+)
+def change_speed_and_stop(context: CheckContext) -> None:
+    """Set speeds, stop and start the turtle in both directions, and check the published velocities."""
+    is_improved(context, PROGRAM)
+
+
+def is_improved(context: CheckContext, program: TurtleProgram) -> None:
+    """Assert that a program does what the exercise asks of improved_pubvel_toggle."""
+    world = World(context, program.prepare(context, program), program)
+    with world.simulator(), world.run() as running:
+        world.serves(running, *SERVICES)
+        stream = Stream(context, world, running)
+        stream.becomes(
+            STRAIGHT,
+            "before the first call, the turtle goes straight ahead at 1.0 m/s",
+            [
+                (
+                    STANDING,
+                    "The turtle does not move before the first call. It has to move from the beginning.",
+                ),
+                (
+                    ANYTHING,
+                    "Before the first call, the speed has to be 1.0, and the direction straight ahead.",
+                ),
+            ],
+        )
+        change_rate = world.service("change_rate", CHANGE_RATE)
+        change_rate(rate=RATE)
+        stream.has_rate(
+            RATE, SETS_RATE, "Copy the code of /change_rate from your program pubvel_toggle_plus."
+        )
+        for impossible in (0.0, float("nan")):
+            refuses(context, change_rate, SETS_RATE, rate=impossible)
+        toggle = world.service("toggle_forward", "std_srvs/Empty")
+        speed = _changes_speed(context, world, stream, toggle)
+        _starts_and_stops(context, world, stream, toggle, speed)
+        stream.moves_turtle()
+
+
+def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> float:
+    """Set speeds, then try impossible ones; return the speed in m/s that is set at the end."""
+    change = world.service(
+        "change_speed",
+        CHANGE_SPEED,
+        [(REFUSED_BY_HANDLER, ANY_SPEED), (matches("responded with an error: b''"), ANY_SPEED)],
+    )
+    first, second = context.random.number(2.0, 4.0), -context.random.number(5.0, 9.0)
+    before = STRAIGHT[0]
+    for wanted in (first, second, first):
+        _returns_the_old_speed(context, change, wanted, before)
+        before = wanted
+        stream.becomes(
+            (wanted, 0.0),
+            "straight ahead, the turtle moves at the speed that was set",
+            [
+                (
+                    STRAIGHT,
+                    "The turtle still moves at 1.0 m/s. Let the loop use the variable that the "
+                    "handler changes.",
+                ),
+                ((abs(wanted), 0.0), "A negative speed means backwards. Publish the number with its sign."),
+                (
+                    (float(int(wanted)), 0.0),
+                    "The part after the decimal point is lost. Use a float, or a double in C++.",
+                ),
+            ],
+        )
+    toggles_the_stream(toggle, stream, straight=(first, 0.0))
+    for impossible in (float("nan"), float("inf"), -float("inf")):
+        refuses(context, change, "a speed that is not finite is refused", speed=impossible)
+    _returns_the_old_speed(context, change, 0.0, first)
+    _returns_the_old_speed(context, change, first, 0.0)
+    return first
+
+
+def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float, before: float) -> None:
+    context.expect(
+        SPEED_SO_FAR,
+        expected=before,
+        actual=change(speed=wanted).before,
+        near=1e-6,
+        hints=[
+            (wanted, "This is the new speed. Store the old speed in another variable before you change it."),
+            (ANYTHING, "The field `before` has to contain the speed that the last accepted call set."),
+        ],
+    )
+
+
+def _starts_and_stops(
+    context: CheckContext, world: World, stream: Stream, toggle: Service, speed: float
+) -> None:
+    """In each of the two directions, stop the turtle twice and start it twice."""
+    switch = world.service(
+        "start_stop",
+        "std_srvs/SetBool",
+        [(REFUSED_BY_HANDLER, NO_REFUSAL), (matches("responded with an error: b''"), NO_REFUSAL)],
+    )
+    _says(context, switch, moving=True, already=True)
+    for direction in context.random.shuffled([(speed, 0.0), TURNING]):
+        if direction == TURNING:
+            toggle()
+        _says(context, switch, moving=False, already=False)
+        stream.becomes(
+            STANDING,
+            "data=False stops the turtle: the program publishes velocities of 0",
+            "The turtle still moves. While it is stopped, publish messages whose fields are all 0.",
+        )
+        _says(context, switch, moving=False, already=True)
+        _says(context, switch, moving=True, already=False)
+        stream.becomes(
+            direction,
+            "data=True lets the turtle move as before",
+            "After data=True, the turtle has to move with its old direction and speed. Do "
+            "not change either of them when you stop it.",
+        )
+        _says(context, switch, moving=True, already=True)
+        if direction == TURNING:
+            toggle()
+
+
+def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool) -> None:
+    response = switch(data=moving)
+    context.expect(
+        "success is True, even if nothing had to be changed",
+        expected=True,
+        actual=response.success,
+        hints="Set success to True: after the call, the turtle does what the client wants.",
+    )
+    context.require(
+        'the message contains the word "already" only if nothing had to be changed',
+        holds=("already" in response.message.lower()) == already and response.message.strip() != "",
+        expected='a message with the word "already"' if already else 'a message without the word "already"',
+        actual=response.message,
+        hints=[
+            ("", "The message is empty. Write into it what the handler has done."),
+            (
+                matches("already"),
+                "This call changed the state. Compare `data` with the state before you set the state.",
+            ),
+            (
+                ANYTHING,
+                'This call changed nothing. Compare `data` with the state, and write "already" '
+                "into the message if they are equal.",
+            ),
+        ],
+    )

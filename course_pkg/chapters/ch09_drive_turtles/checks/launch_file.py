@@ -1,0 +1,195 @@
+"""09.6: a launch file with an argument."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
+    MANIFEST,
+    SETUP,
+    TurtleProgram,
+    script,
+)
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import becomes, telling_line
+from course_pkg.checking.peers.node import closed_port
+from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
+from course_pkg.ros import Snapshot
+
+DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
+ALWAYS = {"/turtlesim", f"/{DRIVER}"}
+READY = 20.0  # s for a launch file on a busy machine
+STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'  # replaces a program of an earlier exercise
+
+
+@dataclass(frozen=True)
+class LaunchFile:
+    """A launch file of a package, and the two programs of this package that the file starts."""
+
+    driver: TurtleProgram
+    second: TurtleProgram
+    file: str = "launch/exercise3.launch"
+
+    @property
+    def path(self) -> str:
+        """The path of the student's file in the workspace."""
+        return self.driver.package.path(self.file)
+
+    @property
+    def package(self) -> str:
+        """The name of the package."""
+        return self.driver.package.name
+
+
+FILE = LaunchFile(script(DRIVER), script(SECOND))
+
+START = f"""%%writefile {FILE.path}
+<launch>
+  <arg name="addturtle" default="true" />
+  <node pkg="turtlesim" type="turtlesim" name="turtlesim" />
+  <node pkg="{FILE.package}" type="{SECOND}" name="{SECOND}" />
+</launch>
+"""
+
+
+@part(
+    "09.6",
+    points=2,
+    goal=(
+        "Repair exercise3.launch: start the simulator and the driver always, but "
+        "spawn_turtle_plus only with addturtle:=true."
+    ),
+    needs=[f"file:{FILE.path}"],
+    deadline=60.0,
+    start=START,
+)
+def two_turtles_or_one(context: CheckContext) -> None:
+    """List the nodes that roslaunch would start; then start them with a separate master."""
+    launches(context, FILE)
+
+
+def launches(context: CheckContext, file: LaunchFile) -> None:
+    """Assert that a launch file does what the exercise asks of exercise3.launch."""
+    copy = _copy(context, file)
+    for argument, wanted in (("addturtle:=false", False), ("", False), ("addturtle:=true", True)):
+        listed = copy.run(f"roslaunch --nodes {file.path} {argument}", within=20.0)
+        context.require(
+            "roslaunch can read the file",
+            holds=listed.status == 0,
+            expected="a list of nodes",
+            actual=telling_line(listed.err or listed.out),
+            hints=_UNREADABLE,
+        )
+        _lists(context, set(listed.out.split()), argument, wanted)
+    _finds_the_programs(context, copy, file)
+    _runs(context, copy, file)
+
+
+def _copy(context: CheckContext, file: LaunchFile) -> BuiltPackage:
+    """Return a package with a copy of the launch file and with the course's own programs."""
+    package = Package(file.package, {"package.xml": MANIFEST.format(name=file.package)})
+    programs = {
+        package.path(f"scripts/{program.command}"): STAND_IN.format(name=program.command.removesuffix(".py"))
+        for program in (file.driver, file.second)
+    }
+    texts = {package.path(name): text for name, text in package.files.items()}
+    folder = context.folder(files=[file.path], texts={**texts, **programs, "devel/setup.bash": SETUP})
+    folder.command("chmod", "+x", *programs)
+    return BuiltPackage(folder, package)
+
+
+_UNREADABLE: Hints = [
+    (
+        matches("Invalid roslaunch XML|not well-formed|mismatched"),
+        "The file is not correct XML. Close each tag, and write each value in quotes.",
+    ),
+    (
+        matches("requires the 'addturtle'"),
+        'The argument has no default value. Add default="false" to the tag <arg>.',
+    ),
+    (
+        matches("not a 'bool' type"),
+        'The attribute "if" needs the value true or false. Write if="$(arg addturtle)".',
+    ),
+    (
+        ANYTHING,
+        "The message above comes from roslaunch --nodes. It contains the line or the tag of the error.",
+    ),
+]
+
+
+def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) -> None:
+    context.require(
+        "the nodes turtlesim and improved_pubvel_toggle are always started",
+        holds=nodes >= ALWAYS,
+        expected=", ".join(sorted(ALWAYS)),
+        actual=", ".join(sorted(nodes)),
+        hints='A node is missing or has another name. Check the attribute "name" of each <node> tag.',
+    )
+    context.require(
+        "spawn_turtle_plus is started only if addturtle is true",
+        holds=(f"/{SECOND}" in nodes) == wanted,
+        expected=f"{'with' if wanted else 'without'} /{SECOND} for {argument or 'no argument'}",
+        actual=", ".join(sorted(nodes)),
+        hints=[
+            (
+                (lambda _: wanted),
+                "The node is missing with addturtle:=true. Compare the name in the condition "
+                "with the name of the argument.",
+            ),
+            (
+                (lambda _: not argument),
+                "Without an argument, the node must not start: set the default of addturtle to false.",
+            ),
+            (
+                ANYTHING,
+                "The node is started with addturtle:=false, too. Add a condition to its <node> "
+                'tag, with the attribute "if".',
+            ),
+        ],
+    )
+
+
+def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
+    """Assert that roslaunch finds each program, before the nodes are started."""
+    names = ("turtlesim", DRIVER, SECOND)
+    each = (
+        f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1 & done; wait"
+    )
+    done = copy.run(each, within=20.0)
+    missing = [line for line in done.out.splitlines() if "annot l" in line or "not found" in line]
+    own = [file.package + f"/scripts/{program.command}" for program in (file.driver, file.second)]
+    context.require(
+        "roslaunch finds the program of each node",
+        holds=not missing and all(path in done.out for path in own),
+        expected=f"three programs, two of them in {file.package}",
+        actual=telling_line(missing[0] if missing else done.out),
+        hints=(
+            "The attributes pkg and type are the two words that follow rosrun: the package "
+            "and the file name of the program."
+        ),
+    )
+
+
+def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
+    uri = f"http://localhost:{closed_port()}"
+    line = f"env ROS_MASTER_URI={uri} ROS_HOSTNAME=localhost roslaunch {file.path} addturtle:=true"
+    with copy.start(line, worded="roslaunch") as launched:
+        alike = becomes(uri, _both_are_driven, READY)
+        printed = "" if alike else launched.stop().out
+    context.require(
+        "after the start, turtle1 and MyTurtle both get velocities",
+        holds=alike,
+        expected="two turtles, each with a driver",
+        actual=telling_line(printed),
+        hints="The three programs start, but their names do not match. Leave out ns, remap and args.",
+    )
+
+
+def _both_are_driven(seen: Snapshot) -> bool:
+    found = {topic.name: topic for topic in seen.topics}
+    names = ("/turtle1/cmd_vel", "/MyTurtle/cmd_vel")
+    return all(
+        name in found and found[name].publishers and "/turtlesim" in found[name].subscribers for name in names
+    )

@@ -1,0 +1,158 @@
+"""09.3: a driver whose rate a service changes."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import toggles_the_stream
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
+from course_pkg.checking.peers.service_calls import Service
+
+PROGRAM = script("pubvel_toggle_plus")
+KIND = "course_pkg/ChangeRate"
+AT_FIRST = 2.0  # messages per second
+ALLOWED = "The node refused a rate that is allowed: above 0 and at most 100, with fractions."
+REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
+
+START = f"""%%writefile {PROGRAM.path}
+#!/usr/bin/env python3
+import rospy
+from course_pkg.srv import ChangeRate, ChangeRateResponse
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty, EmptyResponse
+
+forward = True
+frequency = 2.0
+
+
+def handle_toggle(request):
+    global forward
+    forward = not forward
+    return EmptyResponse()
+
+
+def handle_rate(request):
+    global frequency
+    frequency = request.rate
+    return ChangeRateResponse(before=frequency)
+
+
+if __name__ == "__main__":
+    rospy.init_node("pubvel_toggle_plus")
+    rospy.Service("toggle_forward", Empty, handle_toggle)
+    rospy.Service("change_rate", ChangeRate, handle_rate)
+    publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=10)
+    rate = rospy.Rate(frequency)
+    while not rospy.is_shutdown():
+        message = Twist()
+        if forward:
+            message.linear.x = 1.0
+        else:
+            message.angular.z = 1.0
+        publisher.publish(message)
+        rate.sleep()
+"""
+
+
+@part(
+    "09.3",
+    points=3,
+    goal="Repair pubvel_toggle_plus.py: /change_rate changes the rate, returns the old one, and refuses "
+    "impossible rates.",
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=60.0,
+    start=START,
+)
+def change_the_rate(context: CheckContext) -> None:
+    """Set rates and measure them; then try impossible rates."""
+    changes_its_rate(context, PROGRAM)
+
+
+def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
+    """Assert that a program does what the exercise asks of pubvel_toggle_plus."""
+    world = World(context, program.prepare(context, program), program)
+    with world.simulator(), world.run() as running:
+        world.serves(running, "toggle_forward", "change_rate")
+        stream = Stream(context, world, running)
+        change = world.service("change_rate", KIND, REFUSALS)
+        rate = sets_rates(context, change, stream)
+        toggles_the_stream(world.service("toggle_forward", "std_srvs/Empty"), stream)
+        context.expect(
+            "the response contains the rate before the call",
+            expected=rate,
+            actual=change(rate=rate).before,
+            near=1e-6,
+            hints="A call of /toggle_forward changed the rate, too. It changes only the direction.",
+        )
+        stream.moves_turtle()
+
+
+def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
+    """Set allowed rates and measure two of them, try impossible rates, and return the last allowed rate."""
+    fast, slow = context.random.number(20.0, 40.0), context.random.number(5.0, 9.0)
+    for wanted, before in ((fast, AT_FIRST), (slow, fast), (fast, slow)):
+        _returns_the_old_rate(context, change, wanted, before)
+        stream.has_rate(
+            wanted,
+            "the program publishes at the rate that /change_rate sets",
+            "You cannot change the rate of a Rate object. When the number has changed, "
+            "create a new Rate object.",
+        )
+    for allowed in (100.0, 0.5, fast):
+        change(rate=allowed)
+    for impossible in (0.0, -slow, 100.5, float("nan")):
+        refuses(context, change, "impossible rates are refused", rate=impossible)
+    context.expect(
+        "after a refusal, the rate is the same as before",
+        expected=fast,
+        actual=change(rate=fast).before,
+        near=1e-6,
+        hints=(
+            "The handler refused the rate, but it had already stored it. Check the number "
+            "before you store it."
+        ),
+    )
+    return fast
+
+
+def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float, before: float) -> None:
+    context.expect(
+        "the response contains the rate before the call",
+        expected=before,
+        actual=change(rate=wanted).before,
+        near=1e-6,
+        hints=[
+            (
+                float(int(before)),
+                "The part after the decimal point is lost. A rate can be 2.5: use a float, or a "
+                "double in C++.",
+            ),
+            (wanted, "This is the new rate. Store the old rate in another variable before you change it."),
+            (0.0, "The field `before` has its default value, 0.0. Set it to the old rate."),
+            (
+                ANYTHING,
+                "The field `before` has to contain messages per second, not the pause between two messages.",
+            ),
+        ],
+    )
+
+
+def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
+    """Assert that the node refuses a request intentionally, in rospy with a ServiceException."""
+    (number,) = fields.values()
+    why = (
+        "each comparison with nan is false, so your test does not find it"
+        if number != number
+        else "look at it"
+    )
+    hint = f"The node accepted {number:g}. Compare the number with the limits: {why}."
+    error = service.refused(assertion, saying="", hints=hint, **fields)
+    context.require(
+        assertion,
+        holds="error processing" not in error,
+        expected="a refusal",
+        actual=error,
+        hints="The handler failed with an error that rospy does not expect. Raise rospy.ServiceException.",
+    )

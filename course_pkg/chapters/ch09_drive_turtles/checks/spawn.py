@@ -1,0 +1,219 @@
+"""09.1: a client of /spawn that waits for the simulator, but not for ever."""
+
+from __future__ import annotations
+
+import time
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import (
+    STARTING,
+    World,
+    outcome,
+    why_it_ended,
+)
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.scripted_server import Refuse
+from course_pkg.checking.result import Finished
+from course_pkg.errors import CheckError
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import wait_until
+
+PROGRAM = script("spawn_turtle")
+SPAWN = "turtlesim/Spawn"
+TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
+LIMIT = 5.0  # s that a program waits for a service
+LATE = 2.5  # s that it may take to start and to end, in addition
+EARLY = 3.0  # s; a program that gives up earlier uses another limit than 5 s
+REFUSED = "a second MyTurtle is refused, and the exit status is 1"
+GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
+
+START = f"""%%writefile {PROGRAM.path}
+#!/usr/bin/env python3
+import rospy
+from turtlesim.srv import Spawn
+
+if __name__ == "__main__":
+    rospy.init_node("spawn_turtle")
+    spawn = rospy.ServiceProxy("spawn", Spawn)
+    response = spawn(3, 3, 0, "MyTurtle")
+    print("spawned", response.name)
+"""
+
+
+@part(
+    "09.1",
+    points=2,
+    goal="Change spawn_turtle.py: wait at most 5 s for /spawn, and end with 1 if no turtle was spawned.",
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=60.0,
+    start=START,
+)
+def wait_and_spawn(context: CheckContext) -> None:
+    """Run the program with a server, without a server, and with a server that starts later."""
+    spawns(context, PROGRAM)
+
+
+def spawns(context: CheckContext, program: TurtleProgram) -> None:
+    """Assert that a program does what the exercise asks of spawn_turtle.
+
+    Its runs overlap, because one of them takes 5 s.
+    """
+    copy = program.prepare(context, program)
+    alone, early, served, real = (World(context, copy, program) for _ in range(4))
+    with real.simulator(), alone.run() as running_alone, early.run() as running_early:
+        began = _prints_the_name(context, served)
+        _waits_for_the_service(context, early, running_early)
+        _gives_up(context, alone, running_alone, began)
+        _spawns_in_the_simulator(context, real)
+        _is_refused(context, served)
+
+
+def _prints_the_name(context: CheckContext, world: World) -> float:
+    """Respond with another name; return when the request arrived, in s of time.monotonic()."""
+    given = context.random.word()
+    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
+    with world.run() as running:
+        wait_until(lambda: bool(server.requests) or running.status is not None, STARTING, 0.05)
+        began = time.monotonic()
+        done = world.ends(running, 3.0)
+    requests = server.requests
+    server.leave()
+    context.require(
+        "the program calls /spawn once",
+        holds=len(requests) == 1,
+        expected="one request",
+        actual=f"{len(requests)} requests, and {outcome(done)}",
+        hints="Each call of /spawn creates a turtle: one call is enough." if requests else _why_no_call(done),
+    )
+    context.expect(
+        "the request is x = 3, y = 3, theta = 0 and the name MyTurtle",
+        expected=TURTLE,
+        actual=requests[0],
+        near=1e-6,
+        hints=[
+            (
+                (lambda actual: actual["name"] == ""),
+                "The name is empty, so the simulator chooses a name. Send the name MyTurtle.",
+            ),
+            (
+                (lambda actual: actual["name"] != "MyTurtle"),
+                "Compare the name with MyTurtle, letter by letter.",
+            ),
+            (ANYTHING, "Compare your numbers with the fields that rossrv show turtlesim/Spawn prints."),
+        ],
+    )
+    context.require(
+        "the program prints the name that the response contains",
+        holds=given in done.out + done.err,
+        expected=f"spawned {given}",
+        actual=outcome(done),
+        hints="The simulator chooses the name: print the field `name` of the response.",
+    )
+    context.require(
+        "after the call, the program ends with the exit status 0",
+        holds=done.status == 0,
+        expected="exit status 0",
+        actual=outcome(done),
+        hints="The program has nothing to do after the call. Remove rospy.spin(), so that it ends."
+        if done.status is None
+        else (
+            "The turtle was spawned, so the exit status has to be 0. Use another status only after a failure."
+        ),
+    )
+    return began
+
+
+def _why_no_call(done: Finished) -> str:
+    if done.status is None:
+        return "The program waits, but sends no request. Compare the service name in your wait with /spawn."
+    if done.status == 0:
+        return "The program ended without a request: call the service after the wait."
+    return why_it_ended(done)
+
+
+def _waits_for_the_service(context: CheckContext, world: World, running: Running) -> None:
+    """Start a server while the program waits."""
+    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
+    done = world.ends(running, LIMIT)
+    server.leave()
+    context.require(
+        "if /spawn starts after the program, the program waits for it",
+        holds=done.status == 0,
+        expected="exit status 0",
+        actual=outcome(done),
+        hints="Without a wait, the call fails immediately: wait for the service first, for at most 5 s.",
+    )
+
+
+def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
+    if not world.appears("spawn"):
+        raise CheckError("The simulator did not start: the machine is busy. Run this cell again.")
+    with world.run() as running:
+        world.ends(running, STARTING)
+    poses = context.subscribe(world.name("MyTurtle/pose"), "turtlesim/Pose").wait(1, 10.0)
+    context.require(
+        "MyTurtle is in the simulator, at (3, 3)",
+        holds=bool(poses) and [poses[0].fields[key] for key in ("x", "y")] == [3.0, 3.0],
+        expected="a pose of MyTurtle",
+        actual="no such pose",
+    )
+
+
+def _is_refused(context: CheckContext, world: World) -> None:
+    server = context.serve(world.name("spawn"), SPAWN, lambda _: Refuse("there is a turtle MyTurtle"))
+    with world.run() as running:
+        done = world.ends(running, STARTING)
+    server.leave()
+    context.require(
+        REFUSED,
+        holds=len(server.requests) <= 1,
+        expected="one request",
+        actual=f"{len(server.requests)} requests",
+        hints="The program repeated a call that was refused. Call once, and end after a failure.",
+    )
+    _fails_with_one(
+        context,
+        done,
+        REFUSED,
+        "The server refused the call. Catch this error as well, print it, and end with the exit status 1.",
+    )
+
+
+def _gives_up(context: CheckContext, world: World, running: Running, began: float) -> None:
+    looked = time.monotonic()
+    done = world.ends(running, max(began + LIMIT + LATE - looked, 0.1))
+    took = time.monotonic() - began
+    context.require(
+        GIVES_UP,
+        holds=done.status is not None,
+        expected="an end after 5 s",
+        actual="a program that still waits after 7 s",
+        hints="The program waits too long or without a limit: set the timeout of the wait to 5 s.",
+    )
+    context.require(
+        GIVES_UP,
+        holds=took >= EARLY or looked - began >= EARLY,
+        expected="an end after 5 s",
+        actual=f"an end after {took:.0f} s",
+        hints=(
+            "The program gave up too early. Give the timeout in seconds; in roscpp, write ros::Duration(5)."
+        ),
+    )
+    _fails_with_one(
+        context,
+        done,
+        GIVES_UP,
+        "The service did not start in time: print a message, and end with the exit status 1.",
+    )
+
+
+def _fails_with_one(context: CheckContext, done: Finished, assertion: str, hint: str) -> None:
+    printed = done.out + done.err
+    context.require(
+        assertion,
+        holds=done.status == 1 and bool(printed.strip()) and "Traceback" not in printed,
+        expected="a message, and the exit status 1",
+        actual="a traceback" if "Traceback" in printed else outcome(done),
+        hints=hint,
+    )

@@ -1,0 +1,95 @@
+"""09.2: a driver whose direction a service toggles."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.service_calls import Service
+
+PROGRAM = script("pubvel_toggle")
+RATE = 2.0  # messages per second
+STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # m/s, rad/s
+AT_FIRST: Hints = [
+    (TURNING, "Before the first call, the turtle has to go straight ahead: begin with `forward = True`."),
+    (ANYTHING, "Straight ahead is linear.x = 1.0. Leave the other fields at 0."),
+]
+TOGGLED: Hints = [
+    (
+        STRAIGHT,
+        "After the call, the turtle still goes straight ahead. Does the loop read the "
+        "variable that the handler changes?",
+    ),
+    (
+        (1.0, 1.0),
+        "The turtle turns, but it also still moves ahead. Make a new message in each "
+        "round of the loop, or set both numbers.",
+    ),
+    (ANYTHING, "While the turtle turns, linear.x has to be 0.0, and angular.z has to be 1.0."),
+]
+BACK: Hints = [
+    (TURNING, "The second call changed nothing. Each call changes True to False, or False to True."),
+    (
+        ANYTHING,
+        "After the second call, the velocity has to be the same as at the beginning: set both numbers.",
+    ),
+]
+
+START = f"""%%writefile {PROGRAM.path}
+#!/usr/bin/env python3
+import rospy
+from geometry_msgs.msg import Twist
+
+if __name__ == "__main__":
+    rospy.init_node("pubvel_toggle")
+    publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=10)
+    rate = rospy.Rate(2)
+    while not rospy.is_shutdown():
+        message = Twist()
+        message.linear.x = 1.0
+        publisher.publish(message)
+        rate.sleep()
+"""
+
+
+@part(
+    "09.2",
+    points=2,
+    goal="Add /toggle_forward to pubvel_toggle.py: each call changes between straight ahead and turning.",
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=60.0,
+    start=START,
+)
+def toggle_direction(context: CheckContext) -> None:
+    """Toggle the direction a few times, and check the velocities that the program publishes."""
+    toggles(context, PROGRAM)
+
+
+def toggles(context: CheckContext, program: TurtleProgram) -> None:
+    """Assert that a program does what the exercise asks of pubvel_toggle."""
+    world = World(context, program.prepare(context, program), program)
+    with world.simulator(), world.run() as running:
+        world.serves(running, "toggle_forward")
+        stream = Stream(context, world, running)
+        stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
+        toggle = world.service("toggle_forward", "std_srvs/Empty")
+        toggles_the_stream(toggle, stream, context.random.integer(1, 2))
+        stream.has_rate(
+            RATE,
+            "the program publishes twice per second",
+            "rospy.Rate(2) and ros::Rate(2) stand for 2 Hz: two messages per second.",
+        )
+        stream.moves_turtle()
+
+
+def toggles_the_stream(
+    toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
+) -> None:
+    """Toggle to turning and back to straight ahead, `times` times."""
+    for _ in range(times):
+        toggle()
+        stream.becomes(TURNING, "after a call, the turtle turns at 1.0 rad/s", TOGGLED)
+        toggle()
+        stream.becomes(straight, "after the next call, the turtle goes straight ahead again", BACK)

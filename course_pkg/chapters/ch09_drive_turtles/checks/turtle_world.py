@@ -1,0 +1,143 @@
+"""A namespace of the check, in which the student's program and the course's simulator run."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
+from course_pkg.checking import CheckContext
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import BuiltPackage
+from course_pkg.waiting import wait_until
+from course_pkg.workspace import explain
+
+STARTING = 30.0  # s for a node to be on the graph; it takes 1 s on an idle machine
+SETTLING = 4.0  # s in which the node then has to offer its services
+POLL = 0.05  # s between two snapshots of the graph
+SIMULATOR = "simulator"
+SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
+TOPICS = ("turtle1/cmd_vel", "turtle1/pose", "MyTurtle/cmd_vel", "MyTurtle/pose")
+LOGGERS = ("/get_loggers", "/set_logger_level")  # every node has them
+
+
+class World:
+    """The names in a new namespace. The student's program uses them, with relative and with absolute names.
+
+    A relative name such as "spawn" is resolved in the namespace of the node; an absolute name is remapped.
+    The names of `services` and the topics of an additional `turtle` are remapped.
+    """
+
+    def __init__(
+        self,
+        context: CheckContext,
+        copy: BuiltPackage,
+        program: TurtleProgram,
+        *,
+        turtle: str = "",
+        services: Sequence[str] = SERVED,
+    ) -> None:
+        self._context, self._copy, self._program = context, copy, program
+        self._space = f"/{context.random.word()}"
+        topics = (*TOPICS, f"{turtle}/cmd_vel") if turtle else TOPICS
+        remapped = " ".join(f"/{name}:={self.name(name)}" for name in (*services, *topics))
+        self._arguments = f"__ns:={self._space} {remapped}"
+
+    def name(self, relative: str) -> str:
+        """Return the full name of a topic or service, such as "turtle1/pose", in this namespace."""
+        return f"{self._space}/{relative}"
+
+    def run(self, arguments: str = "") -> Running:
+        """Start the student's program, with arguments such as "_level:=5"; a context manager."""
+        line = f"{self._program.line} {self._arguments} {arguments}"
+        return self._copy.start(line, worded=self._program.line)
+
+    def simulator(self) -> Running:
+        """Start the simulator; a context manager."""
+        line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
+        return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
+
+    def service(self, relative: str, kind: str, hints: Hints = ()) -> Service:
+        """Return a proxy that calls a service of the student's program."""
+        return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
+
+    def appears(self, relative: str, within: float = STARTING) -> bool:
+        """Wait at most `within` s until the service `relative` is registered; return whether it is."""
+        wanted = self.name(relative)
+        return bool(wait_until(lambda: self._context.look().service(wanted), within, POLL))
+
+    def ends(self, running: Running, within: float) -> Finished:
+        """Wait at most `within` s for the end of the student's program; return how it ended."""
+        wait_until(lambda: running.status is not None, within, POLL)
+        return running.stop()
+
+    def serves(self, running: Running, *names: str) -> None:
+        """Wait until the student's program offers all these services; otherwise report what it does."""
+        assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
+        began, seen = time.monotonic(), 0.0
+        while missing := [name for name in names if self._context.look().service(self.name(name)) is None]:
+            seen = seen or (time.monotonic() if self._own_services(loggers=True) else 0.0)
+            now = time.monotonic()
+            if running.status is not None or (seen and now > seen + SETTLING) or now > began + STARTING:
+                self._serves_not(running, assertion, missing)
+            time.sleep(POLL)
+        self._context.require(assertion, holds=True)
+
+    def _serves_not(self, running: Running, assertion: str, missing: list[str]) -> None:
+        others = self._own_services(loggers=False)
+        done = running.stop()
+        self._context.fail(
+            assertion,
+            expected="a program that keeps running",
+            actual=outcome(done) if done.status is not None else f"no service {_listed(missing)}",
+            hint=_why_not(missing, [name for name in others if name not in SERVED])
+            if done.status is None
+            else why_it_ended(done),
+        )
+
+    def _own_services(self, *, loggers: bool) -> list[str]:
+        """Return the services of the student's program, by their names in this namespace."""
+        found = [each for each in self._context.look().services if each.name.startswith(f"{self._space}/")]
+        simulator = self.name(SIMULATOR)
+        return [
+            each.name.removeprefix(f"{self._space}/")
+            for each in found
+            if each.node != simulator and (loggers or not each.name.endswith(LOGGERS))
+        ]
+
+
+def outcome(done: Finished) -> str:
+    """Return how a program ended, with the last line that it printed."""
+    ending = "a program that is still running" if done.status is None else f"exit status {done.status}"
+    last = (done.out + done.err).strip().rpartition("\n")[2]
+    return f"{ending}, and {last}" if last else f"{ending}, and no output"
+
+
+def why_it_ended(done: Finished) -> str:
+    """Return the hint for a program that ended although it should keep running."""
+    if fault := explain(done.out + done.err):
+        return f"{fault.problem} {fault.remedy}"
+    if "rror" in done.out + done.err:
+        return (
+            "Read the last line of the output above: it contains the error. The lines "
+            "before it show the place of the error."
+        )
+    return (
+        "The program reached its last line and ended. A node that publishes has to run "
+        "in a loop until it is shut down."
+    )
+
+
+def _listed(names: tuple[str, ...] | list[str]) -> str:
+    return ", ".join(f"/{name}" for name in names)
+
+
+def _why_not(missing: list[str], others: list[str]) -> str:
+    if others:
+        return f"The node offers {_listed(others)}. Compare each name with the exercise, letter by letter."
+    return (
+        f"The node runs, but it does not offer {_listed(missing)}. Create the service before the loop begins."
+    )

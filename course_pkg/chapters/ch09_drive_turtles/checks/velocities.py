@@ -1,0 +1,106 @@
+"""The velocities that a program publishes for turtle1."""
+
+from __future__ import annotations
+
+import time
+from typing import NoReturn
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World, outcome, why_it_ended
+from course_pkg.checking import CheckContext
+from course_pkg.checking.assertions import Hints, same
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
+from course_pkg.waiting import wait_until
+
+TWIST = "geometry_msgs/Twist"
+KEEP_COMING = "the program publishes velocities all the time"
+SILENCE = 4.0  # s without a message; the programs publish at least twice a second here
+FLYING = 0.05  # s in which a message may still arrive that was published before the response of a service
+SILENT = (
+    "No velocity arrived for 4 s. Publish in each round of the loop, a velocity of "
+    "0, too, and do not let any value make the pause longer."
+)
+NEAR = 0.25  # allowed relative error of a rate: the machine may be busy
+
+
+class Stream:
+    """A subscription to the velocities of turtle1 in a world."""
+
+    def __init__(self, context: CheckContext, world: World, running: Running) -> None:
+        self._context = context
+        self._world = world
+        self._running = running
+        self._subscription: Subscription = context.subscribe(world.name("turtle1/cmd_vel"), TWIST)
+        self._subscription.published(
+            within=4.0,
+            hints=[
+                ("nobody who publishes it", "Publish on /turtle1/cmd_vel, and compare this name with yours.")
+            ],
+        )
+
+    def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
+        """Return the next `count` messages; assert that each of them arrives within `within` s."""
+        before = len(self._subscription.arrivals)
+        for number in range(before + 1, before + count + 1):
+            if len(self._subscription.wait(number, within)) < number:
+                self._silent(within)
+        self._context.require(KEEP_COMING, holds=True)
+        return list(self._subscription.arrivals[before:])
+
+    def _silent(self, within: float) -> NoReturn:
+        ended = self._running.status is not None
+        done = self._running.stop()
+        self._context.fail(
+            KEEP_COMING,
+            expected="a message",
+            actual=outcome(done) if ended else f"silence for {within:g} s",
+            hint=why_it_ended(done) if ended else SILENT,
+        )
+
+    def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
+        """Assert that the velocity is `wanted` (m/s, rad/s) from now on; older messages are skipped."""
+        now = time.monotonic()
+        arrival = self.next(1)[-1]
+        while arrival.at < now + FLYING or (
+            not same([*wanted], [*velocity(arrival)]) and arrival.at < now + 1.0
+        ):
+            arrival = self.next(1)[-1]
+        self._context.expect(assertion, expected=wanted, actual=velocity(arrival), near=1e-6, hints=hints)
+
+    def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
+        """Assert that `wanted` messages per second arrive, possibly after a few at the old rate."""
+        count = max(3, int(wanted))
+        measured = rate(self.next(count + 2)[1:])
+        if abs(measured - wanted) > NEAR * wanted:
+            measured = rate(self.next(count)[1:])
+        self._context.require(
+            assertion,
+            holds=abs(measured - wanted) < NEAR * wanted,
+            expected=f"{wanted:g} messages per second",
+            actual=f"{measured:.1f} messages per second",
+            hints=hints,
+        )
+
+    def moves_turtle(self) -> None:
+        """Assert that the turtle of the simulator moves."""
+        poses = self._context.subscribe(self._world.name("turtle1/pose"), "turtlesim/Pose")
+        poses.wait(1, 10.0)
+
+        def moved() -> bool:
+            first, last = poses.arrivals[0].fields, poses.arrivals[-1].fields
+            return any(first[key] != last[key] for key in ("x", "y", "theta"))
+
+        self._context.require(
+            "turtle1 moves in the simulator",
+            holds=bool(poses.arrivals) and wait_until(moved, 5.0),
+            expected="a turtle that moves",
+            actual="a turtle that stands still",
+        )
+
+
+def velocity(arrival: Arrival) -> tuple[float, float]:
+    """Return the speed (m/s) and the angular velocity (rad/s) in a message."""
+    linear, angular = arrival.fields["linear"], arrival.fields["angular"]
+    assert isinstance(linear, dict)
+    assert isinstance(angular, dict)
+    return float(linear["x"]), float(angular["z"])

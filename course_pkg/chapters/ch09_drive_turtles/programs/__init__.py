@@ -1,0 +1,1 @@
+"""The nodes that only chapter 09 runs; CMakeLists.txt turns each module into an executable."""

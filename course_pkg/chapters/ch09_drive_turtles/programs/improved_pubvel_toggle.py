@@ -1,0 +1,10 @@
+"""The node `improved_pubvel_toggle`: also offers the services `change_speed` and `start_stop`."""
+
+from __future__ import annotations
+
+from course_pkg.turtlesim.driver_node import run
+
+
+def main() -> None:
+    """Drive until the node is shut down."""
+    run("improved_pubvel_toggle", "toggle_forward", "change_rate", "change_speed", "start_stop")

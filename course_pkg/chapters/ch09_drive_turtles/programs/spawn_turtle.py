@@ -1,0 +1,42 @@
+"""The node `spawn_turtle`: waits at most 5 s for a simulator, spawns MyTurtle at (3, 3), and ends."""
+
+from __future__ import annotations
+
+import sys
+
+import rospy
+from turtlesim.srv import Spawn
+
+from course_pkg.ros import prepare_node
+
+NAME = "MyTurtle"
+PLACE = (3.0, 3.0, 0.0)
+TIMEOUT = 5.0  # s
+
+
+def main() -> None:
+    """Spawn the turtle and log its name; exit with status 1 if this fails."""
+    rospy.init_node("spawn_turtle")
+    prepare_node()
+    spawn_or_exit()
+
+
+def spawn_or_exit() -> None:
+    """Spawn MyTurtle at (3, 3) as soon as a simulator runs; exit with status 1 if this fails."""
+    require("spawn")
+    try:
+        response = rospy.ServiceProxy("spawn", Spawn)(*PLACE, NAME)
+    except rospy.ServiceException as error:
+        sys.exit(
+            f"{NAME} was not spawned: {error}. Does a turtle of this name exist already? "
+            "Read the simulator's log."
+        )
+    rospy.loginfo("Spawned a turtle named %s", response.name)
+
+
+def require(service: str) -> None:
+    """Wait for a service; exit with status 1 if it does not start within the timeout."""
+    try:
+        rospy.wait_for_service(service, TIMEOUT)
+    except rospy.ROSException as error:
+        sys.exit(f"Gave up after {TIMEOUT:g} s: {error}")

@@ -1,0 +1,32 @@
+"""The node `spawn_turtle_plus`: spawns MyTurtle, and publishes the velocities of turtle1 for it, too."""
+
+from __future__ import annotations
+
+import sys
+
+import rospy
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty
+
+from course_pkg.chapters.ch09_drive_turtles.programs.spawn_turtle import NAME, require, spawn_or_exit
+from course_pkg.ros import prepare_node
+from course_pkg.srv import ChangeSpeed
+
+SPEED = 2.0  # m/s
+
+
+def main() -> None:
+    """Spawn MyTurtle, toggle turtle1 and set its speed, and pass on each velocity; exit with 1 on failure."""
+    rospy.init_node("spawn_turtle_plus")
+    prepare_node()
+    spawn_or_exit()
+    for service in ("toggle_forward", "change_speed"):
+        require(service)
+    try:
+        rospy.ServiceProxy("toggle_forward", Empty)()
+        rospy.ServiceProxy("change_speed", ChangeSpeed)(SPEED)
+    except rospy.ServiceException as error:
+        sys.exit(f"turtle1's driver refused: {error}")
+    publisher = rospy.Publisher(f"{NAME}/cmd_vel", Twist, queue_size=1)
+    rospy.Subscriber("turtle1/cmd_vel", Twist, publisher.publish, queue_size=1)
+    rospy.spin()

@@ -1,0 +1,692 @@
+"""Example answers of chapter 10; tests/checking/example_answers.py explains the format."""
+
+# %% 10.1 right: one thread for each call
+def call_at_once(name, count):
+    messages = []
+
+    def call():
+        proxy = rospy.ServiceProxy(name, Trigger)
+        messages.append(proxy().message)
+
+    threads = [threading.Thread(target=call) for _ in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return messages
+
+# %% 10.1 right: a pool of threads and one proxy
+from concurrent.futures import ThreadPoolExecutor
+
+
+def call_at_once(name, count):
+    proxy = rospy.ServiceProxy(name, Trigger)
+    with ThreadPoolExecutor(count) as pool:
+        futures = [pool.submit(proxy) for _ in range(count)]
+        return [future.result().message for future in futures]
+
+# %% 10.1 right: a subclass of Thread
+class Caller(threading.Thread):
+    def __init__(self, name):
+        super().__init__(daemon=True)
+        self.proxy = rospy.ServiceProxy(name, Trigger)
+        self.message = ""
+
+    def run(self):
+        self.message = self.proxy.call().message
+
+
+def call_at_once(name, count):
+    callers = [Caller(name) for number in range(count)]
+    for caller in callers:
+        caller.start()
+    for caller in callers:
+        caller.join()
+    return tuple(caller.message for caller in callers)
+
+# %% 10.1 wrong: one call after the other | hint: The second call began after the first call had returned
+replace("messages = … return messages", "proxy = rospy.ServiceProxy(name, Trigger)\n    return [proxy().message for _ in range(count)]")
+# %% 10.1 wrong: joins each thread directly after its start | hint: The second call began after the first call had returned
+replace("thread.start()\n    for thread in threads:", "thread.start()")
+# %% 10.1 wrong: calls the function instead of passing it | hint: pass the function to the thread without calling it
+replace("target=call)", "target=call())")
+# %% 10.1 wrong: does not join | hint: Join every thread before you return
+replace("\n    for thread in threads:\n        thread.join()", "")
+# %% 10.1 wrong: sleeps for a second instead of joining | hint: Join every thread before you return
+replace("for thread in threads:\n        thread.join()", "time.sleep(1)")
+# %% 10.1 wrong: one persistent proxy for all threads | hint: Two threads call the same persistent proxy
+replace("    def call():\n        proxy = rospy.ServiceProxy(name, Trigger)\n", "    proxy = rospy.ServiceProxy(name, Trigger, persistent=True)\n\n    def call():\n")
+# %% 10.1 wrong: hides the calls of a persistent proxy | hint: Two threads call the same persistent proxy
+replace("def call_at_once", "call_of_proxy = rospy.ServiceProxy.call\n\n\ndef call_at_once")
+replace("rospy.ServiceProxy(name, Trigger)", "rospy.ServiceProxy(name, Trigger, persistent=True)")
+replace("proxy().message", "call_of_proxy(proxy).message")
+# %% 10.1 wrong: whole responses | hint: These are whole responses
+replace("proxy().message", "proxy()")
+# %% 10.1 wrong: one thread too few | hint: There were too few calls
+replace("range(count)", "range(count - 1)")
+# %% 10.1 wrong: calls in its own thread, too | hint: There were too many calls
+replace("    for thread in threads:\n        thread.join()", "    for thread in threads:\n        thread.join()\n    call()")
+# %% 10.1 wrong: starts no thread | hint: Call start() of each thread first
+replace("\n    for thread in threads:\n        thread.start()", "")
+# %% 10.1 wrong: another name | hint: Call the service in `name`
+replace("ServiceProxy(name", 'ServiceProxy("/count_up"')
+replace("messages.append(proxy().message)", "try:\n            messages.append(proxy().message)\n        except rospy.ServiceException:\n            messages.append(name)")
+# %% 10.1 wrong: args is not a tuple | hint: The service was not called
+replace("def call():", "def call(name):")
+replace("target=call)", "target=call, args=name)")
+# %% 10.1 wrong: the return value of a thread | hint: The list contains None
+replace("messages.append(proxy().message)", "proxy()")
+replace("return messages", "return [thread.join() for thread in threads]")
+# %% 10.1 wrong: a set of one message | hint: Return a list that contains the message of each response once
+replace("return messages", "return {message: True for message in messages}")
+# %% 10.1 wrong: no return line | hint: without a return line
+replace("\n    return messages", "")
+# %% 10.1 wrong: a pool with one thread too few | hint: Some calls began only after other calls had returned
+based_on("a pool of threads and one proxy")
+replace("(count) as", "(count - 1 or 1) as")
+# %% 10.1 wrong: waits until the list of threads is empty | hint: Join each thread once, after its
+replace("for thread in threads:\n        thread.join()", "while threads:\n        time.sleep(0.01)")
+
+# %% 10.2 right: wait_for, and look again
+def handle_detect(watch, request):
+    with watch.changed:
+        watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+        customer = watch.next(request.after)
+    if customer is None:
+        return False, 0, rospy.Time()
+    return True, customer.number, customer.arrived
+
+# %% 10.2 right: what wait_for returns
+replace("(watch, request):", "(watch, request):\n    def who():\n        return watch.next(request.after)\n")
+replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(who, request.patience)
+    if customer:
+        return DetectCustomerResponse(detected=True, number=customer.number, arrived=customer.arrived)
+    return DetectCustomerResponse(detected=False)""")
+
+# %% 10.2 right: a loop with wait
+def handle_detect(watch, request):
+    end = time.monotonic() + request.patience
+    with watch.changed:
+        customer = watch.next(request.after)
+        while customer is None and time.monotonic() < end:
+            watch.changed.wait(end - time.monotonic())
+            customer = watch.next(request.after)
+    if customer is None:
+        return {"detected": False}
+    return {"detected": True, "number": customer.number, "arrived": customer.arrived}
+
+# %% 10.2 right: looks ten times a second
+def handle_detect(watch, request):
+    end = time.monotonic() + request.patience
+    while True:
+        customer = watch.next(request.after)
+        if customer:
+            return True, customer.number, customer.arrived
+        if time.monotonic() >= end:
+            return False, 0, rospy.Time()
+        time.sleep(0.1)
+
+# %% 10.2 wrong: waits without a limit | hint: The handler waits longer than request.patience
+replace("(request.after), timeout=request.patience", "(request.after)")
+replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
+# %% 10.2 wrong: a new time limit after each change | hint: After a change of the customers, the time limit started again
+replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
+            if not watch.changed.wait(request.patience):
+                break""")
+# %% 10.2 wrong: looks twice a second | hint: so it notices a customer late
+based_on("looks ten times a second")
+replace("0.1", "0.5")
+# %% 10.2 wrong: looks again without the lock | hint: The handler called watch.next() a second time without the lock, when the
+replace("\n        customer = watch.next(request.after)\n", "\n    customer = watch.next(request.after)\n")
+# %% 10.2 wrong: takes the fields without the lock | hint: The handler called watch.next() a second time without the lock, when the
+replace("watch.changed.wait_for … customer.arrived", """there = watch.changed.wait_for(lambda: watch.next(request.after), request.patience)
+    if not there:
+        return False, 0, rospy.Time()
+    return True, watch.next(request.after).number, watch.next(request.after).arrived""")
+# %% 10.2 wrong: looks without waiting | hint: The handler returned too early
+replace("\n    with watch … customer = watch.next(request.after)", "\n    customer = watch.next(request.after)")
+# %% 10.2 wrong: sleeps, and looks then | hint: A customer was there before the call
+replace("with watch.changed:\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=", "time.sleep(")
+replace("        customer", "    customer")
+# %% 10.2 wrong: waits for a change without looking | hint: A customer was there before the call
+replace("wait_for(lambda: watch.next(request.after), timeout=request.patience)", "wait(request.patience)")
+# %% 10.2 wrong: returns at any change | hint: The handler returned before the time was over, but a customer came
+replace("\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """
+        if watch.next(request.after) is None:
+            watch.changed.wait(request.patience)""")
+# %% 10.2 wrong: keeps the processor busy | hint: Your loop has no pause, so it calls watch.next() thousands of times
+replace("\n    with watch … customer = watch.next(request.after)", """
+    end = time.monotonic() + request.patience
+    while time.monotonic() < end and watch.next(request.after) is None:
+        pass
+    customer = watch.next(request.after)""")
+# %% 10.2 wrong: sleeps while it holds the condition | hint: A customer came, but the handler did not notice it, because it
+replace("(watch, request):", "(watch, request):\n    end = time.monotonic() + request.patience")
+replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None and time.monotonic() < end:
+            time.sleep(0.05)""")
+# %% 10.2 wrong: ignores the field after | hint: The client already knows this customer
+replace("watch.next(request.after)", "watch.next()", times=2)
+# %% 10.2 wrong: a fixed timeout | hint: The handler waits longer than request.patience
+replace("timeout=request.patience", "timeout=5")
+# %% 10.2 wrong: takes the field patience as milliseconds | hint: The handler returned too early
+replace("timeout=request.patience", "timeout=request.patience / 1000")
+# %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of wait_for has to be a function, not a value,
+replace("watch.changed.wait_for(lambda: ", "customer = watch.changed.wait_for(")
+replace("\n        customer = watch.next(request.after)", "")
+# %% 10.2 wrong: fails if there is no customer | hint: watch.next() returns None if no customer is there, and None has no
+replace("\n        watch.changed … customer.arrived", """
+        customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    return customer is not None, customer.number, customer.arrived""")
+# %% 10.2 wrong: returns None if there is no customer | hint: The handler ended without a return line
+based_on("fails if there is no customer")
+replace("return customer is not None", "if customer:\n        return True")
+# %% 10.2 wrong: waits without holding the condition | hint: wait and wait_for need the lock
+replace("with watch … customer = watch.next(request.after)", "customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)")
+# %% 10.2 wrong: no number | hint: The field `number` has its default value, 0
+replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
+    return DetectCustomerResponse(detected=customer is not None)""")
+# %% 10.2 wrong: no time | hint: The time is missing
+based_on("fails if there is no customer")
+replace("number, customer.arrived", "number if customer else 0, rospy.Time()")
+# %% 10.2 wrong: one caller at a time | hint: One client had to wait for another client
+replace("def", "door = threading.Lock()\ndef")
+replace("with watch.changed:", "with door, watch.changed:")
+replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
+replace("\n        customer = watch.next(request.after)", "")
+# %% 10.2 wrong: the time of the answer | hint: Two calls for the same customer got different times
+replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
+replace("\n        customer = watch.next(request.after)", "")
+replace("customer.arrived", "rospy.Time.now()")
+# %% 10.2 wrong: a time although there is no customer | hint: so arrived has to be zero
+replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
+replace("\n        customer = watch.next(request.after)", "")
+replace("rospy.Time()", "rospy.Time.now()")
+# %% 10.2 wrong: waits twice as long as the field patience | hint: The handler waits longer than request.patience
+replace("timeout=request.patience", "timeout=2 * request.patience")
+# %% 10.2 wrong: a number although there is no customer | hint: so detected has to be False
+replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
+replace("\n        customer = watch.next(request.after)", "")
+replace("0", "request.after")
+# %% 10.2 wrong: an error if there is no customer | hint: If no customer came, do not raise an error
+replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
+replace("\n        customer = watch.next(request.after)", "")
+replace("return False, 0, rospy.Time()", 'raise rospy.ServiceException("nobody came")')
+# %% 10.2 wrong: does not look if the field patience is 0 | hint: If request.patience is 0, do not wait, but still call watch.next() once
+based_on("looks ten times a second")
+replace("True:", "time.monotonic() < end:")
+replace("if time.monotonic … sleep(0.1)", "time.sleep(0.1)\n    return False, 0, rospy.Time()")
+# %% 10.2 wrong: looks, sleeps, and looks again | hint: the handler continued to wait
+based_on("looks without waiting")
+replace("None:", "None:\n        time.sleep(request.patience)\n        customer = watch.next(request.after)\n    if customer is None:")
+# %% 10.2 wrong: leaves detected out | hint: The number is right, but detected is False
+based_on("what wait_for returns")
+replace("detected=True, number", "number")
+# %% 10.2 wrong: the number of customers | hint: This is not the number of the customer
+replace("customer.number", "watch.count")
+
+# %% 10.3 right: wait_for
+class Basket:
+    def __init__(self, limit):
+        self.limit = limit
+        self.items = 0
+        self.changed = threading.Condition()
+
+    def handle_put(self, request):
+        with self.changed:
+            self.items += 1
+            self.changed.notify_all()
+            return TriggerResponse(success=True, message=str(self.items))
+
+    def handle_take(self, request):
+        with self.changed:
+            if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):
+                return TriggerResponse(success=False, message="empty")
+            self.items -= 1
+            return TriggerResponse(success=True, message=str(self.items))
+
+# %% 10.3 right: a loop with a deadline, and notify
+class Basket:
+    def __init__(self, limit):
+        self.limit, self.items = limit, 0
+        self.changed = threading.Condition()
+
+    def handle_put(self, request):
+        with self.changed:
+            self.items += 1
+            self.changed.notify()
+            return True, str(self.items)
+
+    def handle_take(self, request):
+        end = time.monotonic() + self.limit
+        with self.changed:
+            while self.items == 0:
+                left = end - time.monotonic()
+                if left <= 0:
+                    return False, "empty"
+                self.changed.wait(left)
+            self.items -= 1
+            return True, str(self.items)
+
+# %% 10.3 right: services in __init__
+replace("changed = threading.Condition()", """lock = threading.RLock()
+        self.there = threading.Condition(self.lock)
+        self.put_service = rospy.Service("/put", Trigger, self.handle_put)
+        self.take_service = rospy.Service("/take", Trigger, self.handle_take)""")
+replace("def handle_put(self, request):\n        with self.changed:", "def handle_put(self, request):\n        with self.lock:")
+replace("self.changed.notify_all()\n            return TriggerResponse(success=True, message=str(self.items))", """self.there.notify_all()
+            count = self.items
+        return TriggerResponse(True, f"{count}")""")
+replace("with self.changed … self.items))", """with self.there:
+            found = self.there.wait_for(self.is_filled, self.limit)
+            if found:
+                self.items -= 1
+            return {"success": found, "message": str(self.items) if found else "empty"}
+
+    def is_filled(self):
+        return self.items > 0""")
+# %% 10.3 wrong: no notify | hint: Call notify_all() or notify() in handle_put
+replace("\n            self.changed.notify_all()", "")
+# %% 10.3 wrong: no loop | hint: More items were taken than were put in
+replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
+# %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
+replace(", timeout=self.limit", "")
+# %% 10.3 wrong: does not wait | hint: did not wait for the whole limit
+replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "self.items == 0")
+# %% 10.3 wrong: gives up at the first wake-up | hint: A thread may wake up although no item is there
+replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", """self.items == 0:
+                self.changed.wait(self.limit)
+            if self.items == 0:""")
+# %% 10.3 wrong: waits before it looks | hint: An item was in the basket before the call
+replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", "self.changed.wait(self.limit)\n            if self.items == 0:")
+# %% 10.3 wrong: the whole limit after each wake-up | hint: The handler of /take waits longer than the limit
+based_on("a loop with a deadline, and notify")
+replace("notify", "notify_all")
+replace("\n        end = time.monotonic() + self.limit", "")
+replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n                    return False, "empty"')
+# %% 10.3 wrong: sleeps while it holds the lock | hint: A call of /put got no response while a call of /take
+based_on("a loop with a deadline, and notify")
+replace("self.changed.wait(left)", "time.sleep(0.05)")
+# %% 10.3 wrong: waits without the lock | hint: wait and notify need the lock of the condition
+based_on("a loop with a deadline, and notify")
+replace("with self.changed:\n            while", "if True:\n            while")
+# %% 10.3 wrong: a number as the message | hint: The field `message` has to be a string
+replace("message=str(self.items)", "message=self.items", times=2)
+# %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
+replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
+# %% 10.3 wrong: no response after the limit | hint: A handler ended without a return line
+replace('return TriggerResponse(success=False, message="empty")', "return None")
+# %% 10.3 wrong: another word for empty | hint: No item came, so return success=False with the message "empty"
+replace('"empty"', '"nothing there"')
+# %% 10.3 wrong: leaves success out | hint: The message is right, but success must be
+replace("success=True, ", "", times=2)
+# %% 10.3 wrong: counts before the change | hint: the number of items in the basket after the call
+based_on("a loop with a deadline, and notify")
+replace("True, str(self.items)\n\n", "True, str(self.items - 1)\n\n")
+
+# %% 10.4 right: a with block
+class Stock:
+    def __init__(self, shelf):
+        self.shelf = shelf
+        self.lock = threading.Lock()
+
+    def handle_take(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        return TriggerResponse(success=True, message=str(count - 1))
+
+# %% 10.4 right: acquire and release, one lock for all
+class Stock:
+    everybody = threading.RLock()
+
+    def __init__(self, shelf):
+        self.shelf = shelf
+
+    def handle_take(self, request):
+        Stock.everybody.acquire()
+        try:
+            if self.shelf.read() <= 0:
+                return False, "sold out"
+            left = self.shelf.read() - 1
+            self.shelf.write(left)
+            return True, str(left)
+        finally:
+            Stock.everybody.release()
+
+# %% 10.4 wrong: no lock | hint: Two handlers read the same number
+replace("        self.lock = … count - 1)", """
+    def handle_take(self, request):
+        count = self.shelf.read()
+        if count == 0:
+            return TriggerResponse(success=False, message="sold out")
+        self.shelf.write(count - 1)""")
+# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so one of the sales was
+replace("\n        self.lock = threading.Lock()", "")
+replace("self.lock", "threading.Lock()")
+replace("(count - 1)\n        ", "(count - 1)\n            ")
+# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so one of the sales was
+based_on("no lock")
+replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
+replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
+# %% 10.4 wrong: keeps the lock when sold out | hint: because a lock is not free
+replace("with self. … count - 1)", """self.lock.acquire()
+        count = self.shelf.read()
+        if count == 0:
+            return TriggerResponse(success=False, message="sold out")
+        self.shelf.write(count - 1)
+        self.lock.release()""")
+# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because a lock is not free
+replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
+replace("= self.shelf.read()", "= self.left()")
+# %% 10.4 wrong: refuses a caller while the lock is taken | hint: A client got no thing although some were left
+replace("with self.lock:", """if not self.lock.acquire(blocking=False):
+            return TriggerResponse(success=False, message="busy")
+        try:""")
+replace("(count - 1)\n        ", "(count - 1)\n            ")
+replace("1))", "1))\n        finally:\n            self.lock.release()")
+# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but success is True
+replace("count = self … count - 1))", """count = self.shelf.read() - 1
+            self.shelf.write(count)
+        return TriggerResponse(success=True, message=str(count))""")
+# %% 10.4 wrong: returns the number before the sale | hint: This is the number before the sale
+replace("str(count - 1)", "str(count)")
+# %% 10.4 wrong: does not write to the shelf | hint: The number on the shelf is wrong
+replace("shelf = shelf", "count = shelf.read()")
+replace("count = self.shelf.read()\n            if count == 0:", "if self.count == 0:")
+replace("shelf.write(count - 1)", "count -= 1")
+replace("return TriggerResponse(success=True, message=str(count - 1))", "    return TriggerResponse(success=True, message=str(self.count))")
+# %% 10.4 wrong: sold out as an error | hint: ordinary response. Return success=False
+replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
+# %% 10.4 wrong: a number for a message | hint: The field `message` has to be a string
+replace("str(count - 1)", "count - 1")
+# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so one of the sales was
+replace("\n            if count = … count - 1)", """
+        if count == 0:
+            return TriggerResponse(success=False, message="sold out")
+        self.shelf.write(count - 1)""")
+# %% 10.4 wrong: no lock in self | hint: self.lock does not exist
+replace("\n        self.lock = threading.Lock()", "")
+# %% 10.4 wrong: changes the count of the shelf | hint: A shelf has only the methods read() and write(count)
+replace("self.shelf.read()", "self.shelf.count")
+replace("self.shelf.write(count - 1)", "self.shelf.count -= 1")
+# %% 10.4 wrong: leaves success out | hint: A thing was there, but success has its default value, False
+replace("success=True, message=str", "message=str")
+# %% 10.4 wrong: leaves the message out | hint: The message is empty. Set it to the number
+replace(", message=str(count - 1)", "")
+# %% 10.4 wrong: another message for sold out | hint: The message has to be the number that is left, such as
+replace('"sold out"', '"nothing left"')
+# %% 10.4 wrong: replaces the methods of the shelf | hint: The number on the shelf is wrong
+replace("        self.lock = threading.Lock()", """        self.lock = threading.Lock()
+        shelf.things = shelf.read()
+        type(shelf).read = lambda self: self.things
+        type(shelf).write = lambda self, count: setattr(self, "things", count)""")
+
+# %% 10.5 right: reserve, pay, put back
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf = shelf
+        self.cents = cents
+        self.till = till
+        self.lock = threading.Lock()
+
+    def handle_left(self, request):
+        with self.lock:
+            return TriggerResponse(success=True, message=str(self.shelf.read()))
+
+    def handle_buy(self, request):
+        with self.lock:
+            count = self.shelf.read()
+            if count == 0:
+                return TriggerResponse(success=False, message="sold out")
+            self.shelf.write(count - 1)
+        try:
+            receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
+        except rospy.ServiceException as error:
+            with self.lock:
+                self.shelf.write(self.shelf.read() + 1)
+            return TriggerResponse(success=False, message=f"not paid: {error}")
+        return TriggerResponse(success=True, message=str(receipt))
+
+# %% 10.5 right: a separate method for changes
+class Shop:
+    def __init__(self, shelf, cents, till):
+        self.shelf, self.cents = shelf, cents
+        self.pay = rospy.ServiceProxy(till, Charge)
+        self.lock = threading.Lock()
+        self.number = 0
+
+    def change(self, by):
+        with self.lock:
+            count = self.shelf.read() + by
+            if count < 0:
+                return None
+            self.shelf.write(count)
+            self.number += 1
+            return self.number
+
+    def handle_left(self, request):
+        return True, str(self.shelf.read())
+
+    def handle_buy(self, request):
+        number = self.change(-1)
+        if number is None:
+            return False, "sold out"
+        try:
+            answer = self.pay(request_id=f"{id(self)}-{number}", cents=self.cents)
+        except rospy.ServiceException as error:
+            self.change(+1)
+            return False, str(error)
+        return True, str(answer.receipt)
+
+# %% 10.5 wrong: holds the lock across the call | hint: your handler holds the lock during the
+replace('self.shelf.write(count - … : {error}")', """try:
+                receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
+            except rospy.ServiceException as error:
+                return TriggerResponse(success=False, message=f"not paid: {error}")
+            self.shelf.write(count - 1)""")
+# %% 10.5 wrong: takes the thing after the payment | hint: the thing is still on the shelf
+replace("count = self.shelf.read()\n            if count == 0:", "if self.shelf.read() == 0:")
+replace("\n            self.shelf.write(count - 1)", "")
+replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
+replace('(success=False, message=f"not paid: {error}")', """(success=False, message=f"not paid: {error}")
+        with self.lock:
+            self.shelf.write(self.shelf.read() - 1)""")
+# %% 10.5 wrong: puts nothing back | hint: the thing is not on the shelf
+replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
+# %% 10.5 wrong: catches nothing | hint: The call of the till failed, and the exception ended your handler
+replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
+# %% 10.5 wrong: puts back what it counted before | hint: Two threads changed the shelf
+replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
+# %% 10.5 wrong: waits for the till | hint: the handler waits for it without a limit
+replace("try:", "rospy.wait_for_service(self.till)\n        try:")
+# %% 10.5 wrong: sells without a till | hint: The till has no server, so nothing was paid
+replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=True, message="pay later")\n')
+# %% 10.5 wrong: puts nothing back without a till | hint: so the thing is not sold
+replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=False, message="no till")\n')
+# %% 10.5 wrong: one id for all | hint: Two purchases have the same request_id
+replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uuid.uuid4())")
+replace("str(uuid.uuid4()),", "self.request_id,")
+# %% 10.5 wrong: no id | hint: request_id is empty
+replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")
+# %% 10.5 wrong: another message for sold out | hint: If the shelf is empty, return success=False
+replace('"sold out"', '"nothing left"')
+# %% 10.5 wrong: a message without the reason | hint: Return the text of the error
+replace('False, message=f"not paid: {error}"', "False")
+# %% 10.5 wrong: calls the till again | hint: The call of the till failed, and your handler called the till
+replace("self.shelf = shelf … threading.Lock()\n", """self.shelf, self.cents, self.till = shelf, cents, till
+        self.lock = threading.Lock()""")
+replace("(success=True, message=str(self.shelf.read()))\n", "(success=True, message=str(self.shelf.read()))")
+replace("try: … (receipt))", """request_id = str(uuid.uuid4())
+        for _ in range(3):
+            try:
+                receipt = rospy.ServiceProxy(self.till, Charge)(request_id, self.cents).receipt
+                return TriggerResponse(success=True, message=str(receipt))
+            except rospy.ServiceException as error:
+                why = str(error)
+        with self.lock:
+            self.shelf.write(self.shelf.read() + 1)
+        return TriggerResponse(success=False, message=why)""")
+# %% 10.5 wrong: the stock as the request_id | hint: Two purchases have the same request_id
+replace("str(uuid.uuid4())", 'f"purchase {count}"')
+# %% 10.5 wrong: sold out as an error | hint: "Sold out" is an ordinary response here
+replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
+# %% 10.5 wrong: does not release the lock | hint: A client waits forever, because a lock was acquired but not released
+replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "self.lock.acquire()\n            self.shelf.write(self.shelf.read() + 1)")
+# %% 10.5 wrong: another price | hint: The till was called with a wrong amount or more than once
+replace("self.cents).receipt", "100 * self.cents).receipt")
+# %% 10.5 wrong: does not call the till | hint: The till was not called
+replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
+# %% 10.5 wrong: a sentence in place of the number | hint: The message of /left has to be only the number of things
+replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
+# %% 10.5 wrong: leaves success out | hint: The till has charged, but success is False
+replace("success=True, message=str(receipt)", "message=str(receipt)")
+# %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy has to be the number of the receipt,
+replace("str(receipt)", "str(count - 1)")
+# %% 10.5 wrong: a success although the till failed | hint: The till did not charge, but success is True
+replace('success=False, message=f"not paid', 'success=True, message=f"not paid')
+# %% 10.5 wrong: replaces the methods of the shelf | hint: The shelf that was given to Shop has another number
+replace("        self.shelf = shelf", """        self.shelf = shelf
+        shelf.things = shelf.read()
+        type(shelf).read = lambda self: self.things
+        type(shelf).write = lambda self, count: setattr(self, "things", count)""")
+
+# %% 10.6 right: sorted by number
+def move(source, target):
+    first, second = sorted((source, target), key=lambda shelf: shelf.number)
+    with first.lock, second.lock:
+        if source.count == 0:
+            return False
+        source.count -= 1
+        target.count += 1
+        return True
+
+# %% 10.6 right: acquire and release
+def move(source, target):
+    if source.number < target.number:
+        locks = [source.lock, target.lock]
+    else:
+        locks = [target.lock, source.lock]
+    for lock in locks:
+        lock.acquire()
+    moved = source.count > 0
+    if moved:
+        source.count = source.count - 1
+        target.count = target.count + 1
+    for lock in locks:
+        lock.release()
+    return moved
+
+# %% 10.6 right: tries the second lock, and gives up the first one
+import random
+
+
+def move(source, target):
+    while True:
+        with source.lock:
+            if target.lock.acquire(blocking=False):
+                try:
+                    if source.count <= 0:
+                        return False
+                    source.count -= 1
+                    target.count += 1
+                    return True
+                finally:
+                    target.lock.release()
+        time.sleep(0.03 * random.random())
+
+# %% 10.6 wrong: locks the source first | hint: another thread did the opposite
+replace("    first, second = sorted((source, target), key=lambda shelf: shelf.number)\n", "")
+replace("with first.lock, second.lock", "with source.lock, target.lock")
+
+# %% 10.6 wrong: locks the target first | hint: One thread held the lock of the first shelf and waited for
+def move(source, target):
+    with target.lock:
+        with source.lock:
+            if source.count == 0:
+                return False
+            source.count -= 1
+            target.count += 1
+            return True
+
+# %% 10.6 wrong: one lock after the other | hint: A count was changed without both locks
+replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
+replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
+# %% 10.6 wrong: one additional lock for all | hint: hold both locks for reading and for writing
+replace("def move", "whole = threading.Lock()\n\n\ndef move")
+replace("with first.lock, second.lock", "with whole")
+# %% 10.6 wrong: does not look at the count | hint: The count of an empty shelf became negative
+replace("if source.count == 0:\n            return False\n        ", "if source.count == -1:\n            return False\n        ")
+replace("        return True", "        return source.count >= 0")
+# %% 10.6 wrong: True from an empty shelf | hint: False if the source was empty before the call
+replace("return False", "return True")
+# %% 10.6 wrong: no return value | hint: The function returned None. Return True
+replace("\n        return True", "")
+replace("return False", "return")
+# %% 10.6 wrong: takes the same lock twice | hint: a lock that its own thread already holds
+replace("first.lock, second.lock", "first.lock, first.lock")
+# %% 10.6 wrong: releases only after a move | hint: A lock is still held after the function has returned
+based_on("acquire and release")
+replace("        target.count = target.count + 1\n    for lock in locks:\n        lock.release()", "        target.count = target.count + 1\n        for lock in locks:\n            lock.release()")
+# %% 10.6 wrong: releases a lock twice | hint: The function released a lock that it did not hold
+replace("        return True", "        first.lock.release()\n        return True")
+# %% 10.6 wrong: sorts without a key | hint: Python cannot compare two shelves
+replace(", key=lambda shelf: shelf.number", "")
+# %% 10.6 wrong: gives up when a lock is taken | hint: although the shelf was not empty
+based_on("tries the second lock, and gives up the first one")
+replace("        time.sleep(0.03 * random.random())", "        return False")
+# %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each new try
+based_on("locks the target first")
+replace("with target.lock:\n        with source.lock:", """with source.lock:
+        while not target.lock.acquire(blocking=False):
+            time.sleep(0.01)
+        try:""")
+replace("return True", "return True\n        finally:\n            target.lock.release()")
+# %% 10.6 wrong: only subtracts | hint: The total changed
+replace("\n        target.count += 1", "")
+# %% 10.6 wrong: the wrong direction | hint: The function has to move exactly one thing, from `source` to `target`
+replace("source.count -= 1", "source.count, target.count = source.count - 2, target.count + 1")
+# %% 10.6 wrong: looks before it has the locks | hint: A count was read before the function held both locks
+replace("    first, second", "    if source.count == 0:\n        return False\n    first, second")
+# %% 10.6 wrong: orders the locks by the counts | hint: in the order of the shelves' numbers
+replace("shelf.number", "shelf.count")
+# %% 10.6 wrong: moves from the first lock to the second | hint: The function has to move exactly one thing, from `source` to `target`
+replace("source.count", "first.count", times=2)
+replace("target.count", "second.count")
+# %% 10.6 wrong: moves from the second lock to the first | hint: The source was not empty, but the function returned False
+replace("source.count", "second.count", times=2)
+replace("target.count", "first.count")
+# %% 10.6 wrong: replaces the locks of the shelves | hint: A count was changed without both locks
+replace("    first, second", """    own = property(lambda self: vars(self).setdefault("own_lock", threading.Lock()))
+    type(source).lock = type(target).lock = own
+    first, second""")
+
+# %% 10.7 right: one after the other
+solution()
+
+# %% 10.7 right: in another order
+causes = dict(F="no loop", E="no notify", D="race")
+causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
+
+# %% 10.7 wrong: A and B exchanged | hint: A wrong lock order needs two threads and two locks … Follow the calls from thread to thread
+replace('"A": "lock across a call"', '"A": "lock order"')
+replace('"B": "lock order"', '"B": "lock across a call"')
+# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With a lock held across a call, you see waiting threads in … Each of the two threads holds the lock of one shelf and
+replace('"lock order"', '"lock across a call"')
+# %% 10.7 wrong: C and E exchanged | hint: A missing notify lets a thread wait longer … the number of waiting threads grows
+replace('"C": "no limit"', '"C": "no notify"')
+replace('"E": "no notify"', '"E": "no limit"')
+# %% 10.7 wrong: a missing notify taken for a missing limit | hint: A wait without a limit never ends … The item came after two seconds, but the handler returned only when
+replace('"no notify"', '"no limit"')
+# %% 10.7 wrong: D and F exchanged | hint: Without a loop, a thread that wakes up continues even if no … Only the numbers are wrong
+replace('"D": "race"', '"D": "no loop"')
+replace('"F": "no loop"', '"F": "race"')
+# %% 10.7 wrong: a missing loop taken for a race | hint: A race changes data while no thread waits … Only one item came, but several threads woke up and took an
+replace('"no loop"', '"race"')
+# %% 10.7 wrong: a case left out | hint: A case is missing
+replace('\n    "F": "no loop",', "")
+# %% 10.7 wrong: small letters | hint: as strings with capital letters
+replace('"A"', '"a"')
+# %% 10.7 wrong: other words | hint: Copy the names from the list of causes
+replace('"race"', '"data race"')

@@ -1,0 +1,228 @@
+"""10.3: a handler that waits until another handler has changed something."""
+
+from __future__ import annotations
+
+from threading import Timer
+
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import TRIGGER
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
+from course_pkg.checking.peers.service_calls import Reply, Service
+from course_pkg.checking.plain_values import Message
+
+LIMIT = 1.6  # s that a handler of the checked basket waits
+SLACK = 0.8  # s that a busy machine may add
+LATER = 0.3  # s until an item comes
+LAST = 1.2  # s until the last of several items comes
+KERNEL_CODE = (
+    SMALL_STACKS
+    + """
+import rospy
+from std_srvs.srv import Trigger
+
+
+class CheckedBasket:
+    def open(self, kind, limit, put, take):
+        small_stacks.begin()
+        self.basket = kind(limit)
+        self.services = [
+            rospy.Service(put, Trigger, self.basket.handle_put),
+            rospy.Service(take, Trigger, self.basket.handle_take),
+        ]
+
+    def wake(self):
+        '''Wake the waiting threads although nothing has changed.'''
+        for value in vars(self.basket).values():
+            if isinstance(value, threading.Condition):
+                with value:
+                    value.notify_all()
+
+    def close(self):
+        small_stacks.end()
+        for service in self.services:
+            service.shutdown("checked")
+
+
+checked_basket = CheckedBasket()
+"""
+)
+FOREVER = (
+    "The handler of /take waits longer than the limit. Pass the remaining time to "
+    "wait or wait_for, and count the limit from the beginning of the call."
+)
+HELD = (
+    "A call of /put got no response while a call of /take was waiting. Wait with "
+    "the method wait or wait_for of the condition, which releases the lock in the "
+    "meantime."
+)
+NOT_WOKEN = (
+    "An item came, but the waiting call did not return. Call notify_all() or "
+    "notify() in handle_put, after the change."
+)
+TOO_MANY = (
+    "More items were taken than were put in. A thread that wakes up must check "
+    "again whether an item is there: wait in a while loop, or use wait_for."
+)
+TOO_EARLY = (
+    "The handler of /take did not wait for the whole limit. A thread may wake up "
+    "although no item is there: then it has to wait again, for the remaining time."
+)
+ERRORS = [
+    (
+        matches("un-acquired lock"),
+        "The methods wait and notify need the lock of the condition. Call them inside `with self.changed:`.",
+    ),
+    (
+        matches("field message must be"),
+        "The field `message` has to be a string. Convert a number with str(...).",
+    ),
+    (matches("returned None"), "A handler ended without a return line. Return a response in every case."),
+    (
+        matches("cannot process request"),
+        'An empty basket is not an error: return success=False and the message "empty".',
+    ),
+]
+
+
+@part(
+    "10.3",
+    points=3,
+    goal=(
+        "Write a basket with /put and /take: a call of /take waits for an item, but not "
+        "longer than the limit."
+    ),
+    needs=["Basket"],
+    deadline=45.0,
+)
+def wait_for_another_call(context: CheckContext) -> None:
+    """Take from a filled and an empty basket; put an item while a client waits; then use many clients."""
+    names = [f"/{context.random.word()}" for _ in range(2)]
+    context.prepare(KERNEL_CODE)
+    opened = context.run("checked_basket.open", Its("Basket"), LIMIT, *names, worded=f"Basket({LIMIT:g})")
+    context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
+    put = context.service(names[0], TRIGGER, hints=[(matches("TimesUp"), HELD), *ERRORS])
+    take = context.service(
+        names[1], TRIGGER, hints=[(matches("TimesUp"), FOREVER), *ERRORS], timeout=2 * LIMIT + SLACK
+    )
+    try:
+        _puts_and_takes(context, put, take)
+        _waits_for_an_item(context, put, take)
+        _shares_the_items(context, put, take)
+    finally:
+        context.run("checked_basket.close")
+
+
+def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
+    count = context.random.integer(2, 4)
+    for number in range(1, count + 1):
+        _answer(context, "/put adds one to the number of items", put(), True, str(number))
+    for number in range(count - 1, -1, -1):
+        response = take()
+        _at_once(context, "an item that is in the basket is taken immediately", take.took)
+        _answer(context, "/take subtracts one from the number of items", response, True, str(number))
+
+
+def _answer(context: CheckContext, assertion: str, response: Message, success: bool, message: str) -> None:
+    context.expect(
+        assertion,
+        expected=[success, message],
+        actual=[response.success, response.message],
+        hints=[
+            (
+                lambda actual: actual[0] is not success and actual[1] == message,
+                f"The message is right, but success must be {success} here.",
+            ),
+            (
+                lambda actual: actual[1] != "empty" and message == "empty",
+                'No item came, so return success=False with the message "empty".',
+            ),
+            (
+                ANYTHING,
+                "The message has to be the number of items in the basket after the call, as a string.",
+            ),
+        ],
+    )
+
+
+def _at_once(context: CheckContext, assertion: str, took: float) -> None:
+    context.require(
+        assertion,
+        holds=took < SLACK,
+        expected="an immediate response",
+        actual=f"a response after {took:.1f} s",
+        hints=(
+            "An item was in the basket before the call. Check first, and wait only while the basket is empty."
+        ),
+    )
+
+
+def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> None:
+    waking = Timer(LATER, context.run, ("checked_basket.wake",))
+    waking.start()
+    response = take()
+    waking.join()
+    context.require(
+        "an empty basket is reported when the limit is over",
+        holds=response.success or LIMIT - 0.1 <= take.took < LIMIT + SLACK,
+        expected=f"a response after {LIMIT:g} s",
+        actual=f"a response after {take.took:.1f} s",
+        hints=FOREVER if take.took > LIMIT else TOO_EARLY,
+    )
+    context.require(
+        "each item is taken once",
+        holds=not response.success,
+        expected="no item from an empty basket",
+        actual="an item",
+        hints=TOO_MANY,
+    )
+    _answer(context, "an empty basket is reported when the limit is over", response, False, "empty")
+    later = Timer(LATER, put)
+    later.start()
+    response = take()
+    later.join()
+    context.require(
+        "a call of /put gets a response while /take waits",
+        holds=put.took < SLACK,
+        expected="an immediate response",
+        actual=f"a response after {put.took:.1f} s",
+        hints=HELD,
+    )
+    context.require(
+        "an item that comes wakes a waiting call",
+        holds=response.success and take.took < LIMIT - 0.2,
+        expected=f"a response {LATER:g} s after the call",
+        actual=f"success={response.success} after {take.took:.1f} s",
+        hints=NOT_WOKEN,
+    )
+
+
+def _shares_the_items(context: CheckContext, put: Service, take: Service) -> None:
+    """Let several clients wait, and put fewer items than clients, one after the other, with pauses."""
+    items = context.random.integer(2, 4)
+    clients = items + context.random.integer(2, 4)
+    pause = (LAST - LATER) / (items - 1)
+    timers = [Timer(LATER + pause * number, put) for number in range(items)]
+    for timer in timers:
+        timer.start()
+    replies = take.at_once([{}] * clients)
+    for timer in timers:
+        timer.join()
+    _each_item_once(context, replies, items)
+    late = max(reply.took for reply in replies)
+    context.require(
+        "no call takes longer than the limit",
+        holds=late < LIMIT + SLACK,
+        expected=f"a response after {LIMIT:g} s at the latest",
+        actual=f"a response after {late:.1f} s",
+        hints=FOREVER,
+    )
+
+
+def _each_item_once(context: CheckContext, replies: list[Reply], items: int) -> None:
+    taken = sum(reply.response.success for reply in replies)
+    context.expect(
+        "each item is taken once",
+        expected=items,
+        actual=taken,
+        hints=[(lambda actual: actual > items, TOO_MANY), (ANYTHING, NOT_WOKEN)],
+    )

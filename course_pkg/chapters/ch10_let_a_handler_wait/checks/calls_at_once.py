@@ -1,0 +1,220 @@
+"""10.1: a client that calls one service from several threads at the same time."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Message, Value
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import wait_until
+
+TRIGGER = "std_srvs/Trigger"
+TOGETHER = 1.0  # s for which a call waits for all other calls; after this time, no call waits any more
+LIMIT = 6.0  # s for the student's function
+PROMPT = 0.3  # s after the last response; a function that returns later may not join its threads
+LONGER = 1.0  # s by which the calls of another round then take longer than such a function needed
+
+# Reports each call of a persistent proxy, in the thread that makes it.
+KERNEL_CODE = """
+import rospy
+
+
+class ProxyWatch:
+    def begin(self):
+        self.proxies, self.original = [], rospy.ServiceProxy.call
+
+        def call(proxy, *args, **named):
+            if proxy.persistent:
+                self.proxies.append(proxy)  # kept, so that no other object gets its id
+                checked_proxies.called(id(proxy))
+            return self.original(proxy, *args, **named)
+
+        rospy.ServiceProxy.call = call
+
+    def end(self):
+        rospy.ServiceProxy.call = self.original
+        self.proxies = []
+
+
+proxy_watch = ProxyWatch()
+"""
+SHARED = (
+    "Two threads call the same persistent proxy, so they use one connection at the same time. Create a proxy "
+    "in each thread, or share one without persistent=True."
+)
+
+
+class Proxies:
+    """Records which threads call each persistent proxy."""
+
+    def __init__(self) -> None:
+        self.calls = 0
+        self._threads: dict[str, set[threading.Thread]] = {}
+
+    @remote
+    def called(self, proxy: Value) -> None:
+        """Record a call of the persistent proxy with the id `proxy`, by the current thread."""
+        self._threads.setdefault(str(proxy), set()).add(threading.current_thread())
+        self.calls += 1
+
+    @property
+    def shared(self) -> bool:
+        """Whether several threads have called the same proxy."""
+        return any(len(threads) > 1 for threads in self._threads.values())
+
+
+class Gate:
+    """A service that responds `hold` s after `count` clients have called it, or after TOGETHER s."""
+
+    def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
+        self.most = 0  # the largest number of clients that waited at the same time
+        self.requests = 0
+        self.answered = 0.0  # when the last response was sent, in s of time.monotonic()
+        self._count, self._words, self._hold = count, words, hold
+        self._inside = 0
+        self._full = False
+        self._changed = threading.Condition()
+
+    def __call__(self, _: Message) -> dict[str, Json]:
+        """Handle a request: wait for the other clients, and respond with a different word for each."""
+        with self._changed:
+            word = self._words[self.requests % len(self._words)]
+            self.requests += 1
+            self._inside += 1
+            self.most = max(self.most, self._inside)
+            self._full = self._full or self._inside >= self._count
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: self._full, TOGETHER)
+            self._full = True
+        time.sleep(self._hold)
+        with self._changed:
+            self._inside -= 1
+            self.answered = time.monotonic()
+        return {"success": True, "message": word}
+
+
+NOT_TOGETHER: Hints = [
+    (
+        1,
+        "The second call began after the first call had returned. Start all threads "
+        "before you join the first thread, and pass the function to the thread without "
+        "calling it.",
+    ),
+    (ANYTHING, "Some calls began only after other calls had returned. Start all threads first."),
+]
+ERRORS = [
+    (
+        matches("TimesUp"),
+        "All calls have returned, but the function has not. Join each thread once, after its start.",
+    ),
+    (
+        matches("cannot join thread before"),
+        "Your function joined a thread before it started the thread. Call start() of each thread first.",
+    ),
+]
+
+
+@part(
+    "10.1",
+    points=2,
+    goal="Call a Trigger service from several threads at the same time, and return all messages.",
+    needs=["call_at_once"],
+    deadline=30.0,
+)
+def calls_at_once(context: CheckContext) -> None:
+    """Offer a service that responds when all clients have called; try two numbers of clients."""
+    context.prepare(KERNEL_CODE)
+    context.run("proxy_watch.begin")
+    try:
+        counts = context.random.shuffled([context.random.integer(3, 4), context.random.integer(5, 8)])
+        late = max([_round(context, count) for count in counts])
+        if late > PROMPT:
+            _round(context, counts[0], late + LONGER)
+    finally:
+        context.run("proxy_watch.end")
+
+
+def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
+    """Run the function with `count` calls that take `hold` s; return how many s later it returned."""
+    name = f"/{context.random.word()}"
+    proxies = Proxies()
+    context.place("checked_proxies", proxies)
+    words = [context.random.word(8) for _ in range(count)]
+    gate = Gate(count, words, hold)
+    server = context.serve(name, TRIGGER, gate)
+    result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)
+    late = time.monotonic() - gate.answered
+    found = result.returned()
+    _called(context, count, gate)
+    _shares_no_proxy(context, proxies, server)
+    _returned(context, words, found)
+    server.leave()
+    return late
+
+
+def _called(context: CheckContext, count: int, gate: Gate) -> None:
+    wait_until(lambda: gate.requests >= count, TOGETHER)  # calls from threads that the function did not join
+    context.expect(
+        "the service is called `count` times",
+        expected=count,
+        actual=gate.requests,
+        hints=[
+            (
+                0,
+                "The service was not called. Call the service in `name`; if the thread's target "
+                "has one argument, args is a tuple such as (name,).",
+            ),
+            (lambda actual: actual < count, "There were too few calls. Start one thread for each call."),
+            (ANYTHING, "There were too many calls. Let each thread make one call."),
+        ],
+    )
+    context.expect(
+        "all calls wait for their responses at the same time",
+        expected=count,
+        actual=gate.most,
+        hints=NOT_TOGETHER,
+    )
+
+
+def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedServer) -> None:
+    """Assert that each persistent connection of the service is one of a recorded call."""
+    persistent = [header for header in server.received.headers if header.get("persistent") in ("1", "true")]
+    context.require(
+        "all calls wait for their responses at the same time",
+        holds=not proxies.shared and len(persistent) <= proxies.calls,
+        expected="no persistent proxy that several threads call",
+        actual="one persistent proxy for several threads",
+        hints=SHARED,
+    )
+
+
+def _returned(context: CheckContext, words: list[str], found: Json) -> None:
+    items = found if isinstance(found, list) else []
+    context.require(
+        "a list with the message of each response is returned",
+        holds=isinstance(found, list) and sorted(map(str, items)) == sorted(words),
+        expected=f"the {len(words)} messages, in any order",
+        actual=found,
+        hints=[
+            (None, NO_RETURN),
+            (
+                lambda actual: isinstance(actual, list) and len(actual) < len(words),
+                "Not all messages are in the list. Join every thread before you return the list.",
+            ),
+            (
+                lambda actual: isinstance(actual[0], dict),
+                "These are whole responses. Put the field `message` of each response into the list.",
+            ),
+            (
+                lambda actual: all(item is None for item in actual),
+                "The list contains None: append the field `message` of the response that the proxy returned.",
+            ),
+            (ANYTHING, "Return a list that contains the message of each response once."),
+        ],
+    )

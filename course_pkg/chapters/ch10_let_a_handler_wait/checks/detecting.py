@@ -1,0 +1,303 @@
+"""10.2: a handler that waits for a customer, with a time limit."""
+
+from __future__ import annotations
+
+import time
+from threading import Timer
+
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.watch_in_kernel import A_SHOP
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.peers.publisher import Publisher
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.plain_values import Message
+from course_pkg.waiting import wait_until
+
+DETECT = "course_pkg/DetectCustomer"
+COUNTER = "std_msgs/UInt32MultiArray"
+SLACK = 1.5  # s that a busy machine may add
+LONG = 2.0  # s of patience if no customer arrives: a handler that waits twice as long exceeds the slack
+LATER = 0.6  # s until a customer arrives
+PATIENCE = 5.0  # s of patience that is longer than every wait for a customer
+CHANGE = 2.2  # s until a change that no client waits for
+SELDOM = 8  # calls of watch.next() in LONG s; with fewer calls and no wait, a handler is too slow
+LOOKS = 3000  # calls of watch.next() in LONG s; a loop without a pause makes many more
+
+SINCE_WHEN = "the field `arrived` is the time at which the customer came"
+AT_ONCE = (
+    "A customer was there before the call. Check first, and wait only if no "
+    "customer is there: wait_for does both."
+)
+BUSY = (
+    "Your loop has no pause, so it calls watch.next() thousands of times per "
+    "second. Use watch.changed.wait_for(...): the thread then sleeps until another "
+    "thread notifies it."
+)
+CHANGED = (
+    "The handler returned before the time was over, but a customer came later. A "
+    "change can also mean that a customer has left: wait again until the right "
+    "customer is there, or use wait_for."
+)
+FOREVER = (
+    "The handler waits longer than request.patience. Use this time, in seconds, as the timeout of the wait."
+)
+RESTARTED = (
+    "After a change of the customers, the time limit started again. Calculate the "
+    "end of the waiting time once, or use wait_for, which does this for you."
+)
+LEFT = (
+    "The handler called watch.next() a second time without the lock, when the "
+    "customer had already left. Use the result of one call, or call it again inside "
+    "`with watch.changed:`."
+)
+RARELY = (
+    "The handler calls watch.next() only a few times per second, so it notices a "
+    "customer late. Wait with watch.changed.wait_for(...), which checks again as "
+    "soon as another thread notifies it."
+)
+HELD = (
+    "A customer came, but the handler did not notice it, because it holds the lock "
+    "of `changed` while it sleeps. Use changed.wait_for(...), which releases the "
+    "lock while it waits."
+)
+TOO_EARLY = (
+    "The handler returned too early. If no customer is there, wait until request.patience seconds are over."
+)
+ERRORS = [
+    (
+        matches("cannot (wait on|notify on) un-acquired lock"),
+        "The methods wait and wait_for need the lock. Call them inside `with watch.changed:`.",
+    ),
+    (
+        matches("returned None"),
+        "The handler ended without a return line. Return a response if no customer came, too.",
+    ),
+    (
+        matches("'NoneType' object has no attribute"),
+        "watch.next() returns None if no customer is there, and None has no attribute "
+        "`number`. Compare the result with None first.",
+    ),
+    (
+        matches("not callable"),
+        "The argument of wait_for has to be a function, not a value, because wait_for "
+        "calls it after each change. Write a lambda, for example.",
+    ),
+    (matches("TimesUp"), FOREVER),
+    (
+        matches("cannot process request"),
+        "If no customer came, do not raise an error. Return an ordinary response with detected=False.",
+    ),
+]
+
+
+@part(
+    "10.2",
+    points=3,
+    goal="Respond as soon as a customer is there, and after request.patience seconds at the latest.",
+    needs=["handle_detect"],
+    deadline=45.0,
+)
+def wait_for_a_customer(context: CheckContext) -> None:
+    """Call without a customer; with a present, a known and an arriving customer; and with several clients."""
+    counter, name = (f"/{context.random.word()}" for _ in range(2))
+    context.prepare(A_SHOP)
+    opened = context.run("shop.open", Its("handle_detect"), counter, name, worded="rospy.Service(...)")
+    context.require("a service can use the handler", holds=not opened.error, actual=opened.error)
+    try:
+        shop = _Shop(context, counter)
+        left = (lambda error: "NoneType" in error and context.read("shop.watch.left"), LEFT)
+        detect = context.service(name, DETECT, hints=[left, *ERRORS], timeout=9.0)
+        _nobody(context, detect)
+        rarely = context.read("shop.watch.looks", int) < SELDOM and not context.read(
+            "shop.watch.changed.waits"
+        )
+        _somebody(context, detect, shop, rarely=rarely)
+        _several(context, detect, shop)
+    finally:
+        context.run("shop.close")
+
+
+class _Shop:
+    """Publishes the customers at the counter repeatedly, as the camera does."""
+
+    def __init__(self, context: CheckContext, counter: str) -> None:
+        self._context, self._counter = context, counter
+        self._saying: Publisher | None = None
+        self.there()
+        self._await("told", True)
+
+    def there(self, *numbers: int) -> None:
+        """Publish that exactly these customers are at the counter."""
+        if self._saying:
+            self._saying.stop()
+        self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
+
+    def later(self, seconds: float, *numbers: int) -> None:
+        """Publish that these customers are at the counter, `seconds` from now."""
+        Timer(seconds, self.there, numbers).start()
+
+    def await_sight(self, count: int) -> None:
+        """Wait until the student's process knows how many customers are at the counter."""
+        self._await("count", count)
+
+    def _await(self, name: str, value: int) -> None:
+        wait_until(lambda: self._context.read(f"shop.watch.{name}") == value, 5.0)
+
+
+def _nobody(context: CheckContext, detect: Service) -> None:
+    for patience in (0.0, LONG):
+        looks = context.read("shop.watch.looks", int)
+        response = detect(after=0, patience=patience)
+        _no(context, response)
+        context.require(
+            "without a customer, the response comes when the time is over",
+            holds=patience - 0.1 <= detect.took < patience + SLACK,
+            expected=f"a response after {patience:g} s",
+            actual=f"a response after {detect.took:.1f} s",
+            hints=TOO_EARLY if detect.took < patience else FOREVER,
+        )
+        context.require(
+            "a waiting handler needs almost no processor time",
+            holds=context.read("shop.watch.looks", int) - looks < LOOKS,
+            expected="a few calls of watch.next() while nothing happens",
+            actual="thousands of calls",
+            hints=BUSY,
+        )
+
+
+def _no(context: CheckContext, response: Message) -> None:
+    context.expect(
+        "without a customer, detected is False, and the other fields are 0",
+        expected=[False, 0, 0.0],
+        actual=[response.detected, response.number, response.arrived.to_sec()],
+        hints=[
+            (
+                lambda actual: actual[:2] == [False, 0],
+                "No customer came, so arrived has to be zero, which is rospy.Time().",
+            ),
+            (ANYTHING, "No customer is there, so detected has to be False and number has to be 0."),
+        ],
+    )
+
+
+def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bool) -> None:
+    known, coming = sorted(context.random.integers(2, 100, 900))
+    shop.there(known)
+    shop.await_sight(1)
+    response = detect(after=0, patience=PATIENCE)
+    _found(context, detect, response, known)
+    _at_once(context, "a customer who is already there is found immediately", detect.took, hint=AT_ONCE)
+    again = detect(after=0, patience=0.0)
+    context.require(
+        "a customer who is there is found with patience 0, too",
+        holds=again.detected,
+        expected="detected with patience 0",
+        actual="not detected",
+        hints="If request.patience is 0, do not wait, but still call watch.next() once.",
+    )
+    context.expect(
+        SINCE_WHEN,
+        expected=response.arrived.to_sec(),
+        actual=again.arrived.to_sec(),
+        hints=(
+            "Two calls for the same customer got different times. Return the time at which "
+            "the customer was first seen, customer.arrived."
+        ),
+    )
+    shop.later(LATER / 2)  # the known customer leaves: a change, but not the expected one
+    shop.later(LATER, coming)
+    response = detect(after=known, patience=PATIENCE)
+    context.require(
+        "a customer up to `after` is not returned",
+        holds=response.number != known,
+        expected=f"a customer above {known}",
+        actual=known,
+        hints=(
+            "The client already knows this customer: the number is not higher than "
+            "request.after. Pass request.after to watch.next."
+        ),
+    )
+    _found(context, detect, response, coming)
+    hint = "A customer came, but the handler continued to wait. Return as soon as a customer is there."
+    _at_once(context, "if a customer comes, the handler responds immediately", detect.took, LATER, hint)
+    context.require(
+        "if a customer comes, the handler responds immediately",
+        holds=not rarely,
+        expected="a thread that waits for a notification",
+        actual=f"fewer than {SELDOM} calls of watch.next() in {LONG:g} s, and no wait between them",
+        hints=RARELY,
+    )
+
+
+def _found(context: CheckContext, detect: Service, response: Message, number: int) -> None:
+    context.require(
+        "a customer who is there is detected",
+        holds=response.detected,
+        expected=f"detected, and the number {number}",
+        actual=response,
+        hints=[
+            (
+                lambda actual: actual["number"] > 0,
+                "The number is right, but detected is False. Set detected to True.",
+            ),
+            ((lambda _: context.read("shop.watch.left")), LEFT),
+            (ANYTHING, HELD if detect.took > PATIENCE - 0.5 else CHANGED),
+        ],
+    )
+    context.expect(
+        "the response has the customer's number",
+        expected=number,
+        actual=response.number,
+        hints=[
+            (0, "The field `number` has its default value, 0. Set it to customer.number."),
+            (ANYTHING, "This is not the number of the customer. Set the field `number` to customer.number."),
+        ],
+    )
+    context.require(
+        SINCE_WHEN,
+        holds=abs(response.arrived.to_sec() - time.time()) < 30.0,
+        expected="the time at which the customer was first seen",
+        actual=f"{response.arrived.to_sec():.1f} s",
+        hints="The time is missing. Set the field `arrived` to customer.arrived.",
+    )
+
+
+def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
+    coming = context.random.integer(1000, 9000)
+    shop.there()
+    shop.await_sight(0)
+    shop.later(LATER, coming)
+    shop.later(CHANGE, coming - 1, coming)
+    patience = LATER + SLACK + 1.0
+    in_vain = {"after": coming, "patience": patience}
+    waiting = {"after": coming - 1, "patience": PATIENCE}
+    *vain, one, two, three = detect.at_once([in_vain] * 2 + [waiting] * 3)
+    replies = [one, two, three]
+    context.expect(
+        "every waiting client gets the customer",
+        expected=[coming] * 3,
+        actual=[reply.response.number for reply in replies],
+    )
+    hint = "One client had to wait for another client. Do not hold a second lock while you wait."
+    _at_once(
+        context, "several clients wait at the same time", max(reply.took for reply in replies), LATER, hint
+    )
+    for reply in vain:
+        _no(context, reply.response)
+        context.require(
+            "without a customer, the response comes when the time is over",
+            holds=patience - 0.1 <= reply.took < patience + SLACK,
+            expected=f"a response after {patience:g} s",
+            actual=f"a response after {reply.took:.1f} s",
+            hints=CHANGED if reply.took < patience else RESTARTED,
+        )
+
+
+def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
+    """Assert that the response came as soon as the customer, `after` s after the request."""
+    context.require(
+        assertion,
+        holds=took < after + SLACK,
+        expected=f"a response {after:g} s after the call" if after else "a response at once",
+        actual=f"a response after {took:.1f} s",
+        hints=hint,
+    )

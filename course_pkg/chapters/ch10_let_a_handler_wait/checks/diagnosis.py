@@ -1,0 +1,49 @@
+"""10.7: the causes of six observations: threads that wait too long, or do not wait."""
+
+from __future__ import annotations
+
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.shared.cases import Cases, compare_cases
+
+# The notebook shows the observations of each case; these are the causes.
+RIGHT = {
+    "A": "lock across a call",
+    "B": "lock order",
+    "C": "no limit",
+    "D": "race",
+    "E": "no notify",
+    "F": "no loop",
+}
+DECISIVE = {
+    "A": "Follow the calls from thread to thread: the last one waits for a lock that the first one holds.",
+    "B": "Each of the two threads holds the lock of one shelf and waits for the lock of the other shelf.",
+    "C": "The clients have ended, but the number of waiting threads grows.",
+    "D": "No thread waits, and no call fails. Only the numbers are wrong.",
+    "E": "The item came after two seconds, but the handler returned only when its time limit was over.",
+    "F": "Only one item came, but several threads woke up and took an item.",
+}
+ENTRIES = {
+    "lock across a call": (
+        "With a lock held across a call, you see waiting threads in two services, and "
+        "one of them calls the other."
+    ),
+    "lock order": "A wrong lock order needs two threads and two locks.",
+    "no limit": "A wait without a limit never ends, even when the client has ended.",
+    "race": "A race changes data while no thread waits.",
+    "no notify": "A missing notify lets a thread wait longer than necessary.",
+    "no loop": "Without a loop, a thread that wakes up continues even if no item is there.",
+}
+CASES = Cases(
+    RIGHT,
+    DECISIVE,
+    ENTRIES,
+    missing="A case is missing. Give a cause for each letter from A to F.",
+    keys="The keys are the letters A to F, as strings with capital letters.",
+    spelling="Copy the names from the list of causes, letter by letter.",
+)
+
+
+@part("10.7", points=2, goal="Find the cause for six observations.", needs=["causes"])
+def find_the_cause(context: CheckContext) -> None:
+    """Compare the student's cause of each case with the right cause."""
+    compare_cases(context, "causes", CASES)

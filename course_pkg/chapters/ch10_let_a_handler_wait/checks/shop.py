@@ -1,0 +1,329 @@
+"""10.5: a server that calls another server, and serves its own clients at the same time."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
+    CALLERS,
+    KERNEL_CODE,
+    MANY,
+    ONE,
+    SHELF_ERRORS,
+    TRIGGER,
+    CheckedShelf,
+)
+from course_pkg.checking import ANYTHING, CheckContext, Its, Refuse, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.scripted_server import Act, HangUp
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.plain_values import Message
+from course_pkg.checking.result import Result
+from course_pkg.errors import GraphError
+from course_pkg.ros.node.proxy import BoundedProxy
+
+CHARGE = "course_pkg/Charge"
+ABSENT = 4.0  # s for a sale without a server of the till, on a busy machine
+CALL_BACK = 2.0  # s after which the till continues without a response of the shop
+LOCKED = (
+    "The till called /left while it was charging, but got no response: your handler "
+    "holds the lock during the call, and /left needs this lock. Release the lock "
+    "before you call the till."
+)
+STUCK = (
+    "A client waits forever, because a lock was acquired but not released. `with` "
+    "releases the lock in every case."
+)
+ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
+TORN = (
+    "Two threads changed the shelf at the same time, so one change was lost. Hold "
+    "one lock while you read, decide and write, also when you put a thing back."
+)
+SOLD_OUT = '"Sold out" is an ordinary response here. Return success=False, and do not raise an error.'
+NOT_CAUGHT = (
+    "The call of the till failed, and the exception ended your handler. Catch "
+    "rospy.ServiceException, put the thing back, and return success=False."
+)
+
+NO_TILL = (
+    "The server of the till does not run, but the handler waits for it without a "
+    "limit. Call the till directly: the call raises rospy.ServiceException "
+    "immediately."
+)
+
+
+class Till:
+    """A till that charges, and that calls the shop back during the first charge."""
+
+    def __init__(self, context: CheckContext, left: str) -> None:
+        self.acts: list[Act | None] = []  # what the till does in the next calls instead of charging
+        self.charged: list[int] = []  # cents
+        self.ids: list[str] = []
+        self.answers: list[str] = []  # responses of the shop to /left; "" if no response has arrived yet
+        self._first = context.random.integer(1000, 9000)
+        self._left, self._kind = left, context.service_class(TRIGGER)
+        self._lock = threading.Lock()
+
+    def __call__(self, request: Message) -> Act:
+        """Handle a request of a scripted server."""
+        with self._lock:
+            calls_back = not self.answers
+            if calls_back:
+                self.answers.append("")
+            act = self.acts.pop(0) if self.acts else None
+            self.ids.append(request.request_id)
+            if act is None:
+                self.charged.append(request.cents)
+            receipt = self._first + len(self.charged)
+        if calls_back:
+            self.answers[0] = self._call_back()
+        return {"receipt": receipt} if act is None else act
+
+    def _call_back(self) -> str:
+        try:
+            return str(BoundedProxy(self._left, self._kind, timeout=CALL_BACK).call().message)
+        except (GraphError, OSError) as error:
+            return f"{type(error).__name__}"
+
+
+@part(
+    "10.5",
+    points=3,
+    goal="Sell a thing for money: reserve it under the lock, call the till without the lock, and put it back "
+    "if the till fails.",
+    needs=["Shop"],
+    deadline=60.0,
+)
+def no_lock_across_a_call(context: CheckContext) -> None:
+    """Buy once, with a till that calls /left; then with failing tills; then in 50 threads."""
+    buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
+    till = Till(context, left)
+    context.prepare(KERNEL_CODE)
+    context.serve(charge, CHARGE, till)
+    cents = context.random.integer(100, 900)
+    count = context.random.integer(28, 36)
+    services = {buy: "handle_buy", left: "handle_left"}
+    worded = f"Shop(shelf, {cents}, the till) with {count} on the shelf"
+    shelf = CheckedShelf(count)
+    opened = _opened(context, shelf, services, cents, charge, worded)
+    context.require(
+        "a Shop can be created from a shelf, a price and the name of a till",
+        holds=not opened.error,
+        actual=opened.error,
+    )
+    try:
+        failed = [(matches("sold out"), SOLD_OUT), (matches("process request"), NOT_CAUGHT), *ERRORS]
+        buying = context.service(buy, TRIGGER, hints=failed, timeout=MANY)
+        looking = context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)
+        _sells(context, buying, till, cents, count)
+        _fails_to_sell(context, buying, looking, till, count - 1)
+        _sells_to_fifty(context, buying, looking, till, shelf, count - 1)
+    finally:
+        context.run("checked_shop.close")
+    _has_no_till(context, cents)
+
+
+def _opened(
+    context: CheckContext,
+    shelf: CheckedShelf,
+    services: dict[str, str],
+    cents: int,
+    charge: str,
+    worded: str,
+) -> Result:
+    context.place("checked_shelf", shelf)
+    its = Its("Shop"), Its("checked_shelf")
+    return context.run("checked_shop.open", *its, services, cents, charge, worded=worded)
+
+
+def _has_no_till(context: CheckContext, cents: int) -> None:
+    """Buy in a shop whose till does not run, so the call of the till fails immediately."""
+    buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
+    count = context.random.integer(2, 9)
+    services = {buy: "handle_buy", left: "handle_left"}
+    _opened(context, CheckedShelf(count), services, cents, charge, "Shop(shelf, cents, till)")
+    try:
+        failed = [(matches("TimesUp"), NO_TILL), (matches("process request"), NOT_CAUGHT)]
+        response = context.service(buy, TRIGGER, hints=failed, timeout=ABSENT)()
+        context.require(
+            "nothing is sold if the call of the till fails",
+            holds=not response.success and bool(response.message),
+            expected="success=False and a message, because the till does not run",
+            actual=response,
+            hints=(
+                "The till has no server, so nothing was paid. Return success=False and the text of the error."
+            ),
+        )
+        context.expect(
+            "a thing that was not paid for is on the shelf again",
+            expected=str(count),
+            actual=context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)().message,
+            hints=(
+                "The till had no server, so the thing is not sold. Put it back on the shelf "
+                "while you hold the lock."
+            ),
+        )
+    finally:
+        context.run("checked_shop.close")
+
+
+NOT_CHARGED_ONCE: Hints = [
+    ([], "The till was not called. Call the service whose name is in self.till."),
+    (ANYTHING, "The till was called with a wrong amount or more than once. Charge self.cents once."),
+]
+
+
+def _not_reserved(count: int) -> Hints:
+    return [
+        (
+            str(count),
+            "While the till is working, the thing is still on the shelf, so another client "
+            "can buy it. Take it from the shelf first, and put it back if the call of the "
+            "till fails.",
+        ),
+        (
+            ANYTHING,
+            "The message of /left has to be only the number of things on the shelf, as a string.",
+        ),
+    ]
+
+
+NOT_SOLD: Hints = [
+    (matches("False"), "The till has charged, but success is False. Set success to True."),
+    (ANYTHING, "The message of /buy has to be the number of the receipt, as a string."),
+]
+
+
+def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count: int) -> None:
+    response = buying()
+    context.expect(
+        "the till is called once, with the price",
+        expected=[cents],
+        actual=till.charged,
+        hints=NOT_CHARGED_ONCE,
+    )
+    context.require(
+        "the charge has a request_id",
+        holds=bool(till.ids[0]),
+        expected="a request_id",
+        actual="an empty value",
+        hints="The field request_id is empty. Create a new id for each purchase with uuid.uuid4().",
+    )
+    context.require(
+        "/left responds while the till is working",
+        holds=till.answers[0] not in ("CallTimeout",),
+        expected="a response of /left while the till is working",
+        actual="none within 2 s",
+        hints=LOCKED,
+    )
+    context.expect(
+        "a thing that is being paid for is not on the shelf",
+        expected=str(count - 1),
+        actual=till.answers[0],
+        hints=_not_reserved(count),
+    )
+    context.expect(
+        "a client that has paid gets the receipt",
+        expected=[True, str(till._first + 1)],
+        actual=[response.success, response.message],
+        hints=NOT_SOLD,
+    )
+
+
+def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, till: Till, count: int) -> None:
+    acts: list[Act | None] = [Refuse("no money on this card"), HangUp()]
+    for act in context.random.shuffled(acts):
+        till.acts, before = [act], len(till.ids)
+        response = buying()
+        asked = len(till.ids) - before
+        context.expect(
+            "nothing is sold if the call of the till fails",
+            expected=False,
+            actual=response.success,
+            hints=(
+                "The till did not charge, but success is True. Return success=False after an "
+                "error of the till."
+            )
+            if asked == 1
+            else (
+                "The call of the till failed, and your handler called the till again. Call it "
+                "once: the client decides what to do next."
+            ),
+        )
+        context.require(
+            "nothing is sold if the call of the till fails",
+            holds=bool(response.message),
+            expected="a message with the reason",
+            actual="an empty value",
+            hints="The message is empty. Return the text of the error, str(error), as the message.",
+        )
+        context.expect(
+            "a thing that was not paid for is on the shelf again",
+            expected=str(count),
+            actual=looking().message,
+            hints=[
+                (
+                    str(count - 1),
+                    "The call of the till failed, but the thing is not on the shelf. Put it back "
+                    "while you hold the lock.",
+                ),
+            ],
+        )
+
+
+def _sells_to_fifty(
+    context: CheckContext, buying: Service, looking: Service, till: Till, shelf: CheckedShelf, count: int
+) -> None:
+    till.charged.clear()
+    till.acts = [Refuse("no money on this card")] * 5
+    shelf.await_crowd()
+    replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
+    sold = sum(reply.success for reply in replies)
+    context.expect(
+        f"{CALLERS} clients at the same time: as many charges as sales",
+        expected=sold,
+        actual=len(till.charged),
+    )
+    context.require(
+        f"{CALLERS} clients at the same time: each purchase has its own request_id",
+        holds=len(set(till.ids)) == len(till.ids),
+        expected="as many ids as purchases",
+        actual="the same id twice",
+        hints=(
+            "Two purchases have the same request_id. Create a new request_id in the handler, for each call."
+        ),
+    )
+    refusals = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]
+    _sells_no_more_than_there_is(context, sold, count, refusals, 5 - len(till.acts))
+    context.expect(
+        f"{CALLERS} clients at the same time: the number of things left is right",
+        expected=str(count - sold),
+        actual=looking().message,
+        hints=TORN,
+    )
+    context.expect(
+        f"{CALLERS} clients at the same time: the number of things left is right",
+        expected=count - sold,
+        actual=shelf.things,
+        hints="The shelf that was given to Shop has another number than /left returns. Use its methods "
+        "read() and write(count), and do not replace them.",
+    )
+
+
+def _sells_no_more_than_there_is(
+    context: CheckContext, sold: int, count: int, refusals: list[str], unpaid: int
+) -> None:
+    context.require(
+        f"{CALLERS} clients at the same time: the shop sells only the things that it has",
+        holds=sold <= count,
+        expected=f"at most {count} sales",
+        actual=sold,
+        hints=TORN,
+    )
+    context.require(
+        f"{CALLERS} clients at the same time: the shop sells only the things that it has",
+        holds=len(refusals) <= unpaid,
+        expected='"sold out" if the shelf is empty',
+        actual=max(refusals, key=refusals.count, default=""),
+        hints='If the shelf is empty, return success=False and the message "sold out".',
+    )

@@ -1,0 +1,93 @@
+"""A shelf on which unlocked threads always collide, and a shop in the kernel that serves it."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.checking import matches
+from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Value
+
+TRIGGER = "std_srvs/Trigger"
+CALLERS = 50
+ONE = 6.0  # s for a single call
+SHELF_ERRORS = [
+    (
+        matches("field message must be"),
+        "The field `message` has to be a string. Convert a number with str(...).",
+    ),
+    (
+        matches("Shelf' object has no attribute"),
+        "A shelf has only the methods read() and write(count). Use only these two methods.",
+    ),
+]
+MANY = 20.0  # s for 50 calls at the same time, on a busy machine
+MEETING = 0.01  # s for which a thread waits for another one
+FIRST_MEETING = 0.3  # s for which the first thread of many waits, until the others have begun
+FIRST = 2  # such waits
+
+KERNEL_CODE = (
+    SMALL_STACKS
+    + """
+import rospy
+from std_srvs.srv import Trigger
+
+
+class CheckedShop:
+    def open(self, kind, shelf, services, *others):
+        small_stacks.begin()
+        self.one = kind(shelf, *others)
+        handlers = [(name, getattr(self.one, handler)) for name, handler in services.items()]
+        self.services = [rospy.Service(name, Trigger, handler) for name, handler in handlers]
+
+    def close(self):
+        small_stacks.end()
+        for service in self.services:
+            service.shutdown("checked")
+
+
+checked_shop = CheckedShop()
+"""
+)
+
+
+class CheckedShelf:
+    """A shelf with `count` things. The kernel has a proxy for it.
+
+    Each read and each write returns only when another thread reads, or after a moment. So two threads without
+    a lock read the same number. A lock keeps the other thread out.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.things: Value = count
+        self._reads = 0
+        self._long_waits = 0
+        self._turn = threading.Condition()
+
+    def await_crowd(self) -> None:
+        """Let the next thread wait longer, until the other threads have begun, even on a busy machine."""
+        self._long_waits = FIRST
+
+    @remote
+    def read(self) -> Value:
+        """Return how many things there are."""
+        with self._turn:
+            seen = self.things
+            self._reads += 1
+            self._turn.notify_all()
+            self._meet()
+        return seen
+
+    @remote
+    def write(self, count: Value) -> None:
+        """Set how many things there are."""
+        with self._turn:
+            self._meet()
+            self.things = count
+
+    def _meet(self) -> None:
+        so_far = self._reads
+        limit = FIRST_MEETING if self._long_waits > 0 else MEETING
+        self._long_waits -= 1
+        self._turn.wait_for(lambda: self._reads > so_far, limit)

@@ -1,0 +1,142 @@
+"""10.4: a handler that runs in fifty threads at the same time."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch10_let_a_handler_wait.checks.shop_in_kernel import (
+    CALLERS,
+    KERNEL_CODE,
+    MANY,
+    ONE,
+    SHELF_ERRORS,
+    TRIGGER,
+    CheckedShelf,
+)
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.service_calls import Service
+
+STUCK = (
+    "A client waits forever, because a lock is not free. Release the lock in every "
+    "case, as `with` does, and do not acquire it again in a thread that already "
+    "holds it."
+)
+ERRORS = [
+    *SHELF_ERRORS,
+    (matches("TimesUp"), STUCK),
+    (
+        matches("cannot process request: '?b?'?sold out"),
+        '"Sold out" is an ordinary response. Return success=False, and do not raise an error.',
+    ),
+    (
+        matches("has no attribute 'lock'"),
+        "The attribute self.lock does not exist. Create the lock once in __init__, and store it in self.",
+    ),
+]
+TWICE = (
+    "Two handlers read the same number, so one of the sales was lost. Hold a lock "
+    "while you read, decide and write, and use the same lock in all calls."
+)
+
+
+@part(
+    "10.4",
+    points=2,
+    goal=(
+        "Sell the things on a shelf to 50 clients at the same time: sell each thing "
+        'only once, and then respond with "sold out".'
+    ),
+    needs=["Stock"],
+    deadline=60.0,
+)
+def safe_with_fifty_clients(context: CheckContext) -> None:
+    """Empty a small shelf with single calls; then make fifty calls at the same time for fewer things."""
+    name = f"/{context.random.word()}"
+    context.prepare(KERNEL_CODE)
+    few = context.random.integer(2, 4)
+    take = _opened(context, name, CheckedShelf(few), ONE)
+    try:
+        for left in [*range(few - 1, -1, -1), None, None]:
+            _takes_one(context, take, left)
+    finally:
+        context.run("checked_shop.close")
+    count = context.random.integer(28, 36)
+    shelf = CheckedShelf(count)
+    take = _opened(context, name, shelf, MANY)
+    try:
+        _takes_all(context, take, shelf, count)
+    finally:
+        context.run("checked_shop.close")
+
+
+def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: float) -> Service:
+    services = {name: "handle_take"}
+    context.place("checked_shelf", shelf)
+    opened = context.run(
+        "checked_shop.open",
+        Its("Stock"),
+        Its("checked_shelf"),
+        services,
+        worded=f"Stock(shelf) with {shelf.things} on it",
+    )
+    context.require("a Stock can be created from a shelf", holds=not opened.error, actual=opened.error)
+    return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
+
+
+def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
+    """Take a thing; `left` is the number after this call, or None if the shelf was empty before."""
+    seen = take()
+    context.expect(
+        "the field `success` is True only if something was left",
+        expected=left is not None,
+        actual=seen.success,
+        hints=[
+            (True, "The shelf was empty, but success is True. Check the count before you sell."),
+            (False, "A thing was there, but success has its default value, False. Set success to True."),
+        ],
+    )
+    context.expect(
+        'the message is the number of things that are left, or "sold out"',
+        expected="sold out" if left is None else str(left),
+        actual=seen.message,
+        hints=[
+            ("", "The message is empty. Set it to the number that is left, as a string."),
+            (str((left or 0) + 1), "This is the number before the sale. Return the number after the sale."),
+            (ANYTHING, 'The message has to be the number that is left, such as "7", or the text "sold out".'),
+        ],
+    )
+
+
+def _wrong_number_sold(count: int) -> Hints:
+    return [
+        ((lambda actual: actual > count), TWICE),
+        (
+            (lambda actual: actual < count),
+            "A client got no thing although some were left. If another thread holds the "
+            "lock, wait for the lock.",
+        ),
+    ]
+
+
+def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count: int) -> None:
+    shelf.await_crowd()
+    replies = [reply.response for reply in take.at_once([{}] * CALLERS)]
+    sold = [reply.message for reply in replies if reply.success]
+    context.expect(
+        f"{CALLERS} clients at the same time: all things are sold, and not more",
+        expected=count,
+        actual=len(sold),
+        hints=_wrong_number_sold(count),
+    )
+    context.require(
+        f"{CALLERS} clients at the same time: each of them gets another thing",
+        holds=sorted(sold) == sorted(map(str, range(count))),
+        expected="each number of things left, once",
+        actual=", ".join(sorted({message for message in sold if sold.count(message) > 1})),
+        hints=TWICE,
+    )
+    context.expect(
+        "the shelf contains the number of things that were not sold",
+        expected=0,
+        actual=shelf.things,
+        hints="The number on the shelf is wrong. Write the number of things that are left to the shelf.",
+    )

@@ -1,0 +1,362 @@
+"""10.6: a function that needs two locks, and that several threads call at the same time."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Value
+
+LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries repeatedly to acquire it
+THREADS, MOVES = 4, 6  # threads at once, and the moves of each
+RUN = 8.0  # s for all threads together
+
+MEETING = 0.01  # s for which a thread that has taken a lock waits for another thread
+FIRST_MEETING = 0.3  # s for which the first one waits, until the others have begun
+
+# The student's function, alone and in several threads at once; `pair` is a proxy for a CheckedPair.
+KERNEL_CODE = """
+import threading
+
+
+def checked_move(function, pair, source, target):
+    shelves = pair.first, pair.second
+    return function(shelves[source], shelves[target])
+
+
+def checked_cross(function, pair, count, moves):
+    begin, shelves = threading.Barrier(count), (pair.first, pair.second)
+
+    def work(source):
+        try:
+            begin.wait(5)
+            for _ in range(moves):
+                pair.returned(function(shelves[source], shelves[1 - source]))
+        except Exception as error:
+            pair.raised(f"{type(error).__name__}: {error}")
+
+    threads = [threading.Thread(target=work, args=(number % 2,), daemon=True) for number in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+"""
+
+
+class Deadlock(Exception):
+    """A thread would wait for ever for a lock."""
+
+
+class CheckedLock:
+    """A lock that returns to the thread that has taken it when another thread holds the other lock.
+
+    So two threads that take the two locks in opposite order always meet. If no such thread comes, the thread
+    goes on after a moment. A thread that waits too long for the lock gets an error, so that no thread is left
+    behind.
+    """
+
+    def __init__(self, pair: CheckedPair, limit: float) -> None:
+        self.owner: int | None = None
+        self._pair, self._limit = pair, limit
+        self._lock = threading.Lock()
+        self._begun = time.monotonic()
+
+    @remote
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """Take the lock, as threading.Lock does."""
+        if self.owner == threading.get_ident() and blocking and timeout < 0:
+            raise Deadlock("the thread already holds this lock")
+        limited = blocking and timeout < 0
+        if not self._lock.acquire(blocking, self._limit if limited else timeout):
+            if limited:
+                raise Deadlock("two threads wait for each other")
+            if time.monotonic() > self._begun + self._limit:
+                raise Deadlock("a thread tries again and again, in vain")
+            return False
+        self.owner = threading.get_ident()
+        self._pair.meet()
+        return True
+
+    @remote
+    def release(self) -> None:
+        """Release the lock, as threading.Lock does."""
+        self.owner = None
+        self._lock.release()
+
+    @remote
+    def locked(self) -> bool:
+        """Return whether a thread has taken it."""
+        return self._lock.locked()
+
+    @remote
+    def __enter__(self) -> bool:
+        self.acquire()
+        return True
+
+    @remote
+    def __exit__(self, *_: Value) -> None:
+        self.release()
+
+
+class CheckedShelf:
+    """One of the two shelves."""
+
+    def __init__(self, pair: CheckedPair, number: int, count: int, limit: float) -> None:
+        self.things: Value = count
+        self._pair, self._number = pair, number
+        self._lock = CheckedLock(pair, limit)
+
+    @property
+    @remote
+    def number(self) -> int:
+        """The number of the shelf."""
+        return self._number
+
+    @property
+    @remote
+    def lock(self) -> CheckedLock:
+        """The lock of the shelf."""
+        return self._lock
+
+    @property
+    @remote
+    def count(self) -> Value:
+        """How many things are on it."""
+        self._pair.reads.append(self._pair.held())
+        return self.things
+
+    @count.setter
+    @remote
+    def count(self, count: Value) -> None:
+        self._pair.changes.append(self._pair.held())
+        self.things = count
+
+
+class CheckedPair:
+    """Two shelves, and how many locks a thread held at each read and each change of a count."""
+
+    def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
+        self.reads: list[int] = []
+        self.changes: list[int] = []
+        self.errors: list[str] = []
+        self.results: list[Value] = []
+        self._shelves = [CheckedShelf(self, *each, LIMIT) for each in zip(numbers, counts, strict=True)]
+        self._meeting = FIRST_MEETING if crowd else MEETING
+        self._turn = threading.Condition()
+
+    @property
+    @remote
+    def first(self) -> CheckedShelf:
+        """The shelf with the lower number."""
+        return self._shelves[0]
+
+    @property
+    @remote
+    def second(self) -> CheckedShelf:
+        """The shelf with the higher number."""
+        return self._shelves[1]
+
+    @remote
+    def returned(self, value: Value) -> None:
+        """Record what one of the calls at once has returned."""
+        self.results.append(value)
+
+    @remote
+    def raised(self, error: str) -> None:
+        """Record the error that ended one of the threads."""
+        self.errors.append(str(error))
+
+    @property
+    def counts(self) -> list[Value]:
+        """How many things are on the two shelves."""
+        return [shelf.things for shelf in self._shelves]
+
+    @property
+    def locked(self) -> bool:
+        """Whether one of the locks is taken."""
+        return any(shelf.lock.locked() for shelf in self._shelves)
+
+    @property
+    def error(self) -> str:
+        """One of the recorded errors, or an empty string."""
+        return min(self.errors, key=lambda error: "in vain" not in error, default="")
+
+    def held(self) -> int:
+        """Return how many of the locks the current thread holds."""
+        return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
+
+    def meet(self) -> None:
+        """Wait until another thread, too, holds a lock; a moment at most."""
+        with self._turn:
+            limit, self._meeting = self._meeting, MEETING
+            self._turn.notify_all()
+            self._turn.wait_for(
+                lambda: len({shelf.lock.owner for shelf in self._shelves} - {None}) > 1, limit
+            )
+
+
+ERRORS = [
+    (
+        matches("Deadlock: the thread already"),
+        "The function acquires a lock that its own thread already holds. Acquire each of the two locks once.",
+    ),
+    (
+        matches("unlocked lock"),
+        "The function released a lock that it did not hold. `with` avoids this mistake.",
+    ),
+    (
+        matches("TimesUp|in vain"),
+        "The function did not return. If you try again in a loop, release the first lock before each new "
+        "try.",
+    ),
+    (
+        matches("'<' not supported"),
+        "Python cannot compare two shelves. Sort them by their numbers: key=lambda shelf: shelf.number.",
+    ),
+]
+CROSSED = (
+    "One thread held the lock of the first shelf and waited for the lock of the "
+    "second shelf, while another thread did the opposite. Acquire the two locks in "
+    "the same order in every call, for example by the numbers of the shelves."
+)
+UNLOCKED = (
+    "A count was changed without both locks. Between the two changes, another "
+    "thread may read a wrong total: hold both locks for reading and for writing."
+)
+
+UNLOCKED_READ = (
+    "A count was read before the function held both locks, so another thread may "
+    "change it in the meantime. First acquire the locks in the order of the "
+    "shelves' numbers, and then read."
+)
+
+
+@part(
+    "10.6",
+    points=2,
+    goal="Move a thing between two shelves under both locks, without a deadlock in either direction.",
+    needs=["move"],
+    deadline=30.0,
+)
+def move_without_deadlock(context: CheckContext) -> None:
+    """Move things in one thread, also from an empty shelf; then in both directions at the same time."""
+    context.prepare(KERNEL_CODE)
+    numbers = sorted(context.random.integers(2, 1, 99))
+    few = context.random.integer(2, 3)
+    pair = CheckedPair(numbers, [few, 0])
+    context.place("checked_pair", pair)
+    _moves_one(context, pair, 0, [few - 1, 1], possible=True)
+    _moves_one(context, pair, 1, [few, 0], possible=True)
+    for moved in range(1, few + 2):
+        _moves_one(context, pair, 0, [max(few - moved, 0), min(moved, few)], possible=moved <= few)
+    counts = context.random.integers(2, 20, 40)
+    pair = CheckedPair(numbers, counts, crowd=True)
+    context.place("checked_pair", pair)
+    context.run(
+        "checked_cross",
+        Its("move"),
+        Its("checked_pair"),
+        THREADS,
+        MOVES,
+        within=RUN,
+        hints=ERRORS,
+        worded="move(), four threads at the same time",
+    ).returned()
+    context.require(
+        "four threads at the same time: every call returns",
+        holds=not pair.error,
+        expected="no thread that waits forever",
+        actual=pair.error,
+        hints=[(matches("two threads wait"), CROSSED), *ERRORS],
+    )
+    context.expect(
+        "four threads at the same time: the total number of things stays the same",
+        expected=sum(counts),
+        actual=sum(pair.counts),
+        hints=UNLOCKED,
+    )
+    context.expect(
+        "four threads at the same time: each call moves one thing",
+        expected=THREADS * MOVES,
+        actual=pair.results.count(True),
+        hints=(
+            "A call returned without a move, although the shelf was not empty. If another "
+            "thread holds a lock, wait for the lock."
+        ),
+    )
+    _both_locks(context, pair)
+
+
+def _moves_one(
+    context: CheckContext, pair: CheckedPair, source: int, counts: list[int], *, possible: bool
+) -> None:
+    """Move a thing from the shelf with the index `source`; `counts` are the right counts after the call."""
+    its = Its("move"), Its("checked_pair")
+    result = context.run(
+        "checked_move", *its, source, 1 - source, hints=ERRORS, worded="move(source, target)"
+    )
+    context.expect(
+        "True for a move, and False for an empty source",
+        expected=possible,
+        actual=result.returned(),
+        hints=[
+            (None, "The function returned None. Return True after a move, and False if the source is empty."),
+            (
+                (lambda actual: actual is False and possible),
+                "The source was not empty, but the function returned False. Check the count of "
+                "`source`, even if the lock of `target` is acquired first.",
+            ),
+            (
+                ANYTHING,
+                "Return True if a thing was moved, and False if the source was empty before the call.",
+            ),
+        ],
+    )
+    context.expect(
+        "one thing goes from the source to the target",
+        expected=counts,
+        actual=pair.counts,
+        hints=[
+            (
+                lambda actual: sum(actual) != sum(counts),
+                "The total changed. Subtract one from the source, and add one to the target.",
+            ),
+            (
+                lambda actual: min(actual) < 0,
+                "The count of an empty shelf became negative. Check the count first.",
+            ),
+            (ANYTHING, "The function has to move exactly one thing, from `source` to `target`."),
+        ],
+    )
+    context.require(
+        "both locks are free after the call",
+        holds=not pair.locked,
+        expected="two free locks",
+        actual="a lock that is still held",
+        hints=(
+            "A lock is still held after the function has returned. Release it in every "
+            "case; `with` does this."
+        ),
+    )
+    _both_locks(context, pair)
+
+
+def _both_locks(context: CheckContext, pair: CheckedPair) -> None:
+    changes, reads = pair.changes, pair.reads
+    context.require(
+        "both locks are held while a count changes",
+        holds=all(held == 2 for held in changes),
+        expected="two locks",
+        actual=f"{min(changes, default=0)} of them",
+        hints=UNLOCKED,
+    )
+    context.require(
+        "both locks are held while a count changes",
+        holds=all(held == 2 for held in reads),
+        expected="two locks while a count is read",
+        actual=f"{min(reads, default=0)} of them",
+        hints=UNLOCKED_READ,
+    )

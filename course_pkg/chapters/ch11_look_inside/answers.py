@@ -1,0 +1,620 @@
+"""Example answers of chapter 11; tests/checking/example_answers.py explains the format."""
+
+# %% 11.1 right: field by field
+def pack_header(fields):
+    body = b""
+    for name, value in fields.items():
+        text = f"{name}={value}".encode()
+        body += struct.pack("<I", len(text)) + text
+    return struct.pack("<I", len(body)) + body
+
+# %% 11.1 right: without struct
+def pack_header(fields):
+    def sized(data):
+        return len(data).to_bytes(4, "little") + data
+
+    return sized(b"".join(sized((name + "=" + value).encode("utf-8")) for name, value in fields.items()))
+
+# %% 11.1 right: library, sorted
+import rosgraph.network
+def pack_header(fields):
+    return rosgraph.network.encode_ros_handshake_header(fields)
+
+# %% 11.1 wrong: big-endian | hint: The lengths are big-endian
+replace("<", "!", times=2)
+# %% 11.1 wrong: no length of the whole header | hint: The length of the whole header is missing
+replace('struct.pack("<I", len(body)) + body', "body")
+# %% 11.1 wrong: counts its own length | hint: The first length is too large by 4
+replace("(body)", "(body) + 4")
+# %% 11.1 wrong: counts the fields | hint: The first number is the number of fields
+replace('b""', 'struct.pack("<I", len(fields))')
+replace('struct.pack("<I", len(body)) + body', "body")
+# %% 11.1 wrong: counts letters | hint: A length is a number of bytes, and ü has two bytes
+replace('"{name}={value}".encode()', '"{name}={value}"')
+replace("+ text", "+ text.encode()")
+# %% 11.1 wrong: lines, as in HTTP | hint: Write only an equals sign between name and value
+replace("{name}={value}", "{name}: {value}")
+# %% 11.1 wrong: one length for all | hint: The length of a field is missing
+replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
+
+# %% 11.1 wrong: forgets to return | hint: without a return line
+def pack_header(fields):
+    body = b"".join(struct.pack("<I", len(name)) + name.encode() for name in fields)
+    struct.pack("<I", len(body)) + body
+
+# %% 11.1 wrong: text | hint: This is a str, but a socket needs bytes
+replace('body = b"" … body)) + body', 'return "\\n".join(f"{name}={value}" for name, value in fields.items())')
+# %% 11.1 wrong: ascii | hint: ASCII does not contain the letter ü
+replace("encode()", 'encode("ascii")')
+# %% 11.1 wrong: latin-1 | hint: The text is in Latin-1
+replace("encode()", 'encode("latin-1")')
+# %% 11.1 wrong: list of ints | hint: The numbers are right, but a socket needs bytes
+replace('struct.pack("<I", len(body)) + body', 'list(struct.pack("<I", len(body)) + body)')
+# %% 11.1 wrong: two-byte lengths | hint: A length needs 4 bytes
+replace("I", "H", times=2)
+# %% 11.1 wrong: nothing for an empty header | hint: A header without fields consists of its length, 0
+replace("(fields):", '(fields):\n    if not fields:\n        return b""')
+# %% 11.1 wrong: a line end in each field | hint: Compare your bytes with the bytes of step 3
+replace("{name}={value}", "{name}={value}\\n")
+
+# %% 11.2 right: adds up
+def receive(sock, count):
+    data = b""
+    while len(data) < count:
+        piece = sock.recv(count - len(data))
+        if not piece:
+            raise ConnectionError("the other end has closed")
+        data += piece
+    return data
+
+# %% 11.2 right: a list of pieces
+def receive(sock, count):
+    pieces = []
+    missing = count
+    while missing > 0:
+        pieces.append(sock.recv(missing))
+        if pieces[-1] == b"":
+            raise ConnectionResetError(f"{missing} bytes are missing")
+        missing -= len(pieces[-1])
+    return b"".join(pieces)
+
+# %% 11.2 right: MSG_WAITALL
+replace('data = b"" … data += piece', """data = sock.recv(count, socket.MSG_WAITALL) if count else b""
+    if len(data) < count:
+        raise ConnectionError("the other end has closed")""")
+
+# %% 11.2 right: MSG_PEEK until all bytes are there
+def receive(sock, count):
+    while count:
+        seen = sock.recv(count, socket.MSG_PEEK)
+        if len(seen) == count:
+            break
+        if not seen:
+            raise ConnectionError("closed")
+        time.sleep(0.01)
+        before = seen
+        if len(sock.recv(count, socket.MSG_PEEK | socket.MSG_DONTWAIT)) == len(before):
+            return sock.recv(len(seen)) + receive(sock, count - len(seen))
+    return sock.recv(count)
+import time
+
+# %% 11.2 wrong: calls recv once | hint: recv returned only the bytes that had arrived
+replace('data = b"" … return data', "return sock.recv(count)")
+# %% 11.2 wrong: never notices the end | hint: After the other end has closed the connection, recv always returns b''
+replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
+# %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so the next call does
+replace("count - len(data)", "4096")
+# %% 11.2 wrong: discards the bytes that it read ahead | hint: An earlier call read too many bytes and lost them, and now
+replace("count - len(data)", "4096")
+replace("return data", "return data[:count]")
+# %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so the next call does
+replace("sock.recv(count - len(data))", "sock.recv(count)")
+# %% 11.2 wrong: passes the whole number each time, and cuts | hint: An earlier call read too many bytes and lost them, and now
+replace("sock.recv(count - len(data))", "sock.recv(count)")
+replace("return data", "return data[:count]")
+# %% 11.2 wrong: returns fewer bytes at the end | hint: The function returned fewer than `count` bytes, and the caller cannot notice
+replace('raise ConnectionError("the other end has closed")', "break")
+# %% 11.2 wrong: forgets to return | hint: without a return line
+replace("\n    return data", "")
+# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the rest follows
+replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
+# %% 11.2 wrong: buffered file | hint: An earlier call read too many bytes and lost them, and now
+based_on("a short piece is taken for the end")
+replace("sock.recv", 'sock.makefile("rb").read')
+# %% 11.2 wrong: sleeps | hint: A short piece is not the end
+based_on("a short piece is taken for the end")
+replace("def receive(sock, count):", "import time\n\n\ndef receive(sock, count):\n    time.sleep(0.2)")
+# %% 11.2 wrong: treats a pause as the end | hint: The argument `count` was 0, so no bytes are missing
+replace("len(data) < count", "True")
+replace('"the other end has closed"', '"closed"')
+replace("\n    return data", "\n        if len(data) == count:\n            return data")
+# %% 11.2 wrong: returns the list of pieces | hint: This is the list of pieces
+based_on("a list of pieces")
+replace('b"".join(pieces)', "pieces")
+# %% 11.2 wrong: closes the socket | hint: The function closed the socket
+replace("    return data", "    sock.close()\n    return data")
+# %% 11.2 wrong: another error | hint: raise ConnectionError, and no other error
+replace("ConnectionError(", "ValueError(")
+
+# %% 11.3 right: step by step
+def ask(uri, service, length, width, height):
+    host, port = uri.removeprefix("rosrpc://").split(":")
+    with socket.create_connection((host, int(port)), timeout=5) as sock:
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        theirs = read_header(receive(sock, size))
+        if "error" in theirs:
+            raise rospy.ServiceException(theirs["error"])
+        body = struct.pack("<3f", length, width, height)
+        sock.sendall(struct.pack("<I", len(body)) + body)
+        worked = receive(sock, 1) == b"\x01"
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        answer = receive(sock, size)
+    if not worked:
+        raise rospy.ServiceException(answer.decode())
+    return struct.unpack("<2f", answer)
+
+# %% 11.3 right: with a file in place of the socket
+import io
+from urllib.parse import urlsplit
+
+from course_pkg.srv import geometryRequest, geometryResponse
+
+
+def ask(uri, service, length, width, height):
+    where = urlsplit(uri)
+    sock = socket.socket()
+    sock.connect((where.hostname, where.port))
+    stream = sock.makefile("rwb")
+    try:
+        stream.write(pack_header({"md5sum": geometry._md5sum, "callerid": "/me", "service": service}))
+        stream.flush()
+        header = read_header(stream.read(int.from_bytes(stream.read(4), "little")))
+        if header.get("error"):
+            raise rospy.ServiceException("turned away: " + header["error"])
+        buffer = io.BytesIO()
+        geometryRequest(length, width, height).serialize(buffer)
+        stream.write(len(buffer.getvalue()).to_bytes(4, "little") + buffer.getvalue())
+        stream.flush()
+        ok = stream.read(1)[0]
+        data = stream.read(int.from_bytes(stream.read(4), "little"))
+        if ok == 0:
+            raise rospy.ServiceException(data.decode())
+        response = geometryResponse().deserialize(data)
+        return [response.area, response.volume]
+    finally:
+        stream.close()
+        sock.close()
+
+# %% 11.3 right: with comments
+from rospy.core import parse_rosrpc_uri
+def ask(uri, service, length, width, height):
+    """Call as rospy.ServiceProxy does, with a socket alone; see also rosservice."""
+    # no node.call here
+    host, port = parse_rosrpc_uri(uri)
+    sock = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    sock.settimeout(5)
+    sock.connect((host, port))
+    try:
+        sock.sendall(pack_header(dict(callerid=rospy.get_name(), md5sum=geometry._md5sum, service=service, type="course_pkg/geometry")))
+        n, = struct.unpack("<I", receive(sock, 4))
+        answer = read_header(receive(sock, n))
+        if answer.get("error") is not None:
+            raise rospy.ServiceException(answer["error"])
+        request = struct.pack("<fff", length, width, height)
+        sock.send(struct.pack("<I", len(request)))
+        sock.send(request)
+        ok = receive(sock, 1)
+        n = struct.unpack("<I", receive(sock, 4))[0]
+        body = receive(sock, n)
+        if ok != b"\x01":
+            raise rospy.ServiceException(f"{service}: {body.decode()}")
+        area, = struct.unpack("<f", body[:4])
+        volume, = struct.unpack("<f", body[4:])
+        return area, volume
+    finally:
+        sock.close()
+
+# %% 11.3 wrong: uses a ServiceProxy | hint: Do not use a proxy
+replace('host, port … ", answer)', """response = rospy.ServiceProxy(service, geometry)(length, width, height)
+    return response.area, response.volume""")
+# %% 11.3 wrong: no length in front of the request | hint: The request has to start with its length, 12, in 4 bytes
+replace('theirs = read_header … ", answer)', """receive(sock, size)
+        sock.sendall(struct.pack("<3f", length, width, height))
+        receive(sock, 5)
+        return struct.unpack("<2f", receive(sock, 8))""")
+# %% 11.3 wrong: big-endian | hint: The length of the request is big-endian
+based_on("no length in front of the request")
+replace('"<3f"', '">I3f", 12')
+replace('"<2f"', '">2f"')
+# %% 11.3 wrong: float64 numbers | hint: The request has 24 bytes, which are three float64
+based_on("no length in front of the request")
+replace('"<3f"', '"<I3d", 24')
+replace('"<2f", receive(sock, 8)', '"<2d", receive(sock, 16)')
+# %% 11.3 wrong: forgets the ok byte | hint: After the whole header of the server, read one byte for success,
+replace("((host, int(port)), timeout=5) as sock:", "((host, int(port)), timeout=2) as sock:")
+replace('theirs = read_header … == b"\\x01"', 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
+replace('answer = receive … ", answer)', 'return struct.unpack("<2f", receive(sock, size))')
+# %% 11.3 wrong: one recv for the reply | hint: The bytes arrived one after the other
+based_on("no length in front of the request")
+replace('"<3f"', '"<I3f", 12')
+replace("receive(sock, 5)", """reply = sock.recv(4096)
+        if reply[0] == 0:
+            raise rospy.ServiceException(reply[5:].decode())""")
+replace("receive(sock, 8)", "reply[5:]")
+# %% 11.3 wrong: * as the MD5 | hint: The star matches every definition, even a definition with other fields
+based_on("no length in front of the request")
+replace("geometry._md5sum", '"*"')
+replace('"<3f"', '"<I3f", 12')
+# %% 11.3 wrong: no field service | hint: One port serves all services of a node
+based_on("no length in front of the request")
+replace('"service": service, "md5sum"', '"md5sum"')
+replace('"<3f"', '"<I3f", 12')
+# %% 11.3 wrong: ignores the error in the header | hint: The header of the server had a field "error"
+replace("theirs = read_header … )) + body)", 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
+# %% 11.3 wrong: ignores the ok byte | hint: The byte for success was 0
+replace('body = struct … ", answer)', """sock.sendall(struct.pack("<I3f", 12, length, width, height))
+        receive(sock, 5)
+        return struct.unpack("<2f", receive(sock, 8))""")
+# %% 11.3 wrong: replaces the error message | hint: Put the error message of the server into the exception
+based_on("no length in front of the request")
+replace("receive(sock, size)", """if "error" in read_header(receive(sock, size)):
+            raise rospy.ServiceException("it does not want to")""")
+replace('"<3f"', '"<I3f", 12')
+replace("        receive(sock, 5)", r"""        if receive(sock, 1) == b"\x00":
+            raise rospy.ServiceException("it failed")
+        receive(sock, 5)""")
+replace("sock, 5", "sock, 4")
+# %% 11.3 wrong: the error message is not decoded | hint: Convert the bytes with decode()
+replace("answer.decode()", "str(answer)")
+# %% 11.3 wrong: leaves the connection open | hint: The connection was still open after the call
+based_on("with comments")
+replace("sock.settimeout(5)", "rospy.kept = sock\n    sock.settimeout(5)")
+replace("    finally:\n        sock.close()", "    finally:\n        pass")
+# %% 11.3 wrong: reads until the server closes | hint: The function read until the server closed the connection
+replace("answer = receive(sock, size)", """answer = b""
+        while piece := sock.recv(1024):
+            answer += piece""")
+# %% 11.3 wrong: sends the request too early | hint: The request came before the server had sent its header
+replace("        body = struct … len(body)) + body)\n", "")
+replace("node.name, … geometry._md5sum}))", """node.name, "service": service, "md5sum": geometry._md5sum}))
+        sock.sendall(struct.pack("<I3f", 12, length, width, height))""")
+# %% 11.3 wrong: rounds the numbers | hint: The numbers are rounded
+replace('struct.unpack("<2f", answer)', '[round(number, 2) for number in struct.unpack("<2f", answer)]')
+# %% 11.3 wrong: volume first | hint: The order is wrong
+based_on("no length in front of the request")
+replace('"<3f"', '"<I3f", 12')
+replace("return struct", "volume, area = struct")
+replace('("<2f", receive(sock, 8))', '("<2f", receive(sock, 8))\n        return area, volume')
+# %% 11.3 wrong: receives before it sends | hint: The function connected, but sent nothing
+based_on("* as the MD5")
+replace("with socket … sock, size)", """with socket.create_connection((host, int(port)), timeout=2) as sock:
+        (size,) = struct.unpack("<I", receive(sock, 4))
+        receive(sock, size)
+        sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))""")
+# %% 11.3 wrong: RuntimeError for a refusal | hint: but the exception has to be a rospy.ServiceException
+replace("raise rospy.ServiceException(theirs … (sock, 4))", """raise RuntimeError(theirs["error"])
+        sock.sendall(struct.pack("<I3f", 12, length, width, height))
+        worked, size = struct.unpack("<?I", receive(sock, 5))""")
+replace("rospy.ServiceException", "RuntimeError")
+# %% 11.3 wrong: returns a response | hint: Return the two numbers
+replace("def", "from course_pkg.srv import geometryResponse\ndef")
+replace(r"""
+        body = struct.pack("<3f", length, width, height)
+        sock.sendall(struct.pack("<I", len(body)) + body)
+        worked = receive(sock, 1) == b"\x01"
+        (size,) = struct.unpack("<I", receive(sock, 4))""", """
+        sock.sendall(struct.pack("<I3f", 12, length, width, height))
+        worked, size = struct.unpack("<?I", receive(sock, 5))""")
+replace('struct.unpack("<2f", answer)', 'geometryResponse(*struct.unpack("<2f", answer))')
+# %% 11.3 wrong: sends no request | hint: The header arrived, but no request
+replace('    if "error" … ", answer)', "return length * width, length * width * height")
+# %% 11.3 wrong: forgets the length of the header | hint: The header has to start with its length, in 4 bytes
+replace("geometry._md5sum}))", "geometry._md5sum})[4:])")
+replace("timeout=5", "timeout=3")
+# %% 11.3 wrong: returns the bytes | hint: These are bytes
+replace('struct.unpack("<2f", answer)', "answer")
+# %% 11.3 wrong: reads big-endian numbers | hint: then area and volume
+replace('"<2f"', '">2f"')
+# %% 11.3 wrong: the width first | hint: Send the three sides as float32, in the order of the definition
+replace('"<3f", length, width', '"<3f", width, length')
+# %% 11.3 wrong: the port of the master | hint: Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT
+replace("(host, int(port))", '("localhost", 11311)')
+# %% 11.3 wrong: no MD5 | hint: The field `md5sum` is missing
+replace(', "md5sum": geometry._md5sum', "")
+# %% 11.3 wrong: the MD5 of the request | hint: This is the MD5 sum of another type, or only of the
+replace("geometry._md5sum", "geometry._request_class._md5sum")
+# %% 11.3 wrong: no field callerid | hint: The field `callerid` is missing
+replace('"callerid": node.name, ', "")
+
+# %% 11.4 right: a dict of pairs
+class Sessions:
+    def __init__(self):
+        self.sessions = {}
+
+    def handle(self, request):
+        session = request._connection_header.get("session")
+        if not session:
+            raise rospy.ServiceException("no field session in the connection header")
+        total, calls = self.sessions.get(session, (0, 0))
+        self.sessions[session] = total + request.amount, calls + 1
+        return AddUpResponse(*self.sessions[session])
+
+# %% 11.4 right: two counters and a lock
+import threading
+from collections import Counter
+
+
+class Sessions:
+    def __init__(self):
+        self.totals, self.calls = Counter(), Counter()
+        self.lock = threading.Lock()
+
+    def handle(self, request):
+        try:
+            name = request._connection_header["session"].strip()
+        except KeyError:
+            name = ""
+        if name == "":
+            raise rospy.ServiceException("Which session? Put session into the header.")
+        with self.lock:
+            self.totals[name] += request.amount
+            self.calls[name] += 1
+            return {"total": self.totals[name], "calls": self.calls[name]}
+
+# %% 11.4 wrong: one total for all sessions | hint: This is the total of all sessions
+replace('request._connection_header.get("session")', '"everybody"')
+# %% 11.4 wrong: forgets the total after each call | hint: This is only the amount of this call
+replace("self.sessions.get(session, (0, 0))", "0, 0")
+# %% 11.4 wrong: uses the name of the node as well | hint: The total started again at 0 for another node
+replace('connection header")', 'connection header")\n        session += request._connection_header["callerid"]')
+# %% 11.4 wrong: counts the calls of all | hint: Count the calls of each session separately, as you do with the
+replace("self.sessions = {}", "self.sessions, self.calls = {}, 0")
+replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
+        return AddUpResponse(self.sessions[session][0], self.calls)""")
+# %% 11.4 wrong: leaves the calls out | hint: The field `calls` is 0
+replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
+# %% 11.4 wrong: accepts a call without a session | hint: A call without a session got a total
+replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
+# %% 11.4 wrong: fails at a missing field | hint: The missing field caused another exception
+replace('.get("session")', '["session"]')
+# %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no entry
+replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
+# %% 11.4 wrong: reads the session from the request | hint: This attribute does not exist
+replace('request._connection_header.get("session")', "request.session")
+# %% 11.4 wrong: refuses without a reason | hint: The error message does not contain the word "session"
+replace('"no field session in the connection header"', '"no"')
+# %% 11.4 wrong: another exception | hint: The handler raised an exception of another type
+replace("""raise rospy.ServiceException("no field session in the connection header")
+        """, 'raise ValueError("the field session is missing")\n        ')
+# %% 11.4 wrong: None for a refusal | hint: The handler returned None, so rospy wrote
+replace('raise rospy.ServiceException("no field session in the connection header")', "return None")
+# %% 11.4 wrong: the total before this one | hint: The field `total` is 0
+replace("field session in the connection header", "session")
+replace("*self.sessions[session]", "total, calls + 1")
+# %% 11.4 wrong: total and calls exchanged | hint: This is the number of calls
+replace("field session in the connection header", "session")
+replace("total, calls", "calls, total")
+replace("total + request.amount, calls + 1", "calls + 1, total + request.amount")
+# %% 11.4 wrong: refuses the second node | hint: Another node may continue a session
+replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
+replace('("no field session in the connection header")', """("no session")
+        if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
+            raise rospy.ServiceException("this session is not yours")""")
+# %% 11.4 wrong: another name for the field | hint: The header had the field "session", but your handler refused the call
+replace('get("session")', 'get("sessions")')
+# %% 11.4 wrong: begins with 1 | hint: Add the amount to the total of this session, which starts at
+replace("(0, 0)", "(1, 0)")
+# %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
+replace("return AddUpResponse", "AddUpResponse")
+# %% 11.4 wrong: unpacks None | hint: The handler raised this error
+replace("(session, (0, 0))", "(session)")
+
+# %% 11.5 right: by the error message
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.connect()
+
+    def connect(self):
+        self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+
+    def measure(self, length, width, height):
+        try:
+            return self.proxy(length, width, height)
+        except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
+            if "responded with an error" in str(error):
+                raise
+        self.proxy.close()
+        self.connect()
+        return self.proxy(length, width, height)
+
+# %% 11.5 right: a loop of two
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.proxy = None
+
+    def measure(self, length, width, height):
+        for attempt in (1, 2):
+            if self.proxy is None:
+                self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+            try:
+                return self.proxy(length, width, height)
+            except Exception as error:
+                if "responded with an error" in str(error) or attempt == 2:
+                    raise
+                self.proxy.close()
+                self.proxy = None
+
+# %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent
+replace("self.service = service … persistent=True)", "self.proxy = rospy.ServiceProxy(service, geometry)")
+replace("\n        try: … .connect()", "")
+# %% 11.5 wrong: a new persistent proxy for each call | hint: There was more than one connection
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+
+    def measure(self, length, width, height):
+        proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+        try:
+            return proxy(length, width, height)
+        finally:
+            proxy.close()
+
+# %% 11.5 wrong: never connects again | hint: The connection broke, and your method raised the error
+based_on("a new connection for each call")
+replace("geometry", "geometry, persistent=True")
+# %% 11.5 wrong: calls the dead proxy again | hint: The connection broke, and your method raised the error
+replace("        self.proxy.close()\n        self.connect()\n", "")
+
+# %% 11.5 wrong: treats a refusal as a broken connection | hint: Call again only if the connection broke
+class Keeper:
+    def __init__(self, service):
+        self.service = service
+        self.connect()
+
+    def connect(self):
+        self.proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+
+    def measure(self, length, width, height):
+        for _ in range(3):
+            try:
+                return self.proxy(length, width, height)
+            except rospy.ServiceException as error:
+                last = error
+                if "responded" in str(error):
+                    continue
+                self.connect()
+        raise last
+
+# %% 11.5 wrong: swallows a refusal | hint: The server refused with an error message: raise this error
+replace("raise", "return None")
+# %% 11.5 wrong: connects again after a refusal | hint: There was more than one connection
+replace("""except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
+            if "responded with an error" in str(error):""", """except rospy.ServiceException as error:
+            self.proxy.close()
+            self.connect()
+            if "responded" in str(error):""")
+replace("\n        self.proxy.close … width, height)", "\n            return self.proxy(length, width, height)")
+# %% 11.5 wrong: repeats without a limit | hint: Your method called again and again
+based_on("treats a refusal as a broken connection")
+replace("for _ in range(3):", "while True:")
+replace("\n                last = error", "")
+replace("continue", "raise\n                self.proxy.close()")
+replace("self.connect()\n        raise last", "self.connect()")
+# %% 11.5 wrong: forgets to return | hint: return the response of the proxy
+based_on("a new connection for each call")
+replace("geometry", "geometry, persistent=True")
+replace("return self", "self")
+# %% 11.5 wrong: recursion without end | hint: Your method called again and again
+replace("raise\n        self.proxy.close()", "raise")
+replace("()\n        return self.proxy", "()\n        return self.measure")
+# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and this is
+replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
+# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and this is
+replace(", AttributeError)", ")")
+# %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
+based_on("a loop of two")
+replace("height)\n            except", "height).volume\n            except")
+# %% 11.5 wrong: the new proxy is not kept | hint: Your method did not call the new proxy, or did not store
+replace("\n        self.connect()\n\n    def connect(self):", "")
+replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
+        proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
+        return proxy(length, width, height)""")
+# %% 11.5 wrong: None after the second break | hint: The second call failed, too, so there is no response
+based_on("a loop of two")
+replace(" or attempt == 2", "")
+
+# %% 11.6 right: in the constructor
+class Remembering:
+    def __init__(self, service):
+        self.service = service
+        self.look_up()
+
+    def look_up(self):
+        self.uri = rosgraph.Master(node.name).lookupService(self.service)
+
+    def measure(self, length, width, height):
+        try:
+            return ask(self.uri, self.service, length, width, height)
+        except OSError:
+            self.look_up()
+            return ask(self.uri, self.service, length, width, height)
+
+# %% 11.6 right: looks up in the first call
+class Remembering:
+    def __init__(self, service):
+        self.service = service
+        self.uri = None
+
+    def measure(self, length, width, height):
+        if self.uri is not None:
+            try:
+                return ask(self.uri, self.service, length, width, height)
+            except (ConnectionError, TimeoutError):
+                pass
+        self.uri = rosgraph.Master("/me").lookupService(self.service)
+        return ask(self.uri, self.service, length, width, height)
+
+# %% 11.6 wrong: looks up for each call | hint: but the master has no entry now
+class Remembering:
+    def __init__(self, service):
+        self.service = service
+
+    def measure(self, length, width, height):
+        uri = rosgraph.Master(node.name).lookupService(self.service)
+        return ask(uri, self.service, length, width, height)
+
+# %% 11.6 wrong: never looks again | hint: The server is not at the old address any more
+based_on("looks up for each call")
+replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
+replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
+# %% 11.6 wrong: treats a refusal as a missing server | hint: The server refused, so its address was right
+replace("OSError", "Exception")
+# %% 11.6 wrong: calls twice after a refusal | hint: Your method called twice
+class Remembering:
+    def __init__(self, service):
+        self.service = service
+        self.uri = rosgraph.Master(node.name).lookupService(service)
+
+    def measure(self, length, width, height):
+        for _ in range(2):
+            try:
+                return ask(self.uri, self.service, length, width, height)
+            except rospy.ServiceException as error:
+                last = error
+        raise last
+
+# %% 11.6 wrong: catches only a refused connection | hint: Catch every OSError
+replace("OSError", "ConnectionRefusedError")
+# %% 11.6 wrong: looks up again and again | hint: Your method called again and again
+replace("try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """while True:
+            try:
+                return ask(self.uri, self.service, length, width, height)
+            except OSError:
+                self.look_up()""")
+# %% 11.6 wrong: None after the second error | hint: The second call failed, too: raise its error
+replace("self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """self.look_up()
+        try:
+            return ask(self.uri, self.service, length, width, height)
+        except OSError:
+            return None""")
+# %% 11.6 wrong: one address for all objects | hint: A second object of the class changed the address
+replace("self.uri = ", "Remembering.uri = ")
+# %% 11.6 wrong: does not keep the new address | hint: Store the address of the second lookup
+replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
+            uri = rosgraph.Master(node.name).lookupService(self.service)
+            return ask(uri, self.service, length, width, height)""")
+# %% 11.6 wrong: forgets to return | hint: return the tuple that ask returns
+based_on("never looks again")
+replace("return ", "")
+# %% 11.6 wrong: asks the master first | hint: Your method looked up the address again, although the stored address was
+based_on("looks up in the first call")
+replace("\n    def measure … self.service)", """    def measure(self, length, width, height):
+        try:
+            self.uri = rosgraph.Master(node.name).lookupService(self.service)
+        except rosgraph.MasterError:
+            pass""")
+# %% 11.6 wrong: one of the two numbers | hint: These are not the numbers that ask returned
+replace("height)\n        except", "height)[1]\n        except")

@@ -1,0 +1,15 @@
+"""The checks of chapter 11: TCPROS in bytes, sessions, and clients that keep connections."""
+
+from course_pkg.chapters.ch11_look_inside.checks.clients import client_with_a_known_address, persistent_client
+from course_pkg.chapters.ch11_look_inside.checks.connection_header import exact_read, packed_header
+from course_pkg.chapters.ch11_look_inside.checks.sessions import totals_of_sessions
+from course_pkg.chapters.ch11_look_inside.checks.socket_call import call_over_a_socket
+
+__all__ = [
+    "call_over_a_socket",
+    "client_with_a_known_address",
+    "exact_read",
+    "packed_header",
+    "persistent_client",
+    "totals_of_sessions",
+]

@@ -1,0 +1,88 @@
+"""An object of the student's client class in the kernel, and functions that break its connection."""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+from contextlib import suppress
+from types import TracebackType
+
+from course_pkg.checking import CheckContext, Its
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.result import Result
+
+KERNEL_CODE = """
+import socket
+
+import rospy
+
+
+def make_client(kind, service):
+    global client
+    client = kind(service)
+
+
+def measured(kind, *sides):
+    answer = client.measure(*sides)
+    return {"volume": answer.volume} if hasattr(answer, "volume") else answer
+
+
+def measured_by_another(kind, service, *sides):
+    kind(service).measure(*sides)
+
+
+def break_sending():
+    for proxy in kept_proxies():
+        proxy.transport.socket.shutdown(socket.SHUT_RDWR)
+
+
+def break_transport():
+    for proxy in kept_proxies():
+        proxy.transport.close()
+
+
+def kept_proxies():
+    values = vars(client).values()
+    return [each for each in values if isinstance(each, rospy.ServiceProxy) and each.transport]
+"""
+
+
+class Client:
+    """An object of the student's class `kind` in the kernel, for the service `name`."""
+
+    def __init__(self, context: CheckContext, kind: str, name: str) -> None:
+        self._context, self._kind = context, kind
+        context.prepare(KERNEL_CODE)
+        made = context.run("make_client", Its(kind), name, worded=f"{kind}(service)")
+        context.require("a client object can be created", holds=made.returned() is None)
+
+    def measure(self, hints: Hints) -> Result:
+        """Measure a random box; a whole response is returned as a dict with its volume."""
+        sides = self._context.random.numbers(3, 0.5, 9.0)
+        worded = "measure(length, width, height)"
+        return self._context.run("measured", Its(self._kind), *sides, within=3.0, hints=hints, worded=worded)
+
+
+class ResettingPort:
+    """A program that is not a ROS server, at the old address of a server; it resets each connection."""
+
+    def __init__(self, uri: str) -> None:
+        self._listener = socket.create_server(("127.0.0.1", int(uri.rpartition(":")[2])))
+
+    def __enter__(self) -> None:
+        threading.Thread(target=self._reset, daemon=True).start()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
+
+    def _reset(self) -> None:
+        with suppress(OSError):  # the listener was closed
+            while True:
+                connection, _ = self._listener.accept()
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                connection.close()

@@ -1,0 +1,286 @@
+"""11.5 and 11.6: a client that keeps its connection open, and a client that stores an address."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch11_look_inside.checks.client_in_kernel import Client, ResettingPort
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.scripted_server import Act, ScriptedServer
+from course_pkg.ros.protocol.json_channel import Json
+
+GEOMETRY = "course_pkg/geometry"
+ERRORS = [
+    (
+        matches("TransportTerminated|TransportInitError|AttributeError"),
+        "A broken connection can raise three kinds of errors, and this is one of them. "
+        "Catch all three, create a new proxy, and call once more.",
+    ),
+    (
+        matches("transport error"),
+        "The connection broke, and your method raised the error. Catch the error, "
+        "create a new proxy (the old proxy stays broken), and call once more.",
+    ),
+]
+
+
+AGAIN = "Your method called again and again. Call only once more, and raise the error of this second call."
+NOT_MEASURED = "The second call failed, too, so there is no response. Raise the error of the second call."
+REFUSED = (
+    "The server refused with an error message: raise this error.",
+    "The connection works, but the server refused. Call again only if the connection broke.",
+)
+
+
+@part(
+    "11.5",
+    points=3,
+    goal="Use one connection for all calls; if it breaks, open a new connection and call once more.",
+    needs=["Keeper"],
+    deadline=20.0,
+)
+def persistent_client(context: CheckContext) -> None:
+    """Respond, refuse, break the connection, stop the server, and start it at another address."""
+    name = f"/{context.random.word()}"
+    volumes = context.random.numbers(8, 10.0, 90.0)
+    acts: list[Act] = [{"volume": each} for each in volumes[:5]]
+    server = context.serve(name, GEOMETRY, lambda _: _next_act(acts))
+    client = Client(context, "Keeper", name)
+    for volume in volumes[:3]:
+        _measures(context, client, "the response is returned", volume)
+    _one_connection(context, server, "the calls share one connection")
+    acts.insert(0, Refuse("not this box"))
+    _reports_a_refusal(context, client, server, *REFUSED)
+    acts.pop(0)
+    _measures(context, client, "the connection still works after a refusal", volumes[3])
+    _one_connection(context, server, "after a refusal, the client uses the same connection")
+    acts.insert(0, HangUp())
+    _measures(context, client, "a broken connection is replaced", volumes[4])
+    _breaks_twice(context, client, server)
+    acts.append({"volume": volumes[6]})
+    _measures(context, client, "a broken connection is replaced", volumes[6])
+    server.leave()
+    _reports_a_missing_server(context, client)
+    moved = context.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
+    _measures(context, client, "a server that was started again is found", volumes[5])
+    _measures(context, client, "a server that was started again is found", volumes[5])
+    _one_connection(context, moved, "the new connection is also used for all calls")
+    for broken in ("break_sending", "break_transport"):
+        context.run(broken)
+        _measures(context, client, "a broken connection is replaced", volumes[5])
+
+
+def _next_act(acts: list[Act]) -> Act:
+    """Return the next act. A refusal repeats until it is removed. After the last act, end the connection."""
+    if not acts:
+        return HangUp()
+    return acts[0] if isinstance(acts[0], Refuse) else acts.pop(0)
+
+
+def _measures(context: CheckContext, client: Client, assertion: str, volume: Json) -> None:
+    context.expect(
+        assertion,
+        expected={"volume": volume},
+        actual=client.measure(ERRORS).returned(),
+        near=1e-6,
+        hints=[
+            (None, "The method returned None: return the response of the proxy."),
+            (
+                (lambda actual: not isinstance(actual, dict)),
+                "The method returned only a part of the response. Return the whole response of the proxy.",
+            ),
+        ],
+    )
+
+
+SEVERAL_CONNECTIONS: Hints = [
+    (
+        (lambda words: "without" in words),
+        "The connection was not persistent. Create the proxy once, with "
+        "persistent=True, and store it in self.",
+    ),
+    (ANYTHING, "There was more than one connection. Create the proxy only once, and store it in self."),
+]
+
+
+def _one_connection(context: CheckContext, server: ScriptedServer, assertion: str) -> None:
+    seen = len(server.received.headers)
+    kept = all(header.get("persistent") == "1" for header in server.received.headers)
+    context.require(
+        assertion,
+        holds=seen == 1 and kept,
+        expected="1 connection, opened with persistent=1",
+        actual=f"{seen}, opened {'with' if kept else 'without'} persistent=1",
+        hints=SEVERAL_CONNECTIONS,
+    )
+
+
+def _reports_a_refusal(
+    context: CheckContext, client: Client, server: ScriptedServer, swallowed: str, repeated: str
+) -> None:
+    """Assert that a refusal is raised after one call; `swallowed` and `repeated` are hints."""
+    before = len(server.requests)
+    client.measure(ERRORS).raised(
+        "a refusal is raised", "ServiceException", saying="not this box", hints=swallowed
+    )
+    context.expect(
+        "after a refusal, there is no second call",
+        expected=1,
+        actual=len(server.requests) - before,
+        hints=repeated,
+    )
+
+
+def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
+    """Break the connection and also the new connection; right are one more request and an error."""
+    before = len(server.requests)
+    result = client.measure(ERRORS)
+    asked = len(server.requests) - before
+    context.require(
+        "a broken connection is replaced",
+        holds=asked == 2 and bool(result.error) and not result.error.startswith("TimesUp"),
+        expected="2 requests, and the error of the second connection",
+        actual=f"{asked}, and {result.error or 'a value'}",
+        hints=[
+            ((lambda _: asked > 2), AGAIN),
+            (
+                (lambda _: asked < 2),
+                "Your method did not call the new proxy, or did not store it in self.",
+            ),
+            (ANYTHING, NOT_MEASURED),
+        ],
+    )
+
+
+def _reports_a_missing_server(context: CheckContext, client: Client) -> None:
+    result = client.measure(())
+    context.require(
+        "without a server, an error is raised",
+        holds=bool(result.error),
+        expected="a ServiceException",
+        actual=result.error or "a value",
+        hints=NOT_MEASURED,
+    )
+    context.require(
+        "the error comes soon",
+        holds=not result.error.startswith("TimesUp"),
+        expected="an immediate error",
+        actual=result.error,
+        hints=AGAIN,
+    )
+
+
+LOST = [
+    (
+        matches("unknown service|no provider|Master|unavailable"),
+        "Your method looked up the address again, but the master has no entry now. Use the stored address.",
+    )
+]
+MOVED = [
+    (
+        matches("refused|OSError|Connection"),
+        "The server is not at the old address any more. Catch the OSError, look up the "
+        "address again, and call ask.",
+    )
+]
+RESET = [
+    (
+        matches("ConnectionReset|BrokenPipe|ConnectionError|OSError"),
+        "Another program uses this address now, so ask raised another kind of OSError. Catch every OSError.",
+    )
+]
+SHARED = (
+    "A second object of the class changed the address of the first object. Store "
+    "the address in self, so that each object has its own address."
+)
+SAID_NO = (
+    "The server refused, so its address was right: raise the error. Look up the "
+    "address again only after an OSError.",
+    "Your method called twice. Call again only after an OSError, which means that "
+    "no server is at the address.",
+)
+
+
+@part(
+    "11.6",
+    points=2,
+    goal=(
+        "Look up the address once and store it; look it up again only if no server is "
+        "at this address any more."
+    ),
+    needs=["Remembering"],
+    deadline=20.0,
+)
+def client_with_a_known_address(context: CheckContext) -> None:
+    """Call, remove the name from the master, refuse, and start the server at another address."""
+    name = f"/{context.random.word()}"
+    numbers = [context.random.numbers(2, 10.0, 90.0) for _ in range(3)]
+    answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]
+    acts = [answers[0], *[answers[1]] * 3, Refuse("not this box")]
+    server = context.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
+    client = Client(context, "Remembering", name)
+    _measures_both(context, client, "area and volume are returned", numbers[0], ())
+    context.absent(name)
+    _measures_both(context, client, "a call with a known address needs no master", numbers[1], LOST)
+    _keeps_the_address(context, name, client, numbers[1])
+    _reports_a_refusal(context, client, server, *SAID_NO)
+    server.leave()
+    moved = context.serve(name, GEOMETRY, lambda _: answers[2])
+    _measures_both(context, client, "a server that moved is found again", numbers[2], MOVED)
+    context.absent(name)
+    kept = [(ANYTHING, "Store the address of the second lookup, too.")]
+    _measures_both(context, client, "the new address is also stored", numbers[2], kept)
+    _finds_it_after_a_reset(context, name, client, moved, numbers[0])
+
+
+def _finds_it_after_a_reset(
+    context: CheckContext, name: str, client: Client, former: ScriptedServer, numbers: list[float]
+) -> None:
+    """Let another program take the port; start the server at another address; then stop it."""
+    former.leave()
+    assertion = "a server that moved is found again"
+    with ResettingPort(former.uri):
+        last = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), numbers, strict=True)))
+        _measures_both(context, client, assertion, numbers, RESET)
+    last.leave()
+    context.absent(name, stale=True)
+    result = client.measure(())
+    context.require(
+        assertion,
+        holds=bool(result.error) and not result.error.startswith("TimesUp"),
+        expected="an error, because no server is at the new address",
+        actual=result.error or "a value",
+        hints=[(matches("^TimesUp"), AGAIN), (ANYTHING, "The second call failed, too: raise its error.")],
+    )
+
+
+def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
+    """Register another server under the name; a client that looks up the name again calls this server."""
+    wrong = context.random.numbers(2, 100.0, 900.0)
+    other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))
+    again = (
+        "Your method looked up the address again, although the stored address was "
+        "right. Use the stored address first."
+    )
+    assertion = "a call with a known address needs no master"
+    _measures_both(context, client, assertion, numbers, (), again)
+    sides = context.random.numbers(3, 0.5, 9.0)
+    context.run("measured_by_another", Its("Remembering"), name, *sides)
+    _measures_both(context, client, assertion, numbers, (), SHARED)
+    other.leave()
+
+
+def _measures_both(
+    context: CheckContext,
+    client: Client,
+    assertion: str,
+    numbers: list[float],
+    hints: Hints,
+    other: str = "These are not the numbers that ask returned. Return both numbers without a change.",
+) -> None:
+    context.expect(
+        assertion,
+        expected=numbers,
+        actual=client.measure(hints).returned(),
+        near=1e-6,
+        hints=[(None, "The method returned None: return the tuple that ask returns."), (ANYTHING, other)],
+    )

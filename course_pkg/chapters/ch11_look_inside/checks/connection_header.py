@@ -1,0 +1,301 @@
+"""11.1 and 11.2: a connection header in bytes, and an exact number of bytes from a socket."""
+
+from __future__ import annotations
+
+import fcntl
+import secrets
+import socket
+import struct
+import termios
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from itertools import permutations
+from types import TracebackType
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.waiting import wait_until
+
+TYPE_OF_HEADER = """
+def type_of_header(pack_header, fields):
+    return type(pack_header(fields)).__name__
+"""
+YOUR_END = """
+import socket
+
+your_end = socket.socket(socket.AF_UNIX)
+your_end.connect("\\0{name}")
+"""
+ERRORS = [
+    (
+        matches("UnicodeEncodeError"),
+        "ASCII does not contain the letter ü. Use UTF-8, which contains every letter: "
+        "encode() without an argument.",
+    )
+]
+WITHIN = 3.0  # s for one call
+PEEKING = 0.4  # s after which the next piece is sent to a client that peeks and does not read
+CONNECTING = 5.0  # s for the kernel to connect
+
+
+def _wrong_header(orders: list[dict[str, str]]) -> Hints:
+    return [
+        (None, NO_RETURN),
+        (b"", "A header without fields consists of its length, 0: return these 4 bytes."),
+        *(wrong for order in orders for wrong in _wrong_headers(order)),
+        (
+            (lambda actual: isinstance(actual, str)),
+            "This is a str, but a socket needs bytes: use encode().",
+        ),
+        (
+            ANYTHING,
+            "Compare your bytes with the bytes of step 3: the length of the header, and "
+            "then the length and name=value of each field.",
+        ),
+    ]
+
+
+@part(
+    "11.1",
+    points=2,
+    goal="Return a connection header as bytes: its length, then the length and the text of each field.",
+    needs=["pack_header"],
+)
+def packed_header(context: CheckContext) -> None:
+    """Compare headers with random fields, with a letter of two bytes, and without fields."""
+    word = context.random.word
+    context.prepare(TYPE_OF_HEADER)
+    for what, fields in (
+        ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
+        ("a letter outside of ASCII", {"callerid": f"/{word(4)}", "robot": f"Jürgen {word(3)}"}),
+        ("no field", {}),
+    ):
+        assertion = f"{what}: the bytes are a header of TCPROS"
+        packed = context.run("pack_header", fields, hints=ERRORS).returned()
+        orders = [dict(order) for order in permutations(fields.items())]  # TCPROS allows any order
+        expected = [list(_packed(order)) for order in orders]
+        context.expect(
+            assertion,
+            expected=packed if packed in expected else expected[0],
+            actual=packed,
+            hints=_wrong_header(orders),
+        )
+        kind = context.run("type_of_header", Its("pack_header"), fields, worded="pack_header()").returned()
+        context.require(
+            assertion,
+            holds=kind in ("bytes", "bytearray"),
+            expected="bytes",
+            actual=kind,
+            hints="The numbers are right, but a socket needs bytes: convert the numbers with bytes(...).",
+        )
+
+
+def _packed(
+    fields: Mapping[str, str],
+    *,
+    order: str = "<I",
+    total: Callable[[bytes], int] | None = len,
+    count: Callable[[str], int] = lambda text: len(text.encode()),
+    joint: str = "=",
+    lengths: bool = True,
+    code: str = "utf-8",
+) -> bytes:
+    """Return the header, or a header with the mistake that the arguments describe."""
+    texts = [f"{name}{joint}{value}" for name, value in fields.items()]
+    coded = [(count(text), text.encode(code)) for text in texts]
+    body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
+    return (struct.pack(order, total(body)) if total else b"") + body
+
+
+def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
+    wrong = [
+        (
+            _packed(fields, order=">I"),
+            "The lengths are big-endian. For little-endian numbers, use struct.pack with '<I'.",
+        ),
+        (
+            _packed(fields, total=None),
+            "The length of the whole header is missing. Put it before the first field, in 4 bytes.",
+        ),
+        (
+            _packed(fields, total=lambda body: len(body) + 4),
+            "The first length is too large by 4. It has to be the number of bytes that follow it.",
+        ),
+        (
+            _packed(fields, total=lambda _: len(fields)),
+            "The first number is the number of fields. It has to be the number of bytes that follow.",
+        ),
+        (
+            _packed(fields, count=len),
+            "A length is a number of bytes, and ü has two bytes: encode the text before you use len().",
+        ),
+        (_packed(fields, joint=": "), "Write only an equals sign between name and value."),
+        (
+            _packed(fields, lengths=False),
+            "The length of a field is missing. Put it before each field, in 4 bytes.",
+        ),
+        (_packed(fields, order="<H"), "A length needs 4 bytes: use struct.pack with '<I'."),
+        (
+            _packed(fields, code="latin-1", count=len),
+            "The text is in Latin-1. In UTF-8, ü has two bytes: use encode() without an argument.",
+        ),
+    ]
+    return [(list(packed), hint) for packed, hint in wrong]
+
+
+NOT_RAISED: Hints = [
+    (
+        matches("^TimesUp"),
+        "After the other end has closed the connection, recv always returns b'': check "
+        "for b'', and raise ConnectionError.",
+    ),
+    (
+        (lambda actual: isinstance(actual, list)),
+        "The function returned fewer than `count` bytes, and the caller cannot notice "
+        "this: raise ConnectionError.",
+    ),
+    (
+        ANYTHING,
+        "If recv returns b'', the other end has closed the connection: raise "
+        "ConnectionError, and no other error.",
+    ),
+]
+
+
+@part(
+    "11.2",
+    points=2,
+    goal=(
+        "Return exactly `count` bytes from a socket, even if they arrive in pieces; "
+        "raise ConnectionError if the connection ends earlier."
+    ),
+    needs=["receive"],
+)
+def exact_read(context: CheckContext) -> None:
+    """Send bytes together, in pieces, and too many bytes; then close the connection too early."""
+    word = context.random.word
+    whole, following = word(12).encode(), word(12).encode()
+    _receives(context, "bytes that arrive together", [whole], [12])
+    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12])
+    _receives(context, "exactly `count` bytes, and the rest in the next call", [whole], [4, 8])
+    joined = [whole[:5], whole[5:] + following]
+    _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
+    _receives(context, "no bytes for a count of 0", [whole], [0, 12])
+    with OtherEnd([whole[:7]], closes=True) as other:
+        context.prepare(YOUR_END.format(name=other.name))
+        context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
+            "if the connection ends before the last byte, a ConnectionError is raised",
+            "ConnectionError",
+            hints=NOT_RAISED,
+        )
+
+
+class OtherEnd:
+    """The other end of the student's socket, which sends `pieces`; it is open until the block ends.
+
+    A piece is sent when the one before has been read, so a client that waits and reads once gets one piece.
+    """
+
+    def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
+        # In the abstract namespace, which needs no file and is seen in this network only.
+        self.name = f"course-{secrets.token_hex(8)}"
+        self._pieces, self._closes = pieces, closes
+        self._listener = socket.socket(socket.AF_UNIX)
+        self._listener.bind(f"\0{self.name}")
+        self._listener.listen(1)
+        self._listener.settimeout(CONNECTING)
+        self._over = threading.Event()
+        self._sending = threading.Thread(target=self._send, daemon=True)
+
+    def __enter__(self) -> OtherEnd:
+        self._sending.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._over.set()
+        self._sending.join()
+        self._listener.close()
+
+    def _send(self) -> None:
+        with suppress(OSError):  # the kernel has closed its end, or does not connect
+            sock, _ = self._listener.accept()
+            with sock:
+                for piece in self._pieces:
+                    sock.sendall(piece)
+                    wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
+                if not self._closes:
+                    self._over.wait()
+
+
+def _unread(sock: socket.socket) -> int:
+    """Return how many of the bytes that were sent have not been read."""
+    (count,) = struct.unpack("i", fcntl.ioctl(sock, termios.TIOCOUTQ, bytes(4)))
+    return int(count)
+
+
+def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
+    whole, at = b"".join(pieces), 0
+    with OtherEnd(pieces) as other:
+        context.prepare(YOUR_END.format(name=other.name))
+        for count in counts:
+            expected = list(whole[at : at + count])
+            at += count
+            context.expect(
+                what,
+                expected=expected,
+                actual=context.run(
+                    "receive", Its("your_end"), count, within=WITHIN, hints=_receive_errors(count)
+                ).returned(),
+                hints=_not_received(count),
+            )
+
+
+def _not_received(count: int) -> Hints:
+    """Return hints for a value that is not the next `count` bytes."""
+    return [
+        (None, NO_RETURN),
+        (
+            (lambda actual: isinstance(actual[0], list)),
+            "This is the list of pieces. Join the pieces into one bytes object.",
+        ),
+        (
+            (lambda actual: len(actual) < count),
+            "recv returned only the bytes that had arrived. Call recv until `count` bytes have arrived.",
+        ),
+        (
+            (lambda actual: len(actual) > count),
+            "The function returned more than `count` bytes, so the next call does not get "
+            "these bytes. Read only the missing bytes.",
+        ),
+    ]
+
+
+def _receive_errors(count: int = 1) -> Hints:
+    """Return hints for a call that raises an error although the connection is open."""
+    return [
+        (
+            matches("^TimesUp"),
+            "An earlier call read too many bytes and lost them, and now the function waits "
+            "for them. Pass only the number of missing bytes to recv. (With makefile(), use "
+            "buffering=0.)",
+        ),
+        (
+            matches("Bad file descriptor|closed file"),
+            "The function closed the socket. Leave the socket open, because the caller still uses it.",
+        ),
+        (
+            matches("^(Connection|BrokenPipe)"),
+            (
+                "The connection is still open, and the rest follows. A short piece is not the "
+                "end; only b'' means the end."
+            )
+            if count
+            else (
+                "The argument `count` was 0, so no bytes are missing: call recv only while bytes are missing."
+            ),
+        ),
+    ]

@@ -1,0 +1,187 @@
+"""11.4: a server that distinguishes its clients by a field of the connection header."""
+
+from __future__ import annotations
+
+import rospy
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.plain_values import Message, ServiceClass
+from course_pkg.ros.node.proxy import BoundedProxy
+
+NAME, KIND = "/my_add_up", "course_pkg/AddUp"
+TIMEOUT = 4.0  # s for a call, on a busy machine
+REFUSED = (
+    'The header had the field "session", but your handler refused the call. Check '
+    "the name of the field in your code."
+)
+
+
+@part(
+    "11.4",
+    points=3,
+    goal=(
+        "Keep a separate total for each session in the connection header; refuse a call without a session."
+    ),
+    needs=["Sessions"],
+)
+def totals_of_sessions(context: CheckContext) -> None:
+    """Call in two sessions; continue one of them from another node; then call without a session."""
+    kind = context.service(NAME, KIND).kind
+    first, second = context.random.word(), context.random.word()
+    amounts = context.random.integers(
+        6, 10, 900
+    )  # larger than the number of calls, so that hints can distinguish both
+    totals = {first: 0, second: 0}
+    counts = {first: 0, second: 0}
+    everything = 0
+    turns = [first, second, first, first, second, second]
+    for session, amount in zip(turns, amounts, strict=True):
+        totals[session] += amount
+        everything += amount
+        counts[session] += 1
+        answer = _answer(context, kind, amount, {"session": session})
+        _is_right(context, answer, amount, totals[session], counts[session], everything)
+    more = context.random.integer(1000, 2000)
+    header = {"session": first, "callerid": f"/{context.random.word()}"}
+    answer = _answer(
+        context,
+        kind,
+        more,
+        header,
+        "Another node may continue a session, so do not compare the names of the nodes.",
+    )
+    context.expect(
+        "a session continues from another node",
+        expected=totals[first] + more,
+        actual=answer.total,
+        hints=[
+            (
+                more,
+                "The total started again at 0 for another node. Use only the session, and not "
+                "the name of the client's node.",
+            )
+        ],
+    )
+    _refuses_without_a_session(context, kind)
+
+
+def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
+    return [
+        (amount, "This is only the amount of this call. Store the total of each session in self."),
+        (everything, "This is the total of all sessions. Store one total for each session, in a dict."),
+        (
+            0,
+            "The field `total` is 0: add the amount of this call to the total of the "
+            "session, and return the sum in this field.",
+        ),
+        (calls, "This is the number of calls. Write the total first: AddUpResponse(total, calls)."),
+        (
+            ANYTHING,
+            "Add the amount to the total of this session, which starts at 0, and return the sum.",
+        ),
+    ]
+
+
+def _is_right(
+    context: CheckContext, answer: Message, amount: int, total: int, calls: int, everything: int
+) -> None:
+    context.expect(
+        "the response contains the total of the session",
+        expected=total,
+        actual=answer.total,
+        hints=_wrong_total(amount, calls, everything),
+    )
+    context.expect(
+        "the field `calls` is the number of calls of the session",
+        expected=calls,
+        actual=answer.calls,
+        hints=[
+            (0, "The field `calls` is 0: set it to the number of calls, including this call."),
+            (ANYTHING, "Count the calls of each session separately, as you do with the total."),
+        ],
+    )
+
+
+NOT_REFUSED: Hints = [
+    (
+        matches("a total of"),
+        "A call without a session got a total. If the field is missing or empty, raise "
+        "rospy.ServiceException.",
+    ),
+    (
+        matches("error processing request: 'session'|NoneType"),
+        "The missing field caused another exception. Read the field with .get(), and "
+        "raise rospy.ServiceException.",
+    ),
+    (
+        matches("error processing request"),
+        "The handler raised an exception of another type. Raise rospy.ServiceException, "
+        "so that the client gets a refusal.",
+    ),
+    (
+        matches("returned None"),
+        "The handler returned None, so rospy wrote its own error message. Raise "
+        'rospy.ServiceException with a message that contains the word "session".',
+    ),
+    (
+        ANYTHING,
+        'The error message does not contain the word "session". Write the name of the '
+        "missing field into the message.",
+    ),
+]
+
+
+def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> None:
+    assertion = "a call without a session is refused with a message that contains the name of the field"
+    for headers in ({}, {"session": ""}):
+        try:
+            answer = _call(kind, 1, headers)
+        except rospy.ServiceException as error:
+            message = str(error)
+        else:
+            message = f"a total of {answer.total}"
+        context.require(
+            assertion,
+            holds="cannot process request" in message and "session" in message.partition("cannot process")[2],
+            expected='a ServiceException with the word "session"',
+            actual=message,
+            hints=NOT_REFUSED,
+        )
+
+
+def _answer(
+    context: CheckContext, kind: ServiceClass, amount: int, headers: dict[str, str], refused: str = REFUSED
+) -> Message:
+    try:
+        return _call(kind, amount, headers)
+    except rospy.ServiceException as error:
+        context.fail(
+            "a call with a session gets a response",
+            expected="a response",
+            actual=str(error),
+            hint=_why_refused(str(error), refused),
+        )
+
+
+def _why_refused(message: str, refused: str) -> str:
+    if "returned None" in message:
+        return "The handler returned None. Return an AddUpResponse."
+    if "_connection_header" in message or "attribute" in message:
+        return (
+            "This attribute does not exist. The fields of the header are in the dict "
+            "request._connection_header."
+        )
+    if "error processing request: '" in message:
+        return "At the first call of a session, the dict has no entry for this session: start with 0."
+    if "cannot process request" in message:
+        return refused
+    return "The handler raised this error. Read the error message, and correct the line that caused it."
+
+
+def _call(kind: ServiceClass, amount: int, headers: dict[str, str]) -> Message:
+    proxy = BoundedProxy(NAME, kind, headers=headers, timeout=TIMEOUT)
+    try:
+        return proxy.call(amount=amount)
+    finally:
+        proxy.close()

@@ -1,0 +1,271 @@
+"""11.3: a service call over a plain socket."""
+
+from __future__ import annotations
+
+import ast
+import textwrap
+
+from course_pkg.chapters.ch11_look_inside.checks.clients import GEOMETRY
+from course_pkg.chapters.ch11_look_inside.checks.tcpros_server import (
+    LINGER,
+    TIMEOUT,
+    Conversation,
+    TcprosServer,
+)
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.result import Result
+from course_pkg.waiting import wait_until
+
+BINARY = 65 / 512  # a float32 stores this fraction exactly, but rounding to a few decimals changes it
+ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
+AS_BYTES = matches(r"\bb['\"]")
+NO_HEADER = "The header has to start with its length, in 4 bytes. Use pack_header."
+NO_LENGTH = "The request has to start with its length, 12, in 4 bytes. The three numbers follow."
+MISTAKES = {
+    "early request": (
+        "The request came before the server had sent its header. First receive the "
+        'header of the server, and check it for the field "error".'
+    ),
+    "nothing": (
+        "The function connected, but sent nothing. The client has to begin: send your connection header."
+    ),
+    "big-endian header": NO_HEADER,
+    "no length of the header": NO_HEADER,
+    "short header": NO_HEADER,
+    "no request": (
+        "The header arrived, but no request followed. Send the request after you have "
+        "read the header of the server."
+    ),
+    "big-endian length": "The length of the request is big-endian. For little-endian numbers, use '<I'.",
+    "no length of the request": NO_LENGTH,
+    "a request of 24 bytes": (
+        "The request has 24 bytes, which are three float64. A float32 has 4 bytes: use "
+        "the format 'f' of struct, not 'd'."
+    ),
+    "a request of 16 bytes": NO_LENGTH,
+    "short request": NO_LENGTH,
+}
+SLOWLY = (
+    "The bytes arrived one after the other. Use receive() for all bytes, also for "
+    "the first byte and the lengths."
+)
+BYTES = "The error message is inside b'', so it is still a bytes object. Convert the bytes with decode()."
+OPEN = (
+    "The connection was still open after the call. Use the socket in a `with` block, which closes the socket."
+)
+UNTIL_THE_END = (
+    "The function read until the server closed the connection. The 4 bytes of "
+    "length contain the number of bytes that follow: receive exactly this number."
+)
+IN_ORDER = (
+    "After the whole header of the server, read one byte for success, then 4 bytes "
+    "of length, and then as many bytes as this length."
+)
+
+
+@part(
+    "11.3",
+    points=4,
+    goal="Call a geometry service with only a socket; raise ServiceException if the server refuses.",
+    needs=["ask"],
+    deadline=40.0,
+)
+def call_over_a_socket(context: CheckContext) -> None:
+    """Send a response in one piece, and byte by byte; refuse the connection, and refuse the request."""
+    context.require(
+        "the function uses only a socket",
+        holds=not ROS_CLIENTS & _names(context.source("ask")),
+        expected="a socket",
+        actual="a call with a client of ROS",
+        hints="Do not use a proxy: connect a socket to the address, and send the bytes yourself.",
+    )
+    for slowly in (False, True):
+        _answers(context, slowly=slowly)
+    reason = f"no {context.random.word()} today"
+    _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
+    _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)
+
+
+def _names(source: str) -> set[str]:
+    """Return the names in the code of a function, without the words in comments and docstrings."""
+    try:
+        nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
+    except SyntaxError:  # the source is only a part of a line, for example of a lambda
+        return set()
+    return {node.id for node in nodes if isinstance(node, ast.Name)} | {
+        node.attr for node in nodes if isinstance(node, ast.Attribute)
+    }
+
+
+def _wrong_numbers(area: float, volume: float) -> Hints:
+    return [
+        (None, NO_RETURN),
+        (
+            (lambda actual: isinstance(actual, dict)),
+            "This is a dict or a response. Return the two numbers as a tuple: (area, volume).",
+        ),
+        (
+            (
+                lambda actual: all(
+                    abs(one - other) < 0.1 for one, other in zip(actual, (area, volume), strict=True)
+                )
+            ),
+            "The numbers are rounded. Return the numbers that arrived, without a change.",
+        ),
+        (
+            [volume, area],
+            "The order is wrong: return the area first, and then the volume, as in the definition.",
+        ),
+        (
+            (lambda actual: isinstance(actual[0], int)),
+            "These are bytes. Convert the bytes into numbers with struct.unpack.",
+        ),
+        (
+            ANYTHING,
+            "After the byte for success, read 4 bytes of length, and then area and volume "
+            "with the format '<2f'.",
+        ),
+    ]
+
+
+def _answers(context: CheckContext, *, slowly: bool) -> None:
+    name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
+    sides = context.random.numbers(3, 0.5, 9.0)
+    area, volume = (number + BINARY for number in context.random.integers(2, 10, 90))
+    with TcprosServer(kind, (area, volume), slowly=slowly) as server:
+        result = context.run(
+            "ask", server.uri, name, *sides, within=10.0 if slowly else 5.0, hints=_errors(slowly)
+        )
+        conversation = _conversation_of(context, server, result)
+    _sends_the_header(context, conversation, name, kind)
+    context.expect(
+        "the request contains length, width and height",
+        expected=sides,
+        actual=conversation.sides,
+        near=1e-6,
+        hints="Send the three sides as float32, in the order of the definition: struct.pack('<3f', …).",
+    )
+    context.expect(
+        "area and volume are returned" + (", even if the bytes arrive slowly" if slowly else ""),
+        expected=[area, volume],
+        actual=result.returned(),
+        near=1e-6,
+        hints=_wrong_numbers(area, volume),
+    )
+    context.require(
+        "area and volume are returned",
+        holds=not conversation.left_open,
+        expected="a connection that the client closes after the response",
+        actual=f"a connection that is still open {LINGER:g} s later",
+        hints=UNTIL_THE_END if result.took > LINGER else OPEN,
+    )
+
+
+def _conversation_of(context: CheckContext, server: TcprosServer, result: Result) -> Conversation:
+    context.require(
+        "the function connects to the given address",
+        holds=bool(server.conversations),
+        expected="a connection",
+        actual=result.error or "none",
+        hints=(
+            "Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT. "
+            "Convert the port into a number."
+        ),
+    )
+    conversation = server.conversations[0]
+    wait_until(lambda: conversation.over, TIMEOUT + LINGER + 1.0)
+    context.require(
+        "the function sends a header and a request of TCPROS",
+        holds=conversation.mistake not in MISTAKES,
+        expected="a connection header, and then a request",
+        actual=conversation.mistake,
+        hints=MISTAKES.get(conversation.mistake, ""),
+    )
+    return conversation
+
+
+WRONG_MD5: Hints = [
+    (
+        "*",
+        "The star matches every definition, even a definition with other fields. Send "
+        "the MD5 sum of your type.",
+    ),
+    ("none", "The field `md5sum` is missing. The server needs this field to compare the definitions."),
+    (ANYTHING, "This is the MD5 sum of another type, or only of the request: use geometry._md5sum."),
+]
+
+
+def _sends_the_header(context: CheckContext, conversation: Conversation, name: str, kind: type) -> None:
+    md5 = str(getattr(kind, "_md5sum", ""))
+    context.expect(
+        "the header contains the MD5 sum of the type",
+        expected=md5,
+        actual=conversation.header.get("md5sum", "none"),
+        hints=WRONG_MD5,
+    )
+    context.expect(
+        "the header contains the name of the service",
+        expected=name,
+        actual=conversation.header.get("service", "none"),
+        hints=(
+            "One port serves all services of a node, so the field `service` has to contain "
+            "the name of the service."
+        ),
+    )
+    context.require(
+        "the header contains the name of the caller",
+        holds=bool(conversation.header.get("callerid")),
+        expected="a field callerid",
+        actual=", ".join(conversation.header),
+        hints="The field `callerid` is missing. Set it to the name of the client, such as node.name.",
+    )
+
+
+def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
+    """Refuse with an error message that contains `reason`."""
+    name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
+    with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
+        result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)
+    hint = (
+        'The header of the server had a field "error". Check for this field before you send the request.'
+        if in_handshake
+        else (
+            "The byte for success was 0, so an error message follows instead of a response. "
+            "Read it, and raise it."
+        )
+    )
+    server_text = (
+        "a server that refuses the connection" if in_handshake else "a server that refuses the request"
+    )
+    assertion = f"{server_text} leads to a ServiceException with its error message"
+    text = result.raised(
+        assertion,
+        "ServiceException",
+        saying=reason,
+        hints=[
+            (matches("^ServiceException"), f"Put the error message of the server into the exception. {hint}"),
+            (
+                matches(f"^(?!TimesUp).*{reason}"),
+                "The message is right, but the exception has to be a rospy.ServiceException.",
+            ),
+            (ANYTHING, hint),
+        ],
+    )
+    context.require(
+        assertion,
+        holds=not AS_BYTES.search(text),
+        expected=message,
+        actual=text,
+        hints=BYTES,
+    )
+
+
+def _errors(slowly: bool) -> Hints:
+    return [
+        (
+            matches("unpack|struct.error|^TimesUp|ConnectionError|timed out|IndexError"),
+            SLOWLY if slowly else IN_ORDER,
+        ),
+    ]

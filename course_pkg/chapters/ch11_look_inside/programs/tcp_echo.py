@@ -1,0 +1,39 @@
+"""The node `tcp_echo`: sends back all bytes that it receives over TCP, on the port in `~port`.
+
+It uses no ROS protocol, so a service call cannot be faster than a round trip to this program.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+from contextlib import suppress
+
+import rospy
+
+from course_pkg.ros.node.program import start_node
+
+
+def main() -> None:
+    """Echo until the node is shut down."""
+    if not start_node("tcp_echo"):
+        return
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        threading.Thread(target=_accept, args=(listener,), daemon=True).start()
+        rospy.set_param("~port", listener.getsockname()[1])
+        rospy.loginfo("Echoing at the port in %s", rospy.resolve_name("~port"))
+        rospy.spin()
+
+
+def _accept(listener: socket.socket) -> None:
+    with suppress(OSError):  # the listener was closed
+        while True:
+            sock, _ = listener.accept()
+            threading.Thread(target=_echo, args=(sock,), daemon=True).start()
+
+
+def _echo(sock: socket.socket) -> None:
+    with sock, suppress(OSError):
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        while data := sock.recv(65536):
+            sock.sendall(data)

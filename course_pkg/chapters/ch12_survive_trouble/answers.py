@@ -1,0 +1,527 @@
+"""Example answers of chapter 12; tests/checking/example_answers.py explains the format."""
+
+# %% 12.1 right: a thread and two lists
+def call_within(seconds, proxy, *values):
+    responses, errors = [], []
+
+    def call():
+        try:
+            responses.append(proxy(*values))
+        except rospy.ServiceException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=call, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    if thread.is_alive():
+        raise TimeoutError(f"no response within {seconds} s")
+    if errors:
+        raise errors[0]
+    return responses[0]
+
+# %% 12.1 right: a pool that is not joined
+from concurrent.futures import ThreadPoolExecutor
+
+
+def call_within(seconds, proxy, *values):
+    pool = ThreadPoolExecutor(1)
+    try:
+        return pool.submit(proxy, *values).result(timeout=seconds)
+    finally:
+        pool.shutdown(wait=False)
+
+# %% 12.1 wrong: no limit | hint: The function did not return when its time was over
+replace("thread.join(seconds)", "thread.join()")
+# %% 12.1 wrong: only calls the proxy | hint: The function did not return when its time was over
+replace("responses, … responses[0]", "return proxy(*values)")
+# %% 12.1 wrong: a pool in a with block | hint: The function did not return when its time was over, because it
+based_on("a pool that is not joined")
+replace("pool = ThreadPoolExecutor … wait=False)", """with ThreadPoolExecutor(1) as pool:
+        return pool.submit(proxy, *values).result(timeout=seconds)""")
+# %% 12.1 wrong: None when the time is over | hint: The time was over, but the function returned None
+replace('raise TimeoutError(f"no response within {seconds} s")', "return None")
+# %% 12.1 wrong: another error when the time is over | hint: raise TimeoutError and nothing else
+replace("raise TimeoutError", "raise rospy.ROSException")
+# %% 12.1 wrong: does not catch the error | hint: The call ended with an error, so there is no response
+replace("        try:\n            responses.append(proxy(*values))\n        except rospy.ServiceException as error:\n            errors.append(error)", "        responses.append(proxy(*values))")
+# %% 12.1 wrong: loses the error | hint: The call raised rospy.ServiceException, but the function returned None
+replace("    if errors:\n        raise errors[0]\n    return responses[0]", "    return responses[0] if responses else None")
+# %% 12.1 wrong: a text in place of the error | hint: Raise the ServiceException of the call again, with the same text
+replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
+# %% 12.1 wrong: an error counts as no response | hint: The call raised rospy.ServiceException, but the function raised TimeoutError
+replace("        raise errors[0]", "        raise TimeoutError(str(errors[0]))")
+# %% 12.1 wrong: always waits for the whole time | hint: Do not sleep for the whole time
+replace("thread.join(seconds)", "time.sleep(seconds)")
+# %% 12.1 wrong: a fixed limit | hint: The function did not wait for `seconds`
+replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
+# %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError
+replace("    thread.join(seconds)\n", "")
+# %% 12.1 wrong: no return line | hint: without a return line
+replace("\n    return responses[0]", "")
+# %% 12.1 wrong: a field of the response | hint: The function did not return the response
+replace("return responses[0]", "return responses[0].sum")
+# %% 12.1 wrong: passes no values | hint: The response belongs to another request
+replace("proxy(*values)", "proxy()")
+# %% 12.1 wrong: calls twice | hint: The function called the service more than once
+replace("responses.append(proxy(*values))", "proxy(*values)\n            responses.append(proxy(*values))")
+
+# %% 12.2 right: a dict under a lock
+class Till:
+    def __init__(self, purse):
+        self.purse = purse
+        self.receipts = {}
+        self.lock = threading.Lock()
+
+    def handle_charge(self, request):
+        if not request.request_id:
+            raise rospy.ServiceException("a request without an id cannot be told from its repeat")
+        with self.lock:
+            if request.request_id not in self.receipts:
+                self.purse.take(request.cents)
+                self.receipts[request.request_id] = len(self.receipts) + 1
+            return ChargeResponse(receipt=self.receipts[request.request_id])
+
+# %% 12.2 right: whole responses, numbers from a counter
+import itertools
+
+
+class Till:
+    def __init__(self, purse):
+        self.purse, self.done = purse, {}
+        self.numbers = itertools.count(100)
+        self.lock = threading.RLock()
+
+    def handle_charge(self, request):
+        if request.request_id == "":
+            raise rospy.ServiceException("no id")
+        with self.lock:
+            known = self.done.get(request.request_id)
+            if known is None:
+                self.purse.take(request.cents)
+                known = self.done[request.request_id] = ChargeResponse(next(self.numbers))
+        return known
+
+# %% 12.2 right: futures, receipts from 0
+from concurrent.futures import Future
+class Till:
+    def __init__(self, purse):
+        self.purse, self.lock = purse, threading.Lock()
+        self.under_way, self.count = {}, 0
+    def handle_charge(self, request):
+        if len(request.request_id) == 0:
+            raise rospy.ServiceException("empty id")
+        with self.lock:
+            first = request.request_id not in self.under_way
+            future = self.under_way.setdefault(request.request_id, Future())
+        if first:
+            try:
+                self.purse.take(request.cents)
+            except Exception as error:
+                with self.lock:
+                    del self.under_way[request.request_id]
+                future.set_exception(error)
+                raise rospy.ServiceException(f"the purse: {error}")
+            with self.lock:
+                number, self.count = self.count, self.count + 1
+            future.set_result(number)
+        return {"receipt": future.result()}
+
+# %% 12.2 wrong: does not remember the ids | hint: The same request was charged twice
+replace("receipts = {}", "count = 0")
+replace("a request without an id cannot be told from its repeat", "no id")
+replace("if request … request_id])", """self.purse.take(request.cents)
+            self.count += 1
+            return ChargeResponse(receipt=self.count)""")
+# %% 12.2 wrong: reads the list of the purse | hint: A purse has only one method, take(cents)
+replace("len(self.receipts) + 1", "len(self.purse.taken)")
+# %% 12.2 wrong: one dict for all tills | hint: A second Till treated a new request as a repetition, because it
+replace("        self.receipts = {}\n", "")
+replace("    def __init__", "    receipts = {}\n\n    def __init__")
+# %% 12.2 wrong: a number at random | hint: Two requests got the same receipt number
+replace("class Till", "import random\n\n\nclass Till")
+replace("len(self.receipts) + 1", "random.randrange(150)")
+# %% 12.2 wrong: recognises a repeat by its amount | hint: Two customers may pay the same amount
+replace('\n        if not request … its repeat")', "")
+replace("request_id ", "cents ")
+replace("[request.request_id] = ", "[request.cents] = ")
+replace("request_id", "cents")
+# %% 12.2 wrong: remembers the ids, but not the receipts | hint: The receipt is 0, the default
+replace("receipts = {}", "done = set()")
+replace("if not request … request_id])", """with self.lock:
+            if request.request_id in self.done:
+                return ChargeResponse()
+            self.purse.take(request.cents)
+            self.done.add(request.request_id)
+            return ChargeResponse(receipt=len(self.done))""")
+# %% 12.2 wrong: a new receipt for a repeat | hint: The repetition got another receipt
+based_on("does not remember the ids")
+replace("self.purse = purse", "self.purse = purse\n        self.done = set()")
+replace('\n        if not request.request_id:\n            raise rospy.ServiceException("no id")', "")
+replace("self.purse.take(request.cents)", """if request.request_id not in self.done:
+                self.purse.take(request.cents)
+                self.done.add(request.request_id)""")
+# %% 12.2 wrong: refuses a repeat | hint: A repeated request was refused
+based_on("remembers the ids, but not the receipts")
+replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charged already")')
+# %% 12.2 wrong: remembers the id before the purse is charged | hint: A request failed and was repeated
+replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
+replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
+# %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
+replace('\n        if not request … its repeat")', "")
+# %% 12.2 wrong: no lock | hint: The same request came five times
+replace("\n        self.lock = threading.Lock()", "")
+replace("\n            raise rospy … request_id])", """
+            raise rospy.ServiceException("no id")
+        if request.request_id not in self.receipts:
+            self.purse.take(request.cents)
+            self.receipts[request.request_id] = len(self.receipts) + 1
+        return ChargeResponse(receipt=self.receipts[request.request_id])""")
+# %% 12.2 wrong: keeps the lock when the purse fails | hint: After an error of the purse, no client gets a response, because
+based_on("no lock")
+replace("receipts = {}", "receipts = {}\n        self.lock = threading.Lock()")
+replace('("no id")', '("no id")\n        self.lock.acquire()')
+replace("(self.receipts) + 1", "(self.receipts) + 1\n        self.lock.release()")
+# %% 12.2 wrong: hides that the purse failed | hint: The purse raised an error, but the client got a receipt
+replace("self.purse.take(request.cents)", """try:
+                    self.purse.take(request.cents)
+                except RuntimeError:
+                    rospy.logwarn("the purse failed")""")
+# %% 12.2 wrong: returns None for an empty id | hint: The handler returned None for an empty id
+replace("""raise rospy.ServiceException("a request without an id cannot be told from its repeat")
+        with self.lock:""", "return None\n        with self.lock:")
+# %% 12.2 wrong: forgets to return | hint: Return a ChargeResponse in every case
+replace("\n            return ChargeResponse(receipt=self.receipts[request.request_id])", "")
+# %% 12.2 wrong: does not charge the purse | hint: No money was taken. Call
+replace("\n                self.purse.take(request.cents)", "")
+# %% 12.2 wrong: one receipt for all | hint: Two purchases got the same receipt
+replace("len(self.receipts) + 1", "1")
+# %% 12.2 wrong: replaces the method of the purse | hint: No money was taken. Call
+replace("self.purse = purse", "self.purse = purse\n        type(purse).take = lambda self, cents: None")
+# %% 12.2 wrong: another exception for an empty id | hint: The handler raised another exception for an empty id
+replace("rospy.ServiceException", "ValueError")
+
+# %% 12.3 right: a loop with a clock
+def pay(till, cents, deadline):
+    request_id = str(uuid.uuid4())
+    end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:
+        try:
+            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt
+        except (rospy.ServiceException, TimeoutError) as error:
+            if "cannot process request" in str(error) and "handler returned" not in str(error):
+                raise
+        time.sleep(min(pause, max(end - time.monotonic(), 0)))
+        pause *= 2
+    return None
+
+# %% 12.3 right: a generator of pauses, and an id from another source
+import secrets
+
+def pauses():
+    pause = 0.1
+    while True:
+        yield pause
+        pause *= 3
+
+def pay(till, cents, deadline):
+    request = Charge._request_class(secrets.token_hex(8), cents)
+    over = time.time() + deadline
+    for pause in pauses():
+        left = over - time.time()
+        if left <= 0:
+            return None
+        try:
+            response = call_within(min(left, 0.5), rospy.ServiceProxy(till, Charge), request)
+        except TimeoutError:
+            pass
+        except rospy.ServiceException as error:
+            if "cannot process request" in str(error) and "handler returned" not in str(error):
+                raise
+        else:
+            return response.receipt
+        time.sleep(max(0, min(pause, over - time.time())))
+
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: the handler may have done its work before
+replace(' and "handler returned" not in str(error)', "")
+# %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
+replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
+# %% 12.3 wrong: sleeps past the deadline | hint: The last pause ended after the deadline
+replace("min(pause, max(end - time.monotonic(), 0))", "pause")
+# %% 12.3 wrong: as many tries as the deadline has seconds | hint: pay() ended before the deadline
+replace("while (rest := end - time.monotonic()) > 0:", "for _ in range(int(deadline)):\n        rest = max(end - time.monotonic(), 0)")
+# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for a server without
+replace("        try:", "        rospy.wait_for_service(till)\n        try:")
+# %% 12.3 wrong: tries once | hint: One failed try ended pay()
+replace("end, pause … pause *= 2\n", """try:
+        return call_within(min(0.5, deadline), rospy.ServiceProxy(till, Charge), request_id, cents).receipt
+    except TimeoutError:
+    """)
+# %% 12.3 wrong: a new id for each try | hint: The tries of one payment had different ids
+replace("\n    request_id = str(uuid.uuid4())", "")
+replace("request_id", "str(uuid.uuid4())")
+# %% 12.3 wrong: one id for all payments | hint: Two payments had the same id
+replace("def", "request_id = str(uuid.uuid4())\ndef")
+replace("\n    request_id = str(uuid.uuid4())", "")
+# %% 12.3 wrong: no id | hint: The field request_id is empty
+replace("Charge), request_id, cents", 'Charge), "", cents')
+# %% 12.3 wrong: repeats a refusal | hint: The till refused, but pay() called the till again
+replace("raise", "pass")
+# %% 12.3 wrong: None for a refusal | hint: The till refused, but pay() did not raise an error
+replace("raise", "return None")
+# %% 12.3 wrong: the whole deadline for the first try | hint: The first try used all the time
+replace("min(0.5, rest)", "rest")
+# %% 12.3 wrong: a proxy without a limit | hint: because a proxy has no time limit
+replace("return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)", "return rospy.ServiceProxy(till, Charge)(request_id, cents)")
+# %% 12.3 wrong: does not catch TimeoutError | hint: its TimeoutError ended pay()
+replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
+# %% 12.3 wrong: treats every error as a refusal | hint: One failed try ended pay()
+based_on("does not catch TimeoutError")
+replace("receipt", "receipt\n        except TimeoutError:\n            pass")
+replace("cannot process request", 'request" in str(error) or "error')
+# %% 12.3 wrong: two tries only | hint: In this case the till was … but pay() had given up
+replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
+replace("rest", "deadline")
+replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
+# %% 12.3 wrong: no pause | hint: There was no pause, or the pause was too short
+replace("\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))", "")
+# %% 12.3 wrong: always the same pause | hint: The pause did not grow enough
+replace("end, pause = time.monotonic() + deadline, 0.1", "end = time.monotonic() + deadline")
+replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
+# %% 12.3 wrong: two seconds for a try | hint: A try took longer than
+replace("0.5", "2")
+# %% 12.3 wrong: a tenth of a second for a try | hint: A try had less than
+replace("0.5", "0.1")
+# %% 12.3 wrong: half a second for the last try, too | hint: The deadline was 0.05 s
+replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
+replace("min(0.5, rest)", "0.5")
+# %% 12.3 wrong: adds to the pause | hint: The pause did not grow enough
+replace("pause *= 2", "pause += 0.1")
+# %% 12.3 wrong: begins with a shorter pause | hint: There was no pause, or the pause was too short
+replace("0.1", "0.05")
+# %% 12.3 wrong: five times | hint: but pay() had given up
+replace("while (rest := end - time.monotonic()) > 0:", """for _ in range(5):
+        rest = end - time.monotonic()
+        if rest <= 0:
+            break""")
+# %% 12.3 wrong: counts the pauses only | hint: pay() continued after the deadline
+replace("""end, pause = time.monotonic() + deadline, 0.1
+    while (rest := end - time.monotonic()) > 0:""", "waited, pause = 0, 0.1\n    while waited < deadline:")
+replace("rest", "deadline")
+replace("(min(pause, max(end - time.monotonic(), 0)))", "(pause)\n        waited += pause")
+# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() does not know whether the till has charged
+replace("return None", 'raise TimeoutError("nobody knows")')
+# %% 12.3 wrong: forgets to return | hint: The till sent a receipt, but pay() returned None
+replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt", "            call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            break")
+# %% 12.3 wrong: the whole response | hint: This is the whole response
+replace("request_id, cents).receipt", "request_id, cents)")
+# %% 12.3 wrong: a fixed till | hint: pay() did not call the till
+replace("ServiceProxy(till", 'ServiceProxy("/till"')
+# %% 12.3 wrong: calls twice | hint: The till had sent a receipt
+replace("return call_within", "call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            return call_within")
+# %% 12.3 wrong: another exception for a refusal | hint: pay() raised another error
+replace("                raise", '                raise RuntimeError("refused")')
+
+# %% 12.4 right: one lock for look and stop
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.uri, self.master, self.every = name, uri, master, every
+        self.lock = threading.Lock()
+        self.over = threading.Event()
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def run(self):
+        while not self.over.wait(self.every):
+            try:
+                self.look()
+            except (OSError, rosgraph.MasterException):
+                continue
+
+    def look(self):
+        with self.lock:
+            if self.over.is_set():
+                return
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+
+    def stop(self):
+        with self.lock:
+            self.over.set()
+
+# %% 12.4 wrong: a pause of one second | hint: The watchdog polls too rarely
+replace("self.over.wait(self.every)", "self.over.wait(1.0)")
+
+# %% 12.4 right: with getSystemState
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.name, self.uri, self.master, self.every = name, uri, master, every
+        self.alive, self.lock = True, threading.Lock()
+        self.thread = threading.Thread(target=self.watch, daemon=True)
+        self.thread.start()
+    def watch(self):
+        while self.alive:
+            with self.lock:
+                if self.alive:
+                    try:
+                        publishers, subscribers, services = self.master.getSystemState()
+                        if self.name not in dict(services):
+                            self.master.registerService(self.name, self.uri, rospy.get_node_uri())
+                    except Exception as error:
+                        print(error)
+            time.sleep(self.every)
+    def stop(self):
+        with self.lock:
+            self.alive = False
+
+# %% 12.4 right: the XML-RPC handle, is_online, and a rate
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.name, self.uri, self.master = name, uri, master
+        self.rate = rospy.Rate(1 / every)
+        self.quit = threading.Event()
+        self.done = threading.Event()
+        threading.Thread(target=self.loop, daemon=True).start()
+    def loop(self):
+        try:
+            while not self.quit.is_set():
+                if self.master.is_online():
+                    try:
+                        code, _, _ = self.master.handle.lookupService(self.master.caller_id, self.name)
+                        if code != 1:
+                            self.master.registerService(self.name, self.uri, rospy.get_node_uri())
+                    except OSError:
+                        pass
+                self.rate.sleep()
+        finally:
+            self.done.set()
+    def stop(self):
+        self.quit.set()
+        self.done.wait()
+
+# %% 12.4 wrong: looks once | hint: The master does not know the name, but the watchdog does not
+class Watchdog:
+    def __init__(self, name, uri, master, every):
+        self.service, self.master = name, master
+        try:
+            master.lookupService(name)
+        except rosgraph.MasterError:
+            pass
+
+    def stop(self):
+        pass
+
+# %% 12.4 wrong: registers once | hint: an error ended the watchdog's thread
+replace("(OSError, rosgraph.MasterException)", "rosgraph.MasterException")
+# %% 12.4 wrong: loops in __init__ | hint: Run the endless loop in a thread
+replace("threading.Thread(target=self.run, daemon=True).start()", "self.run()")
+# %% 12.4 wrong: the addresses mixed up | hint: The addresses are in the wrong order
+replace("self.uri, rospy.get_node_uri()", "rospy.get_node_uri(), self.uri")
+# %% 12.4 wrong: takes the name back from another provider | hint: Another node provides this service now, but the watchdog registered its own
+replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
+                    raise rosgraph.MasterError(self.service)""")
+# %% 12.4 wrong: registers at every look | hint: registers a name that the master already knows
+replace("""
+            try:
+                self.master.lookupService(self.service)
+            except rosgraph.MasterError:
+                self.master.""", "\n            self.master.")
+# %% 12.4 wrong: stops in the middle of a look | hint: stop() returned while the thread was still calling the master, and the
+replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
+# %% 12.4 wrong: holds the lock all the time | hint: stop() does not return
+replace("threading.Event()", "False")
+replace("while not self … get_node_uri())", """with self.lock:
+            while not self.over:
+                try:
+                    self.master.lookupService(self.service)
+                except rosgraph.MasterError:
+                    self.master.registerService(self.service, self.uri, rospy.get_node_uri())
+                except OSError:
+                    pass
+                time.sleep(self.every)""")
+replace(".set()", " = True")
+# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog made no call to the given master
+replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
+# %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
+replace("self.over.wait(self.every)", "self.over.is_set()")
+# %% 12.4 wrong: no pause after a look that failed | hint: The watchdog polls without a pause
+replace("self.over.wait(self.every)", "self.over.is_set()")
+replace("self.look()", "self.look()\n                self.over.wait(self.every)")
+# %% 12.4 wrong: looks at a flag before it registers | hint: stop() returned while the thread was still calling the master, and the
+replace("self.master.registerService", "if not self.over.is_set():\n                    self.master.registerService")
+replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
+# %% 12.4 wrong: ends when another node has the name | hint: The other node has unregistered
+replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
+                    self.over.set()""")
+# %% 12.4 wrong: the address of the service for that of the node | hint: The last argument is wrong
+replace("self.uri, rospy.get_node_uri()", "self.uri, self.uri")
+# %% 12.4 wrong: has the check's master forget that stop() has returned | hint: stop() does not return
+replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
+replace("= name, uri, master, every", """= name, uri, master, every
+        theirs = type(master.handle).__getattr__.__globals__["checked_master"]
+        type(theirs).stopped = lambda self: None""")
+
+# %% 12.5 right: one after the other
+solution()
+
+# %% 12.5 right: in another order
+diagnosis = dict(G="two providers", F="repeated", E="race", D="lock")
+diagnosis |= dict(zip("ABC", ["killed", "new master", "frozen"]))
+
+# %% 12.5 wrong: A and C exchanged | hint: In a frozen process, no service responds … the master has an address for the name, but no process accepts
+replace('"A": "killed"', '"A": "frozen"')
+replace('"C": "frozen"', '"C": "killed"')
+# %% 12.5 wrong: a new master taken for a killed server | hint: A killed server accepts no connections … only the lookup of the name fails
+replace('"new master"', '"killed"')
+# %% 12.5 wrong: a lock taken for a frozen process | hint: get_loggers responds, so the process runs
+replace("lock", "frozen")
+# %% 12.5 wrong: a frozen process taken for a lock | hint: If a handler holds a lock during a call, other clients have … not even get_loggers
+replace("frozen", "lock")
+# %% 12.5 wrong: a repeat taken for a race | hint: A race makes the data wrong, but no client has to wait … the server did the work of the first try; only the response
+replace("repeated", "race")
+# %% 12.5 wrong: a case left out | hint: Give a cause for each letter from A to G
+replace('\n    "G": "two providers",', "")
+# %% 12.5 wrong: other words | hint: Copy the names from the list of causes
+replace('"killed"', '"the server was killed"')
+
+# %% 12.5 wrong: sets | hint: Copy the names from the list of causes
+diagnosis = {"A": {"killed"}, "B": {"new master"}, "C": {"frozen"}, "D": {"lock"}, "E": {"race"}, "F": {"repeated"}, "G": {"two providers"}}
+
+# %% 12.5 wrong: a race taken for a repeat | hint: A repeated request does the same work twice … two handlers read the same number
+replace('"race"', '"repeated"')
+# %% 12.5 wrong: two providers taken for a new master | hint: A new master does not know any provider, so each lookup fails … both servers work, but the master stores only the newest provider of
+replace("two providers", "new master")
+# %% 12.5 wrong: a new master taken for two providers | hint: If a service has two providers, only one of them gets all
+replace("new master", "two providers")
+# %% 12.5 wrong: a small letter | hint: as strings with capital letters
+replace('"A"', '"a"')
+
+# %% 12.6 right: one after the other
+solution()
+
+# %% 12.6 right: in another order
+policies = dict.fromkeys(["md5", "refused"], "report")
+policies["speed"] = "try again"
+policies["payment"], policies["step"] = "same id", "look first"
+policies["not started"] = "wait for the service"
+
+# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" fits only if a second execution does no … The next try would get the same refusal
+replace('"refused": "report"', '"refused": "try again"')
+# %% 12.6 wrong: waits for another definition | hint: only if no server is registered … The two programs were built with different definitions
+replace('"md5": "report"', '"md5": "wait for the service"')
+# %% 12.6 wrong: tries a step again | hint: The policy "try again" fits only if a second execution does no … The robot may have moved already, and a second request would move
+replace('"look first"', '"try again"')
+# %% 12.6 wrong: gives up a payment | hint: The policy "report" leaves the work undone, although another try could do … The till may have charged already, but it recognises a repeated request
+replace('"same id"', '"report"')
+# %% 12.6 wrong: looks before it sets the speed | hint: only if a repetition would do harm … The request sets a state
+replace('"try again"', '"look first"')
+# %% 12.6 wrong: an id for a call that reached no server | hint: The policy "same id" helps only if the request has a field … The call did not reach a server, but the server will run
+replace('"wait for the service"', '"same id"')
+# %% 12.6 wrong: a situation left out | hint: Give a policy for each row of the table
+replace('\n    "step": "look first",', "")
+
+# %% 12.6 wrong: a list | hint: The keys are the six names
+policies = ["report", "wait for the service"]
+
+# %% 12.6 wrong: other words | hint: Copy the names of the policies
+replace('"report"', '"give up"', times=2)

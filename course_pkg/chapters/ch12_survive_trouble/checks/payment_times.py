@@ -1,0 +1,77 @@
+"""The time measurements of 12.3; a busy machine makes times longer, so the shortest of several is used."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch12_survive_trouble.checks.payments import DEADLINE, GIVEN_UP, UNKNOWN, pay
+from course_pkg.checking import CheckContext, HangUp, matches
+from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
+
+PAUSE = 0.1  # s before the second try
+FIRST = 1.8 * PAUSE  # s for a first pause and a new connection, in the fastest of several payments
+PAYMENTS = 5  # payments at most; the check uses the fastest of them
+AT_END = 0.9  # s until the deadline, which is during the fourth pause; this pause would end at 1.5 s
+ENDED = 1.3  # s after which the fastest of these payments has ended
+AT_WORK = 0.5  # s for which a client tries in any case before the deadline
+GONE = (
+    "The till has no server, but pay() waits for a server without a limit. Use the "
+    "remaining time as the limit of each wait."
+)
+STOPPED = (
+    "pay() ended before the deadline. The argument `deadline` is a time in seconds: "
+    "try again until this time is over."
+)
+LONG_PAUSE = (
+    "The first pause is too long. It has to be 0.1 s: double the pause after the sleep, not before it."
+)
+OVERSLEPT = (
+    "The last pause ended after the deadline. Sleep at most for the time that remains until the deadline."
+)
+
+
+def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) -> None:
+    """Let one try fail, and measure the pause after it; use the shortest pause of several payments."""
+    pauses = []
+    for _ in range(PAYMENTS):
+        before = len(till.arrivals)
+        till.plan.append(Fault(HangUp()))
+        pay(context, name, context.random.integer(100, 900), DEADLINE).returned()
+        first, second, *_ = till.arrivals[before:]
+        pauses.append(second - first)
+        if pauses[-1] < FIRST:
+            break
+    context.require(
+        "there is a pause before the next try",
+        holds=min(pauses) < FIRST,
+        expected=f"{PAUSE:g} s after the first try",
+        actual=f"{min(pauses):.2f} s",
+        hints=LONG_PAUSE,
+    )
+
+
+def ends_without_a_till(context: CheckContext) -> None:
+    """Pay when no till is running; use the fastest of several payments."""
+    times = []
+    for _ in range(PAYMENTS):
+        cents = context.random.integer(100, 900)
+        gone = [(matches("TimesUp"), GONE), *GIVEN_UP]
+        result = pay(context, f"/{context.random.word()}", cents, AT_END, gone)
+        context.expect(
+            "None when the deadline has passed", expected=None, actual=result.returned(), hints=UNKNOWN
+        )
+        context.require(
+            "pay() uses the whole time until the deadline",
+            holds=result.took > AT_WORK,
+            expected=f"tries for {AT_END:g} s",
+            actual=f"an end after {result.took:.1f} s",
+            hints=STOPPED,
+        )
+        times.append(result.took)
+        if times[-1] < ENDED:
+            break
+    context.require(
+        "the deadline is kept",
+        holds=min(times) < ENDED,
+        expected=f"an end after {AT_END:g} s or slightly more",
+        actual=f"an end after {min(times):.1f} s",
+        hints=OVERSLEPT,
+    )

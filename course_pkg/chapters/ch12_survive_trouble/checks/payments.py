@@ -1,0 +1,108 @@
+"""The payments of 12.3: the payments that a till stores, and a payment that has to succeed at the end."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.checking import CheckContext, matches
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.faulty_server import FaultyServer
+from course_pkg.checking.plain_values import Message
+from course_pkg.checking.result import Result
+from course_pkg.ros.protocol.json_channel import Json
+
+CHARGE = "course_pkg/Charge"
+DEADLINE = 6.0  # s, in cases in which the client succeeds
+ERRORS = [
+    (
+        matches("TimesUp"),
+        "pay() waits forever for a till that does not respond, because a proxy has no "
+        "time limit. Use call_within() for each try.",
+    ),
+    (
+        matches("^TimeoutError"),
+        "A try took too long, and its TimeoutError ended pay(). Catch TimeoutError, and try again.",
+    ),
+    (
+        matches("^ServiceException"),
+        "One failed try ended pay(). Catch rospy.ServiceException, and try again unless it is a refusal.",
+    ),
+]
+UNKNOWN = (
+    "At the deadline, pay() does not know whether the till has charged. Return "
+    "None, and do not raise an error."
+)
+GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
+
+
+class Books:
+    """The payments of a till, one for each request id."""
+
+    def __init__(self, context: CheckContext) -> None:
+        self.charged: dict[str, int] = {}
+        self._first = context.random.integer(1000, 9000)
+        self._lock = threading.Lock()
+
+    def work(self, request: Message) -> dict[str, Json]:
+        """Charge unless the till has already charged this request; return the receipt."""
+        with self._lock:
+            self.charged.setdefault(request.request_id, request.cents)
+            return {"receipt": self.receipt({"request_id": request.request_id})}
+
+    def receipt(self, request: dict[str, Json]) -> int:
+        """Return the receipt of a request that was charged, or 0 for another request."""
+        known = list(self.charged)
+        return self._first + known.index(request["request_id"]) if request["request_id"] in known else 0
+
+
+def pay(context: CheckContext, name: str, cents: int, deadline: float, hints: Hints = ERRORS) -> Result:
+    """Run the student's function with a `deadline` (s), and stop it 6 s after the deadline."""
+    return context.run("pay", name, cents, deadline, within=deadline + 6.0, hints=hints)
+
+
+def pays_after(
+    context: CheckContext,
+    name: str,
+    till: FaultyServer,
+    books: Books,
+    words: str,
+    deadline: float = DEADLINE,
+) -> int:
+    """Assert that one payment succeeds in the case `words`; return the number of requests."""
+    before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
+    result = pay(context, name, context.random.integer(100, 900), deadline)
+    requests = till.requests[before:]
+    ids = {request["request_id"] for request in requests}
+    context.require(
+        "each try has the same id",
+        holds=len(ids) <= 1,
+        expected="one request_id",
+        actual=f"{len(ids)} of them",
+        hints=(
+            "The tries of one payment had different ids, so the till charges each try. "
+            "Create the id once, before the first try."
+        ),
+    )
+    context.expect(
+        "the receipt is returned at the end",
+        expected=books.receipt(requests[-1]) if requests else 0,
+        actual=result.returned(),
+        hints=[
+            (None, _why_given_up(words, result.took, len(till.arrivals) - arrived)),
+        ],
+    )
+    context.expect("the till has charged once at the end", expected=1, actual=len(books.charged) - charged)
+    return len(requests)
+
+
+def _why_given_up(words: str, took: float, tries: int) -> str:
+    begin = f"In this case the till was {words}. "
+    if took > DEADLINE / 2 and tries < 2:
+        return begin + (
+            "The first try used all the time. Give each try at most half a second, or the "
+            "remaining time if this is less."
+        )
+    return (
+        f"{begin}The till worked again before the deadline, but pay() had given up. Try "
+        "again until the deadline."
+    )

@@ -1,0 +1,327 @@
+"""12.2: a server that must charge a repeated request only once."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter
+
+from course_pkg.chapters.ch12_survive_trouble.checks.payments import CHARGE
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
+from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Value
+from course_pkg.checking.result import Result
+
+AT_ONCE = 50
+ONE = 6.0  # s for a single call
+MANY = 20.0  # s for 50 calls at the same time, on a busy machine
+MEETING = 0.05  # s for which a take waits for another one of the same amount
+FIRST_MEETING = 0.5  # s for which the first of many waits, until the others have begun
+BUYERS = 10  # each of them sends its request five times
+KERNEL_CODE = (
+    SMALL_STACKS
+    + """
+import rospy
+from course_pkg.srv import Charge
+
+
+class CheckedDesk:
+    def open(self, kind, purse, name):
+        small_stacks.begin()
+        self.till = kind(purse)
+        self.service = rospy.Service(name, Charge, self.till.handle_charge)
+
+    def close(self):
+        small_stacks.end()
+        self.service.shutdown("checked")
+
+
+checked_desk = CheckedDesk()
+"""
+)
+AGAIN = (
+    "The same request was charged twice. Store the receipt under its request_id, "
+    "and check for a stored receipt before you take money."
+)
+RACE = (
+    "The same request came five times at the same time and was charged more than "
+    "once. Hold one lock while you check for a receipt, take the money and store "
+    "the receipt."
+)
+REFUSED = (
+    "A repeated request was refused. The client did not get the first response, so send the same "
+    "receipt again."
+)
+ONLY_TAKE = "A purse has only one method, take(cents). Count the receipts in an attribute of your own class."
+SAME_NUMBER = (
+    "Two requests got the same receipt number. Count the receipts under the lock, so that each number is "
+    "given only once."
+)
+ANOTHER_TILL = (
+    "A second Till treated a new request as a repetition, because it uses the "
+    "receipts of the first Till. Create the dict in __init__, and store it in self."
+)
+NOTHING = "The handler returned None. Return a ChargeResponse in every case."
+STUCK = (
+    "After an error of the purse, no client gets a response, because the lock was "
+    "not released. Use `with self.lock:`, which also releases the lock after an "
+    "error."
+)
+
+
+@part(
+    "12.2",
+    points=2,
+    goal="Charge each request only once, even if it comes again, and send the same receipt each time.",
+    needs=["Till"],
+    deadline=60.0,
+)
+def charge_once(context: CheckContext) -> None:
+    """Send new and repeated requests, let the purse fail once, omit the id, and send 50 requests at once."""
+    name = f"/{context.random.word()}"
+    context.prepare(KERNEL_CODE)
+    purse, opened = _opened(context, name)
+    context.require("a Till can be created from a purse", holds=not opened.error, actual=opened.error)
+    hints = [
+        (matches("Purse' object has no attribute"), ONLY_TAKE),
+        (matches("TimesUp"), STUCK),
+        (matches("returned None"), NOTHING),
+        (matches("cannot process request"), REFUSED),
+    ]
+    charge = context.service(name, CHARGE, hints=hints, timeout=ONE)
+    crowd = context.service(name, CHARGE, hints=hints, timeout=MANY)
+    try:
+        known = _charges_new_requests(context, purse, charge)
+        _fails_once(context, purse, charge)
+        _refuses_without_an_id(context, charge)
+        _at_once(context, purse, crowd)
+        _gives_different_receipts(context, purse, crowd)
+    finally:
+        context.run("checked_desk.close")
+    _is_new_to_another_till(context, hints, known)
+
+
+class CheckedPurse:
+    """A purse. The kernel has a proxy for it.
+
+    A take returns when there is another take of the same amount, or after a moment. So repetitions without a
+    lock always meet here.
+    """
+
+    def __init__(self) -> None:
+        self.took: list[Value] = []
+        self.stuck = False  # the next take fails
+        self.meeting = MEETING
+        self._long_waits = 0
+        self._asked: Counter[str] = Counter()
+        self._turn = threading.Condition()
+
+    @remote
+    def take(self, cents: Value) -> None:
+        """Take money."""
+        with self._turn:
+            amount = str(cents)
+            self._asked[amount] += 1
+            mine = self._asked[amount]
+            self._turn.notify_all()
+            limit = FIRST_MEETING if self._long_waits > 0 else self.meeting
+            self._long_waits -= 1
+            self._turn.wait_for(lambda: self._asked[amount] > mine, limit)
+            if self.stuck:
+                self.stuck = False
+                raise RuntimeError("the drawer is stuck")
+            self.took.append(cents)
+
+    def await_crowd(self) -> None:
+        """Let the next take wait longer, until other takes have begun, even on a busy machine."""
+        self._long_waits = 1
+
+
+def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
+    """Serve `name` by a new Till, and return its purse."""
+    purse = CheckedPurse()
+    context.place("checked_purse", purse)
+    its = Its("Till"), Its("checked_purse")
+    return purse, context.run("checked_desk.open", *its, name, worded="Till(purse)")
+
+
+ANOTHER_RECEIPT: Hints = [
+    (0, "The receipt is 0, the default of the field. Store the first receipt, and send it again."),
+    (
+        ANYTHING,
+        "The repetition got another receipt. Store the first receipt under the "
+        "request_id, and send it again.",
+    ),
+]
+
+
+def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> str:
+    """Send new requests, and repeat them; return the id of a request that was charged."""
+    cents = context.random.integer(100, 900)
+    first, second = context.random.word(12), context.random.word(12)
+    receipt = charge(request_id=first, cents=cents).receipt
+    _purse_has(
+        context,
+        purse,
+        "a new request is charged",
+        [cents],
+        [([], "No money was taken. Call self.purse.take() with the cents of the request.")],
+    )
+    other = charge(request_id=second, cents=cents).receipt
+    _purse_has(
+        context,
+        purse,
+        "another request is charged, even if the amount is the same",
+        [cents, cents],
+        _only_one(
+            "Two customers may pay the same amount. Only the request_id shows whether a request "
+            "is a repetition."
+        ),
+    )
+    context.require(
+        "another request gets another receipt",
+        holds=other != receipt,
+        expected="two receipts",
+        actual=f"{receipt} twice",
+        hints=(
+            "Two purchases got the same receipt. Give each purchase a new number: count the "
+            "receipts, for example."
+        ),
+    )
+    for again, before in ((first, receipt), (second, other), (first, receipt)):
+        repeated = charge(request_id=again, cents=cents).receipt
+        _purse_has(context, purse, "a repeated request is not charged again", [cents, cents], AGAIN)
+        context.expect(
+            "a repeated request gets the same receipt again",
+            expected=before,
+            actual=repeated,
+            hints=ANOTHER_RECEIPT,
+        )
+    return first
+
+
+def _only_one(words: str) -> Hints:
+    """Return the hint `words` for the case that the purse was used only once."""
+    return [((lambda actual: len(actual) < 2), words)]
+
+
+def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    request_id, cents = context.random.word(12), context.random.integer(1000, 1900)
+    purse.stuck = True
+    charge.refused(
+        "if the purse fails, the client gets an error",
+        request_id=request_id,
+        cents=cents,
+        hints=(
+            "The purse raised an error, but the client got a receipt. Do not catch the "
+            "error, so that it reaches the client."
+        ),
+    )
+    charge(request_id=request_id, cents=cents)
+    _purse_ends_with(
+        context,
+        purse,
+        "a request that failed can be sent again",
+        cents,
+        (
+            "A request failed and was repeated, but nothing was charged. Store the request_id after "
+            "take has returned, not before."
+        ),
+    )
+
+
+NOT_REFUSED: Hints = [
+    (
+        matches("returned None"),
+        "The handler returned None for an empty id. Raise rospy.ServiceException with an error message.",
+    ),
+    (
+        matches("error processing"),
+        "The handler raised another exception for an empty id. Raise rospy.ServiceException.",
+    ),
+    (
+        ANYTHING,
+        "A request with an empty id got a receipt. Raise rospy.ServiceException, "
+        "because the till cannot recognise a repetition of this request.",
+    ),
+]
+
+
+def _refuses_without_an_id(context: CheckContext, charge: Service) -> None:
+    label = "a request without an id is refused"
+    error = charge.refused(label, request_id="", cents=context.random.integer(2000, 2900), hints=NOT_REFUSED)
+    context.require(
+        label,
+        holds=bool(REFUSED_BY_HANDLER.search(error)),
+        expected="service cannot process request: …, with your error message",
+        actual=error,
+        hints=NOT_REFUSED,
+    )
+
+
+def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    before = len(purse.took)
+    buyers = [
+        {"request_id": context.random.word(12), "cents": context.random.integer(3000, 9000)}
+        for _ in range(BUYERS)
+    ]
+    requests = context.random.shuffled(buyers * (AT_ONCE // BUYERS))
+    purse.await_crowd()
+    replies = charge.at_once(requests)
+    context.expect(
+        f"{AT_ONCE} calls at the same time, each request five times: each request is charged once",
+        expected=sorted(buyer["cents"] for buyer in buyers),
+        actual=sorted(purse.took[before:]),
+        hints=RACE,
+    )
+    receipts = {
+        (request["request_id"], reply.response.receipt)
+        for request, reply in zip(requests, replies, strict=True)
+    }
+    context.expect(
+        f"{AT_ONCE} calls at the same time: one receipt for each request",
+        expected=BUYERS,
+        actual=len({receipt for _, receipt in receipts}) if len(receipts) == BUYERS else len(receipts),
+    )
+
+
+def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    """Send so many different requests that some random receipt numbers would be equal."""
+    purse.meeting = 0.0
+    requests = [
+        {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}
+        for _ in range(AT_ONCE)
+    ]
+    receipts = [reply.response.receipt for reply in charge.at_once(requests)]
+    context.require(
+        "another request gets another receipt",
+        holds=len(set(receipts)) == len(receipts),
+        expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
+        actual=f"{len(set(receipts))} different receipts",
+        hints=SAME_NUMBER,
+    )
+
+
+def _is_new_to_another_till(context: CheckContext, hints: Hints, request_id: str) -> None:
+    name, cents = f"/{context.random.word()}", context.random.integer(100, 900)
+    purse, _ = _opened(context, name)
+    try:
+        context.service(name, CHARGE, hints=hints, timeout=ONE)(request_id=request_id, cents=cents)
+        _purse_has(context, purse, "a new request is charged", [cents], ANOTHER_TILL)
+    finally:
+        context.run("checked_desk.close")
+
+
+def _purse_has(
+    context: CheckContext, purse: CheckedPurse, assertion: str, expected: list[int], hints: Hints
+) -> None:
+    context.expect(assertion, expected=expected, actual=list(purse.took), hints=hints)
+
+
+def _purse_ends_with(
+    context: CheckContext, purse: CheckedPurse, assertion: str, cents: int, hint: str
+) -> None:
+    context.expect(assertion, expected=cents, actual=purse.took[-1] if purse.took else None, hints=hint)

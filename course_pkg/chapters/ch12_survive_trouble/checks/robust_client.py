@@ -1,0 +1,280 @@
+"""12.3: a client that pays exactly once, although the server or the connection fails."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+from course_pkg.chapters.ch12_survive_trouble.checks.payment_times import (
+    ends_without_a_till,
+    pauses_for_a_moment,
+)
+from course_pkg.chapters.ch12_survive_trouble.checks.payments import (
+    CHARGE,
+    DEADLINE,
+    GIVEN_UP,
+    UNKNOWN,
+    Books,
+    pay,
+    pays_after,
+)
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Late, Refuse, Silence, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.faulty_server import Crash, Fault, FaultyServer, Frozen, Stumble
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import wait_until
+
+TRY = 0.5  # s for one try, as the exercise says
+PAUSE = 0.1  # s before the second try; each further pause is twice as long as the previous pause
+SHORT = 1.0  # s until the deadline in the case in which the client has to give up
+SLACK = 1.5  # s that a busy machine may need
+AWAY = 0.5  # s until a killed till is started again; the second try finds no server
+A_LITTLE = 0.2  # s, less than one try
+KEEPING = 2.0  # s for a payment that ends in time
+MOST = 5  # failing tries, unless each pause is three times as long as the previous pause
+LONG = 12.0  # s until the deadline in the case of MOST failing tries
+
+SLOW = "slow"
+FAULTS = {
+    "stumbling": [Fault(Stumble("list index out of range"))],
+    SLOW: [Fault(Late(1.2, {}), worked=True)],
+    "frozen": [Fault(Frozen())],
+    "killed after it charged, and started again": [Fault(Crash(AWAY), worked=True)],
+    "shut down and started again": [Fault(Crash(AWAY, unregisters=True))],
+}
+
+
+@part(
+    "12.3",
+    points=4,
+    goal=(
+        "Pay exactly once before a deadline, even if calls of the till fail in the "
+        "meantime; do not repeat a refused payment."
+    ),
+    needs=["pay"],
+    deadline=60.0,
+)
+def a_robust_client(context: CheckContext) -> None:
+    """Pay at a till that works, refuses, fails and recovers, or never responds."""
+    books, name = Books(context), f"/{context.random.word()}"
+    till = context.faulty(name, CHARGE, books.work)
+    _pays(context, name, till, books)
+    _refused(context, name, till)
+    first, *others = FAULTS
+    tries = {}
+    for words in (first, *context.random.shuffled(others)):
+        till.plan.extend(FAULTS[words])
+        tries[words] = pays_after(context, name, till, books, words)
+    _repeats_a_bad_return(context, name, till)
+    _limits_each_try(context, name, till, tries[SLOW])
+    _pauses_grow(context, name, till, books)
+    _gives_up(context, name, till)
+    _keeps_the_deadline(context, name, till)
+    pauses_for_a_moment(context, name, till)
+    ends_without_a_till(context)
+
+
+NO_RECEIPT: Hints = [
+    (None, "The till sent a receipt, but pay() returned None. Return the receipt."),
+    ((lambda actual: isinstance(actual, dict)), "This is the whole response. Return its field `receipt`."),
+]
+
+
+def _pays(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
+    cents = context.random.integer(100, 900)
+    for number in range(2):
+        result = pay(context, name, cents, DEADLINE)
+        context.require(
+            "the till is called",
+            holds=bool(till.requests),
+            expected=f"a call of {name}",
+            actual="none",
+            hints="pay() did not call the till. Call the service whose name is in `till`.",
+        )
+        _is_a_new_payment(context, till.requests[-1], cents, is_new=len(books.charged) == number + 1)
+        context.expect(
+            "the receipt is returned",
+            expected=books.receipt(till.requests[-1]),
+            actual=result.returned(),
+            hints=NO_RECEIPT,
+        )
+        context.require(
+            "a successful payment is not sent again",
+            holds=len(till.requests) == number + 1 or result.took > TRY,
+            expected="one request for each payment",
+            actual=f"{len(till.requests)} requests for {number + 1} payments",
+            hints=(
+                "The till had sent a receipt, but pay() called the till again. Return as soon "
+                "as you have a receipt."
+            ),
+        )
+
+
+def _is_a_new_payment(
+    context: CheckContext, request: Mapping[str, Json], cents: int, *, is_new: bool
+) -> None:
+    context.expect("the request contains the cents", expected=cents, actual=request["cents"])
+    context.require(
+        "the request has an id",
+        holds=bool(request["request_id"]),
+        expected="a request_id",
+        actual="an empty one",
+        hints="The field request_id is empty. Create an id for each payment with uuid.uuid4().",
+    )
+    context.require(
+        "each payment has a different id",
+        holds=is_new,
+        expected="a new id",
+        actual="the id of the previous payment",
+        hints=(
+            "Two payments had the same id, so the till treated the second payment as a "
+            "repetition. Create a new id in each call of pay()."
+        ),
+    )
+
+
+def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
+    before = len(till.requests)
+    reason = f"no money on card {context.random.integer(100, 999)}"
+    till.plan.extend([Fault(Refuse(reason))] * 3)
+    result = pay(context, name, context.random.integer(100, 900), 3.0)
+    context.expect(
+        "a refused payment is not tried again",
+        expected=1,
+        actual=len(till.requests) - before,
+        hints=(
+            'The till refused, but pay() called the till again. An error with "cannot '
+            'process request" and without "handler returned" is a refusal: raise this error '
+            "again."
+        ),
+    )
+    result.raised(
+        "a refusal is raised with its reason",
+        "ServiceException",
+        saying=reason,
+        hints=[
+            (None, "The till refused, but pay() did not raise an error. Raise the ServiceException again."),
+            (ANYTHING, "pay() raised another error. Raise the same ServiceException, with a bare `raise`."),
+        ],
+    )
+    till.plan.clear()
+
+
+def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
+    """Let the handler work and return None: the text of this error is similar to a refusal."""
+    till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
+    result = pay(context, name, context.random.integer(100, 900), DEADLINE)
+    context.require(
+        'after an error with "handler returned", pay() tries again',
+        holds=not result.error,
+        expected="the receipt, after another try",
+        actual=result.error,
+        hints=(
+            'The error contains "handler returned", so the handler may have done its work '
+            "before. This is not a refusal: try again."
+        ),
+    )
+
+
+def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
+    """Assert that a slow till got several `tries`, and that a till that responds in time gets one try."""
+    context.require(
+        "the receipt is returned at the end",
+        holds=tries > 1,
+        expected=f"a try that ends after {TRY:g} s, and another try",
+        actual="one try that waited longer",
+        hints=f"A try took longer than {TRY:g} s. Pass this limit to call_within().",
+    )
+    before = len(till.requests)
+    till.plan.append(Fault(Late(A_LITTLE, {}), worked=True))
+    result = pay(context, name, context.random.integer(100, 900), DEADLINE)
+    tries = len(till.requests) - before
+    context.require(
+        "a successful payment is not sent again",
+        holds=tries == 1 or result.took > TRY,
+        expected=f"one request to a till that takes {A_LITTLE:g} s",
+        actual=f"{tries} requests within {result.took:.1f} s",
+        hints=(
+            f"A try had less than {TRY:g} s, so pay() called the till again while it was "
+            f"still working. Give each try {TRY:g} s."
+        ),
+    )
+
+
+def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
+    """Fail three times; the third pause shows whether the pauses grow. Only short pauses are mistakes."""
+    before = len(till.arrivals)
+    till.plan.extend([Fault(HangUp())] * 3)
+    pays_after(context, name, till, books, "failing three times")
+    times = till.arrivals[before:]
+    pauses = [later - earlier for earlier, later in pairwise(times)]
+    context.require(
+        "there is a pause before the next try",
+        holds=min(pauses) > 0.9 * PAUSE,
+        expected=f"{PAUSE:g} s or more",
+        actual=f"{min(pauses):.3f} s",
+        hints="There was no pause, or the pause was too short. Sleep for 0.1 s after the first failed try.",
+    )
+    context.require(
+        "each pause is longer than the previous pause",
+        holds=pauses[2] > 3.5 * PAUSE,
+        expected=f"{4 * PAUSE:g} s before the fourth try",
+        actual=f"{pauses[2]:.2f} s",
+        hints="The pause did not grow enough. After each failed try, make the pause at least twice as long.",
+    )
+    if pauses[2] < 8 * PAUSE:  # the pauses grow slowly, so the deadline leaves time for MOST failing tries
+        till.plan.extend([Fault(HangUp())] * MOST)
+        pays_after(context, name, till, books, f"failing {MOST} times", LONG)
+
+
+def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
+    till.plan.extend([Fault(Silence())] * 100)
+    result = pay(context, name, context.random.integer(100, 900), SHORT, GIVEN_UP)
+    context.expect(
+        "None when the deadline has passed",
+        expected=None,
+        actual=result.returned(),
+        hints=UNKNOWN,
+    )
+    context.require(
+        "the deadline is kept",
+        holds=result.took < SHORT + SLACK,
+        expected=f"an end after {SHORT:g} s or slightly more",
+        actual=f"an end after {result.took:.1f} s",
+        hints=(
+            "pay() continued after the deadline. Check the remaining time before each try "
+            "and before each pause."
+        ),
+    )
+    context.require(
+        "pay() uses the whole time until the deadline",
+        holds=result.took > SHORT / 3,
+        expected=f"tries for {SHORT:g} s",
+        actual=f"an end after {result.took:.1f} s",
+    )
+    till.plan.clear()
+
+
+def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
+    """Let the till respond after the deadline, but within the half second of a try.
+
+    On a busy machine, a client may notice the deadline late, so this repeats until one payment ends in time.
+    """
+    returned: list[Json] = []
+
+    def is_kept() -> bool:
+        till.plan.append(Fault(Late(0.3, {}), worked=True))
+        returned.append(pay(context, name, context.random.integer(100, 900), 0.05, GIVEN_UP).returned())
+        till.plan.clear()
+        return returned[-1] is None
+
+    wait_until(is_kept, KEEPING)
+    context.expect(
+        "the deadline is kept",
+        expected=None,
+        actual=returned[-1],
+        hints=(
+            "The deadline was 0.05 s, but pay() waited 0.3 s for the till. A try must not "
+            "take longer than the remaining time."
+        ),
+    )

@@ -1,0 +1,174 @@
+"""12.1: a call with a time limit, for a proxy without a time limit."""
+
+from __future__ import annotations
+
+from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Late, Refuse, Silence, matches, part
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.scripted_server import Act
+from course_pkg.checking.plain_values import Message
+from course_pkg.checking.result import Result
+
+ADD = "course_pkg/AddTwoInts"
+LIMIT = 0.8  # s that the student's function may wait
+LONG = 4.0  # s, a limit that is not reached
+WORK = 0.3  # s that a slow handler takes
+SLACK = 1.2  # s that a busy machine may add
+KERNEL_CODE = """
+import rospy
+from course_pkg.srv import AddTwoInts
+
+
+def checked_call(function, name, seconds, a, b):
+    response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
+    return None if response is None else [response.sum]
+"""
+ERRORS = [
+    (
+        matches("TimesUp"),
+        "The function did not return when its time was over, because it still waits for "
+        "the thread. Check join(), and the `with` block of a thread pool, which waits "
+        "for its threads, too.",
+    ),
+    (
+        matches("^TimeoutError"),
+        "The response came in time, but the function raised TimeoutError. Wait until "
+        "the thread has ended or the time is over.",
+    ),
+    (
+        matches("no attribute 'sum'"),
+        "The function did not return the response. Return the object that the proxy returned.",
+    ),
+]
+
+
+class Adder:
+    """Adds two numbers, or executes `act` instead."""
+
+    def __init__(self) -> None:
+        self.act: Act | None = None
+        self.requests = 0
+
+    def __call__(self, request: Message) -> Act:
+        """Handle a request of a scripted server."""
+        self.requests += 1
+        total = {"sum": request.a + request.b}
+        if isinstance(self.act, Late):
+            return Late(self.act.delay, total)
+        return total if self.act is None else self.act
+
+
+@part(
+    "12.1",
+    points=2,
+    goal=(
+        "Call a service with a time limit: return the response, raise the error of the "
+        "call, or raise TimeoutError."
+    ),
+    needs=["call_within"],
+    deadline=30.0,
+)
+def a_call_with_a_limit(context: CheckContext) -> None:
+    """Call a server that responds, is slow, refuses, closes the connection, or does not respond."""
+    name, adder = f"/{context.random.word()}", Adder()
+    context.prepare(KERNEL_CODE)
+    context.serve(name, ADD, adder)
+    for act in (None, Late(WORK, {})):
+        adder.act = act
+        _responds(context, name, adder)
+    failures: list[Refuse | HangUp] = [Refuse(f"no {context.random.integer(100, 999)}"), HangUp()]
+    for failure in context.random.shuffled(failures):
+        adder.act = failure
+        _passes_on(context, name, failure)
+    adder.act = Silence()
+    _gives_up(context, name)
+
+
+def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> Result:
+    function, worded = Its("call_within"), f"call_within({seconds:g}, proxy, a, b)"
+    arguments = (function, name, seconds, a, b)
+    return context.run("checked_call", *arguments, within=seconds + 2 * SLACK, hints=ERRORS, worded=worded)
+
+
+def _responds(context: CheckContext, name: str, adder: Adder) -> None:
+    a, b = context.random.integers(2, 1, 1000)
+    before = adder.requests
+    result = _call(context, name, LONG, a, b)
+    label = "if a response comes in time, the function returns it"
+    context.require(label, holds=not result.error, actual=result.error, hints=ERRORS)
+    context.require(
+        label,
+        holds=result.returned() == [a + b],
+        expected=f"a response with the sum {a + b}",
+        actual=result.returned(),
+        hints=[
+            (None, NO_RETURN),
+            (ANYTHING, "The response belongs to another request. Pass *values to the proxy."),
+        ],
+    )
+    context.expect(
+        "the service is called once",
+        expected=1,
+        actual=adder.requests - before,
+        hints="The function called the service more than once. Make only one call, in the thread.",
+    )
+    context.require(
+        "the response is returned as soon as it arrives",
+        holds=result.took < WORK + SLACK + 0.5,
+        expected="an immediate return",
+        actual=f"a return after {result.took:.1f} s",
+        hints=(
+            "The function still waited after the response had arrived. Do not sleep for the "
+            "whole time: join(seconds) returns when the thread has ended."
+        ),
+    )
+
+
+def _passes_on(context: CheckContext, name: str, act: Act) -> None:
+    result = _call(context, name, LONG, 1, 2)
+    result.raised(
+        "an error of the call is raised again",
+        "ServiceException",
+        saying=act.reason if isinstance(act, Refuse) else "",
+        hints=[
+            (
+                matches("^TimeoutError"),
+                "The call raised rospy.ServiceException, but the function raised TimeoutError. "
+                "Catch and store the error in the thread, and raise it after join().",
+            ),
+            (
+                matches("^(IndexError|UnboundLocalError|NameError|AttributeError|KeyError)"),
+                "The call ended with an error, so there is no response. Catch and store the "
+                "error in the thread, and raise it after join().",
+            ),
+            (
+                None,
+                "The call raised rospy.ServiceException, but the function returned None. Raise "
+                "this error again.",
+            ),
+            (
+                ANYTHING,
+                "The function raised a different error. Raise the ServiceException of the call "
+                "again, with the same text.",
+            ),
+        ],
+    )
+
+
+def _gives_up(context: CheckContext, name: str) -> None:
+    result = _call(context, name, LIMIT, 1, 2)
+    result.raised(
+        "TimeoutError when the time is over",
+        "TimeoutError",
+        hints=[
+            (None, "The time was over, but the function returned None. Raise TimeoutError."),
+            (matches("^TimesUp"), ERRORS[0][1]),
+            (ANYTHING, "If the thread is still alive after the time, raise TimeoutError and nothing else."),
+        ],
+    )
+    context.require(
+        "the time limit is kept",
+        holds=LIMIT - 0.1 < result.took < LIMIT + SLACK,
+        expected=f"TimeoutError after {LIMIT:g} s",
+        actual=f"after {result.took:.1f} s",
+        hints="The function did not wait for `seconds`. Pass `seconds` to join().",
+    )

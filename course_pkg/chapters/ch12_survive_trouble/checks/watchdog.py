@@ -1,0 +1,284 @@
+"""12.4: a thread that registers a service again after a restart of the master."""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+
+from course_pkg.chapters.ch12_survive_trouble.checks.watchdog_in_kernel import KERNEL_CODE, CheckedMaster
+from course_pkg.checking import CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.checking.peers.node import closed_port
+from course_pkg.errors import GraphError
+from course_pkg.ros.protocol.master_api import MasterClient
+from course_pkg.waiting import wait_until
+
+EVERY = 0.1  # s between two polls of the watchdog
+SELDOM = 0.5  # s; of several pauses, at least one is shorter than this, even on a busy machine
+CALLS = 4  # calls of the master in one poll, at most
+SOON = 5.0  # s for a few polls, on a busy machine
+LEFT_ALONE = 0.8  # s in which a wrong watchdog would register the name again
+LATE = 0.5  # s for a registration after stop()
+READY = 15.0  # s for a master to answer
+
+ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread, and start the thread in __init__."
+DIED = (
+    "While no master was running, an error ended the watchdog's thread. Catch "
+    "OSError and rosgraph.MasterException inside the loop."
+)
+NEVER = (
+    "The master does not know the name, but the watchdog does not register the "
+    "service. Register it each time lookupService raises rosgraph.MasterError."
+)
+
+
+class SecondMaster:
+    """A second real master, which the check can restart."""
+
+    def __init__(self, context: CheckContext) -> None:
+        self.port = closed_port()
+        self.uri = f"http://localhost:{self.port}"
+        self._folder: Folder = context.folder()
+        self._running: Running | None = None
+
+    def start(self) -> MasterClient:
+        """Start the master without registrations; return a client when the master responds."""
+        words = ("rosmaster", "--core", "-p", str(self.port))
+        self._running = self._folder.start(*words, worded="a second master")
+        client = MasterClient(self.uri, 1.0)
+        wait_until(lambda: _answers(client), READY)
+        return client
+
+    def stop(self) -> None:
+        """Stop the master; all registrations are lost."""
+        if self._running is not None:
+            self._running.stop()
+            self._running = None
+
+
+@part(
+    "12.4",
+    points=3,
+    goal=(
+        "Write a watchdog: until stop() is called, it registers a service again when "
+        "the master does not know the service."
+    ),
+    needs=["Watchdog"],
+    deadline=60.0,
+)
+def a_watchdog(context: CheckContext) -> None:
+    """Start, stop and restart a master; register another node; then stop the watchdog during a poll."""
+    name = f"/{context.random.word()}"
+    second = SecondMaster(context)
+    master = second.start()
+    watched = CheckedMaster(second.uri)
+    context.place("checked_master", watched)
+    context.prepare(KERNEL_CODE)
+    begun = time.monotonic()
+    opened = context.run(
+        "checked_watch.open",
+        Its("Watchdog"),
+        name,
+        second.uri,
+        EVERY,
+        worded="Watchdog(name, uri, master, every)",
+    )
+    context.require(
+        "a Watchdog can be created from a name, an address, a master and a pause",
+        holds=not opened.error,
+        actual=opened.error,
+        hints=[(matches("TimesUp"), ENDLESS)],
+    )
+    uri, node_uri = opened.returned(list)
+    try:
+        _registers_again(context, watched, name, uri, second, master)
+        _registers_both_addresses(context, watched, uri, node_uri)
+        _polls_with_pauses(context, watched, time.monotonic() - begun)
+        _stops(context, watched)
+    finally:
+        context.run("checked_watch.close")
+        second.stop()
+
+
+def _registers_again(
+    context: CheckContext,
+    watched: CheckedMaster,
+    name: str,
+    uri: str,
+    second: SecondMaster,
+    master: MasterClient,
+) -> None:
+    unknown = "a service that the master does not know is registered"
+    _is_registered(context, watched, master, name, uri, unknown, NEVER)
+    second.stop()
+    looks = watched.looks
+    wait_until(lambda: watched.looks > looks + 2, SOON)
+    context.require(
+        "without a master, the watchdog continues to poll",
+        holds=watched.looks > looks + 2,
+        expected="further polls",
+        actual="no further poll",
+        hints=DIED,
+    )
+    master = second.start()
+    restarted = "the service is registered with a master that was restarted"
+    _is_registered(context, watched, master, name, uri, restarted, DIED)
+    _only_polls(context, watched)
+    _leaves_the_name(context, master, name)
+    _is_registered(
+        context,
+        watched,
+        master,
+        name,
+        uri,
+        "a name that is free again is registered",
+        "The other node has unregistered the name, but the watchdog does not register "
+        "it. Continue to poll after each result.",
+    )
+
+
+def _is_registered(
+    context: CheckContext,
+    watched: CheckedMaster,
+    master: MasterClient,
+    name: str,
+    uri: str,
+    assertion: str,
+    hint: str,
+) -> None:
+    seen = wait_until(lambda: master.lookup_service(name), SOON) or "nobody"
+    asked = seen != "nobody" or watched.looks
+    context.require(
+        assertion,
+        holds=seen != "nobody",
+        expected="a registered service",
+        actual="no provider of this name",
+        hints=hint if asked else "The watchdog made no call to the given master. Use self.master.",
+    )
+    context.require(
+        "the service is registered with its own address",
+        holds=seen == uri,
+        expected="the argument `uri`",
+        actual="another address",
+        hints=(
+            "The addresses are in the wrong order. First pass the address of the service, "
+            "which begins with rosrpc, and then the address of the node."
+        ),
+    )
+
+
+def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> None:
+    """Register another node under the name; the master uses the newest registration."""
+    other = f"rosrpc://localhost:{closed_port()}"
+    master.register_service("/another", name, other, f"http://localhost:{closed_port()}/")
+    fought = wait_until(lambda: master.lookup_service(name) != other, LEFT_ALONE)
+    master.unregister_service("/another", name, other)
+    context.require(
+        "a name that another node has registered stays with this node",
+        holds=not fought,
+        expected="the other node's address",
+        actual="the address of the student's service",
+        hints=(
+            "Another node provides this service now, but the watchdog registered its own "
+            "service again. Register only if the master knows no provider."
+        ),
+    )
+
+
+def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri: str, node_uri: str) -> None:
+    given = watched.addresses[0] if watched.addresses else []
+    context.require(
+        "the service is registered with its own address",
+        holds=given == [uri, node_uri],
+        expected="the address of the service, and then rospy.get_node_uri()",
+        actual=", ".join(given) or "no registration by the given master",
+        hints="The last argument is wrong. Pass the address of the node, rospy.get_node_uri().",
+    )
+
+
+def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: float) -> None:
+    """Assert that the watchdog waits between two polls, from the number of polls in `took` s."""
+    looks = watched.looks
+    context.require(
+        "the watchdog polls the master at intervals of `every` seconds",
+        holds=looks < CALLS * (took / EVERY + 5),
+        expected=f"a poll every {EVERY:g} s",
+        actual=f"{looks / took:.0f} a second",
+        hints=(
+            "The watchdog polls without a pause. Wait for `every` seconds after each poll, "
+            "even if the poll failed."
+        ),
+    )
+
+
+def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
+    before, looks = len(watched.registered), watched.looks
+    wait_until(lambda: watched.looks > looks + 3, SOON)
+    looked = watched.looks - looks
+    again = len(watched.registered) - before
+    context.require(
+        "a registered service is not registered again",
+        holds=again == 0,
+        expected="no registration",
+        actual=f"{again} of them",
+        hints="The watchdog registers a name that the master already knows. Look up the name first.",
+    )
+    context.require(
+        "the watchdog polls the master at intervals of `every` seconds",
+        holds=looked > 3,
+        expected="further polls",
+        actual=f"{looked} of them",
+    )
+    gap = watched.gap
+    context.require(
+        "the watchdog polls the master at intervals of `every` seconds",
+        holds=gap < SELDOM,
+        expected=f"a poll every {EVERY:g} s",
+        actual=f"a poll every {gap:.1f} s",
+        hints="The watchdog polls too rarely. Wait only for `every` seconds between two polls.",
+    )
+
+
+NOT_STOPPED: Hints = [
+    (
+        "after stop",
+        "stop() returned while the thread was still calling the master, and the thread "
+        "then registered the service. Let stop() wait for the thread: join it, or use a "
+        "lock.",
+    ),
+    (
+        "stop() hangs",
+        "stop() does not return. Check whether it waits for a lock that the thread "
+        "always holds, or for a thread that does not end.",
+    ),
+]
+
+
+def _stops(context: CheckContext, watched: CheckedMaster) -> None:
+    context.expect(
+        "after stop(), nothing is registered any more",
+        expected="quiet",
+        actual=_stopped_amid_a_look(context, watched),
+        hints=NOT_STOPPED,
+    )
+
+
+def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
+    """Return whether the watchdog registers anything once stop() has returned, LATE s later."""
+    watched.hold()
+    if not watched.inside.wait(SOON):
+        return "no look"
+    result = context.run("checked_watch.stop", within=SOON, worded="stop()")
+    stopped = watched.stopped_at
+    if stopped is None:
+        return "stop() hangs"
+    result.returned()
+    late = wait_until(lambda: any(when > stopped for when in watched.registered), LATE)
+    return "after stop" if late else "quiet"
+
+
+def _answers(master: MasterClient) -> bool:
+    with suppress(GraphError):
+        return bool(master.pid())
+    return False

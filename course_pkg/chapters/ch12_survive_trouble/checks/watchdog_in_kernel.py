@@ -1,0 +1,116 @@
+"""A master that the check can pause during a poll, and the student's watchdog in the kernel."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from course_pkg.checking.placed import remote
+from course_pkg.checking.plain_values import Value
+from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
+
+TIMEOUT = 5.0  # s of a call of the master
+PAUSE = 5.0  # s for which a registration waits, at most
+STOPPING = 0.3  # s after which a registration goes on, if stop() waits for it
+
+# A service of the kernel, and the student's watchdog, whose master is called by way of the check runner.
+KERNEL_CODE = """
+import rosgraph
+import rospy
+from std_srvs.srv import Trigger
+
+
+class CheckedHandle:
+    def __getattr__(self, method):
+        return lambda *what: checked_master.ask(method, list(what))
+
+
+class CheckedWatch:
+    def open(self, kind, name, uri, every):
+        self.service = rospy.Service(name, Trigger, lambda request: (True, "here"))
+        master = rosgraph.Master(rospy.get_name(), uri)
+        master.handle = CheckedHandle()
+        self.watchdog = kind(self.service.resolved_name, self.service.uri, master, every)
+        return [self.service.uri, rospy.get_node_uri()]
+
+    def stop(self):
+        checked_master.stopping()
+        self.watchdog.stop()
+        checked_master.stopped()
+
+    def close(self):
+        self.watchdog.stop()
+        self.service.shutdown("checked")
+
+
+checked_watch = CheckedWatch()
+"""
+
+
+class CheckedMaster:
+    """Calls a master for the watchdog, and records the calls.
+
+    After `hold`, it knows no service, and a registration waits, until stop() has returned, or for a moment
+    if stop() waits for the registration.
+    """
+
+    def __init__(self, uri: str) -> None:
+        self.addresses: list[list[str]] = []  # the last arguments of each registration
+        self.registered: list[float] = []  # when the master was called, by time.monotonic()
+        self.looks = 0  # calls of all kinds
+        self.gap = 60.0  # s; the shortest time between two calls of the same kind
+        self.inside = threading.Event()  # a registration waits
+        self.stopped_at: float | None = None  # when stop() returned
+        self._uri = uri
+        self._times: dict[str, float] = {}
+        self._holds = False
+        self._go = threading.Event()
+        self._lock = threading.Lock()
+
+    @remote
+    def ask(self, method: str, what: list[Value]) -> Value:
+        """Return what the master answers; raise OSError if there is none."""
+        with self._lock:
+            self.looks += 1
+            self._note(method)
+        if method == "registerService":
+            self.addresses.append([str(each) for each in what[2:]])
+            if self._holds:
+                self.inside.set()
+                self._go.wait(PAUSE)
+            self.registered.append(time.monotonic())
+        elif self._holds and method == "lookupService":
+            return [-1, "no provider", ""]
+        elif self._holds and method == "getSystemState":
+            return [1, "current system state", [[], [], []]]
+        return XmlRpcClient(self._uri, TIMEOUT).ask(method, *what)
+
+    @remote
+    def stopping(self) -> None:
+        """Record that stop() is called now."""
+        threading.Timer(STOPPING, self._release).start()
+
+    @remote
+    def stopped(self) -> None:
+        """Record that stop() has returned."""
+        self.stopped_at = time.monotonic()
+        self._release()
+
+    def hold(self) -> None:
+        """From now on, know no service, and let a registration wait."""
+        self._holds = True
+
+    def close(self) -> None:
+        """Let a registration that waits go on."""
+        self._release()
+
+    def _release(self) -> None:
+        self._holds = False
+        self._go.set()
+
+    def _note(self, method: str) -> None:
+        """Record the time of a call that is no registration."""
+        now = time.monotonic()
+        if method != "registerService":
+            self.gap = min(self.gap, now - self._times.get(method, now - self.gap))
+            self._times[method] = now

@@ -1,0 +1,231 @@
+"""Example answers of chapter 13; tests/checking/example_answers.py explains the format."""
+
+# %% 13.1 right: as in the chapter
+"""%%writefile src/cpp_boxes/CMakeLists.txt
+cmake_minimum_required(VERSION 3.10)
+project(cpp_boxes)
+
+find_package(catkin REQUIRED COMPONENTS roscpp course_pkg)
+catkin_package()
+
+include_directories(${catkin_INCLUDE_DIRS})
+add_executable(box_server src/box_server.cpp)
+target_link_libraries(box_server ${catkin_LIBRARIES})
+"""
+
+# %% 13.1 right: with the headers for this program only, and in capitals
+"""%%writefile src/cpp_boxes/CMakeLists.txt
+CMAKE_MINIMUM_REQUIRED(VERSION 3.0.2)
+PROJECT(cpp_boxes)
+FIND_PACKAGE(catkin REQUIRED COMPONENTS
+  course_pkg
+  roscpp
+)
+CATKIN_PACKAGE(CATKIN_DEPENDS roscpp course_pkg)
+ADD_EXECUTABLE(${PROJECT_NAME}_node src/box_server.cpp)
+SET_TARGET_PROPERTIES(${PROJECT_NAME}_node PROPERTIES OUTPUT_NAME box_server)
+TARGET_INCLUDE_DIRECTORIES(${PROJECT_NAME}_node PRIVATE ${catkin_INCLUDE_DIRS})
+TARGET_LINK_LIBRARIES(${PROJECT_NAME}_node ${catkin_LIBRARIES})
+"""
+
+# %% 13.1 wrong: the file without its folder | hint: Write its path relative to the folder of the package
+replace("src/box_server.cpp", "box_server.cpp")
+# %% 13.1 wrong: linked before it is declared | hint: Write add_executable first, and use the same program name
+replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})\nadd_executable")
+replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
+# %% 13.1 wrong: not linked | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable
+replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
+# %% 13.1 wrong: no headers | hint: write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
+replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
+# %% 13.1 wrong: another name for the program | hint: It has to be box_server
+replace("box_server ", "server ", times=2)
+# %% 13.1 wrong: catkin_package last | hint: move it above add_executable
+replace("\ncatkin_package()\n", "")
+replace("(box_server ${catkin_LIBRARIES})", "(box_server ${catkin_LIBRARIES})\ncatkin_package()")
+# %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing, which sets the folder for programs
+replace("\ncatkin_package()\n", "")
+# %% 13.1 wrong: removes the lines with errors | hint: The command add_executable is missing, so CMake does not build a program
+replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
+# %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
+replace("roscpp course_pkg", "course_pkg")
+# %% 13.1 wrong: a library that is not there | hint: Read the end of its output
+replace("${catkin_LIBRARIES})", "${catkin_LIBRARIES} boxes)")
+
+# %% 13.2 right: the mistakes repaired
+solution()
+# %% 13.2 right: a lambda in the place of a function, and a spinner of its own
+replace("box_server.cpp", "box_server.cpp\n#include <algorithm>")
+replace("bool measure … }", "using Box = course_pkg::geometry;")
+replace("""ros::ServiceServer server = node.advertiseService("box", measure);
+  ros::spin();""", """boost::function<bool(Box::Request&, Box::Response&)> measure = [](Box::Request& req, Box::Response& res) {
+    auto floor = double(req.length) * req.width;
+    res.area = floor;
+    res.volume = floor * req.height;
+    return std::min({req.length, req.width, req.height}) >= 0;
+  };
+  auto server = node.advertiseService("box", measure);
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  ros::waitForShutdown();
+  return 0;""")
+# %% 13.2 wrong: both halves by value | hint: and with both &
+replace("& ", " ", times=2)
+# %% 13.2 wrong: a whole number for the area | hint: The part after the decimal point is missing, because an int contains
+replace("response.area = request", "int area = request")
+replace("request.width;", "request.width;\n  response.area = area;")
+replace("volume = response.area", "volume = area")
+# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every path
+replace("\n  return true;", "")
+# %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a good request
+replace("true", "0")
+# %% 13.2 wrong: what is advertised is not kept | hint: Store the object in a variable
+replace("ros::ServiceServer server = node", "node")
+# %% 13.2 wrong: no spin | hint: The function main ended, so the service ended, too
+replace(";\n  ros::spin();", ";")
+# %% 13.2 wrong: refuses nothing | hint: Return false in this case.
+replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
+# %% 13.2 wrong: a semicolon lost | hint: for a missing ; or bracket
+replace("request.width;", "request.width")
+# %% 13.2 wrong: a field misspelt | hint: There is no field or method high
+replace("request.height < 0", "request.high < 0")
+# %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
+replace("0 || request.height < 0", "0")
+# %% 13.2 wrong: checks the volume only | hint: Return false in this case.
+replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
+replace("true", "response.volume >= 0")
+# %% 13.2 wrong: refuses 0 | hint: A side was 0, and 0 is not below 0
+replace(" 0", "= 0", times=3)
+# %% 13.2 wrong: a whole number for the volume | hint: The part after the decimal point is missing, because an int contains
+replace("response.volume = response.area", "int volume = request.length * request.width")
+replace("  return true;", "  response.volume = volume;\n  return true;")
+# %% 13.2 wrong: forgets the area | hint: The area is 0
+replace("response.area = request.length * request.width;\n  response.volume = response.area", "response.volume = request.length * request.width")
+# %% 13.2 wrong: forgets the volume | hint: The volume is 0
+replace("\n  response.volume = response.area * request.height;", "")
+# %% 13.2 wrong: adds the height | hint: The volume is wrong
+replace("response.area * request.height", "response.area + request.height")
+# %% 13.2 wrong: ends at a side below 0 | hint: The program has ended or does not respond
+replace(") return false;", ") std::exit(1);")
+# %% 13.2 wrong: a private name | hint: The node does not offer a service of this name
+replace("NodeHandle node", "NodeHandle node(\"~\")")
+# %% 13.2 wrong: no ros::init | hint: The program crashed
+replace("  ros::init(argc, argv, \"box_server\");\n", "")
+
+# %% 13.3 right: a loop that ends with the first response
+solution()
+# %% 13.3 right: the functions of ros::service
+replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
+replace("if (!client.waitForExistence(ros::Duration(2))) return … return 1;", """bool answered = false;
+  if (ros::service::waitForService("box", 2000)) {
+    for (int left = 3; left > 0 && !answered; left--) {
+      answered = ros::service::call("box", box);
+      if (!answered) ros::WallDuration(0.1).sleep();
+    }
+  }
+  if (!answered) {
+    std::cerr << "no volume" << std::endl;
+    return 1;
+  }
+  std::cout << "volume: " << box.response.volume << std::endl;""")
+# %% 13.3 right: prints each try
+replace("\n  course_pkg … std::endl;", """
+  course_pkg::geometry::Request request;
+  course_pkg::geometry::Response response;
+  request.length = std::stof(argv[1]);
+  request.width = std::stof(argv[2]);
+  request.height = std::stof(argv[3]);
+  if (!ros::service::waitForService("box", ros::Duration(2.0))) {
+    std::cout << "box did not come within 2 seconds" << std::endl;
+    return 1;
+  }
+  int attempt = 1;
+  do {
+    if (client.call(request, response)) {
+      std::cout << "Volume = " << response.volume << std::endl;""")
+replace("\n    ros::WallDuration(0.2).sleep();\n  }", """
+    ROS_INFO("attempt %d was refused", attempt);
+    ros::Duration(0.05).sleep();
+    attempt++;
+  } while (attempt <= 3);
+  std::cout << "no volume after 3 attempts" << std::endl;""")
+# %% 13.3 wrong: does not wait | hint: The program did not wait
+replace(";\n  if (!client.waitForExistence(ros::Duration(2))) return 1;", ";")
+# %% 13.3 wrong: waits for ever | hint: The program waits without a limit
+replace("if (!client.waitForExistence(ros::Duration(2))) return 1;", "client.waitForExistence();")
+# %% 13.3 wrong: ignores the return value of call | hint: call() returned false, but the program printed the empty response
+replace("if (client.call(box)) {", "client.call(box);\n    {")
+# %% 13.3 wrong: tests the volume | hint: A response with the volume 0 is also a valid response
+replace("if (client.call(box)) {", "client.call(box);\n    if (box.response.volume > 0) {")
+# %% 13.3 wrong: calls again and again | hint: Count the calls, and stop after the third
+replace("tries < 3; ++tries", ";")
+# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … The first call is one of the three
+replace("tries < 3", "tries <= 3")
+# %% 13.3 wrong: calls twice | hint: Repeat the call while call() returns false, with at most three calls
+replace("3;", "2;")
+# %% 13.3 wrong: continues after the response | hint: The server sent a response, but the program called the server again
+replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
+# %% 13.3 wrong: a success in any case | hint: No call got a response
+replace("\n  return 1;", "\n  return 0;")
+# %% 13.3 wrong: computes it itself | hint: The server sent another volume
+replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
+# %% 13.3 wrong: no pause | hint: A call immediately after a refusal is probably refused, too
+replace("\n    ros::WallDuration(0.2).sleep();", "")
+# %% 13.3 wrong: five seconds | hint: The program waited too long,
+replace("(2)", "(5)")
+# %% 13.3 wrong: two milliseconds | hint: The program hardly waited, because ros::service::waitForService reads a plain number as milliseconds
+replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
+replace("client.waitForExistence(ros::Duration(2))", 'ros::service::waitForService("box", 2)')
+replace("client.call(box)", 'ros::service::call("box", box)')
+# %% 13.3 wrong: prints nothing | hint: Print box.response.volume to std::cout
+replace("      std::cout << box.response.volume << std::endl;\n", "")
+# %% 13.3 wrong: prints a volume at the end | hint: Without a response, there is no volume
+replace("\n  return 1;", "\n  std::cout << box.response.volume << std::endl;\n  return 1;")
+# %% 13.3 wrong: a success without a server | hint: When the time is over, waitForExistence returns false
+replace("(ros::Duration(2))) return 1", "(ros::Duration(2))) return 0")
+
+# %% 13.4 right: an AsyncSpinner, and a lock for counting
+solution()
+# %% 13.4 right: a MultiThreadedSpinner, and the lock in the handler after thinking
+replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
+replace("think();", "think();\n  std::unique_lock<std::mutex> lock(counting);")
+replace("ros::AsyncSpinner … waitForShutdown();", "ros::MultiThreadedSpinner spinner(8);\n  spinner.spin();")
+# %% 13.4 wrong: a lock, and still one thread | hint: ros::spin() executes one callback after the other
+replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
+replace("waitForShutdown()", "spin()")
+# %% 13.4 wrong: more threads, and no lock | hint: Two threads read the same number, and both add 1 to it
+replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
+# %% 13.4 wrong: an atomic number | hint: An atomic variable makes each single access safe, but two threads can
+replace("include <mutex", "include <atomic")
+replace("int served = 0;\nstd::mutex counting;", "std::atomic<int> served{0};")
+replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
+# %% 13.4 wrong: a mutex in the function | hint: Each call creates its own mutex
+replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
+replace("int count() {", "int count() {\n  std::mutex counting;")
+# %% 13.4 wrong: locked while it thinks | hint: The handler holds the lock during think()
+replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
+replace("  think();", "  std::lock_guard<std::mutex> lock(counting);\n  think();")
+# %% 13.4 wrong: one thread asked for | hint: Each of the six calls needs a thread
+replace("6", "1")
+# %% 13.4 wrong: never started | hint: The AsyncSpinner executes no callbacks, because it was not started
+replace("\n  spinner.start();", "")
+# %% 13.4 wrong: main does not wait | hint: A spinner that was started does not stop main from ending
+replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
+# %% 13.4 wrong: does not think | hint: Do not change the times in think() and count(), which replace real
+replace("\n  ros::WallDuration(0.4).sleep();", "")
+# %% 13.4 wrong: three threads | hint: Each of the six calls needs a thread
+replace("6", "3")
+# %% 13.4 wrong: thinks for less, on one thread | hint: Do not change the times in think() and count(), which replace real
+replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
+replace("0.4", "0.04")
+replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
+replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
+replace("waitForShutdown()", "spin()")
+# %% 13.4 wrong: unlocks between reading and writing | hint: No lock is held between the read and the write
+replace("std::lock_guard<std::mutex> lock(counting);", "counting.lock();")
+replace("int seen = served;", "int seen = served;\n  counting.unlock();")
+replace("(0.05).sleep();", "(0.05).sleep();\n  counting.lock();")
+replace("served = seen + 1;", "served = seen + 1;\n  counting.unlock();")
+# %% 13.4 wrong: no spinner | hint: ros::spin() is missing
+replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
+# %% 13.4 wrong: text before the number | hint: The message has to be only the number
+replace("std::to_string(count())", "\"number \" + std::to_string(count())")

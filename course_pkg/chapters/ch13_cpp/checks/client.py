@@ -1,0 +1,289 @@
+"""13.3: a C++ client with limits for its wait and for its number of calls."""
+
+from __future__ import annotations
+
+import itertools
+import re
+import time
+from threading import Timer
+
+from course_pkg.chapters.ch13_cpp.checks.compiled_program import BOX, PACKAGE, compiled
+from course_pkg.checking import CheckContext, Refuse, part
+from course_pkg.checking.commands.folder import Folder
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.result import Finished
+
+FILE = f"{PACKAGE}/src/patient_client.cpp"
+WAIT = 2.0  # s for which the client waits for a service
+TRIES = 3  # largest number of calls
+SLACK = 2.5  # s that a busy machine may need in addition
+PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s that the exercise asks for
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+LIMIT = 5.0  # s after which a program that runs too long is stopped
+
+MILLISECONDS = (
+    "The program hardly waited, because ros::service::waitForService reads a plain "
+    "number as milliseconds. Write ros::Duration(2) for seconds."
+)
+START = f"""%%writefile {FILE}
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "patient_client", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");
+  course_pkg::geometry box;
+  box.request.length = std::stof(argv[1]);
+  box.request.width = std::stof(argv[2]);
+  box.request.height = std::stof(argv[3]);
+  client.call(box);
+  std::cout << box.response.volume << std::endl;
+  return 0;
+}}
+"""
+
+
+@part(
+    "13.3",
+    points=3,
+    goal=(
+        "Change patient_client.cpp: wait at most 2 s for the service, call at most 3 "
+        "times, and print the volume or end with the exit status 1."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def patient_client(context: CheckContext) -> None:
+    """Run it with servers that respond, refuse twice, refuse always, or start late, and without a server."""
+    folder = compiled(context, FILE)
+    shapes = _prints_the_answer(context, folder)
+    calls = _asks_again(context, folder)
+    _pauses_between_calls(context, calls, _gives_up_after_refusals(context, folder, shapes))
+    _waits_for_a_late_server(context, folder)
+    _gives_up_without_a_server(context, folder, shapes)
+
+
+def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
+    """Return the printed lines that contain the volume, with # in place of each number."""
+    name, sides, volume = _random_box(context)
+    server = context.serve(name, BOX, lambda _: {"volume": volume})
+    finished = _run(folder, name, sides)
+    _prints(context, finished, volume, "if the server responds, the volume is printed")
+    given = [round(float(value), 2) for value in list(server.requests[0].values())]
+    context.expect(
+        "length, width and height are sent without a change", expected=sides, actual=given, near=0.02
+    )
+    context.expect(
+        "after a response, the program does not call again",
+        expected=1,
+        actual=len(server.requests),
+        hints=(
+            "The server sent a response, but the program called the server again: leave the "
+            "loop when call() returns true."
+        ),
+    )
+    shapes = {NUMBER.sub("#", line) for line in _lines(finished.out) if volume in _numbers(line)}
+    _prints_a_volume_of_0(context, folder)
+    return shapes
+
+
+def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
+    """Respond with the volume 0: only the return value of call() shows whether a response came."""
+    name, sides, _ = _random_box(context)
+    context.serve(name, BOX, lambda _: {"volume": 0.0})
+    _prints(
+        context,
+        _run(folder, name, sides),
+        0.0,
+        "if the server responds, the volume is printed",
+        "A response with the volume 0 is also a valid response. Test the return value of call().",
+    )
+
+
+def _asks_again(context: CheckContext, folder: Folder) -> list[float]:
+    name, sides, volume = _random_box(context)
+    server, calls = _refusing(context, name, TRIES - 1, volume)
+    finished = _run(folder, name, sides)
+    assertion = "if the server refuses twice, the third call gets the response"
+    if not _numbers(finished.out) or finished.status != 0 or len(server.requests) != TRIES:
+        count = len(server.requests)
+        context.fail(
+            assertion,
+            expected=f"{volume:g}, after {TRIES} calls",
+            actual=_outcome(finished, count),
+            hint=_why_not_third(finished, count),
+        )
+    _prints(context, finished, volume, assertion)
+    return calls
+
+
+def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
+    """Assert that there was a pause after each refusal."""
+    shortest = min(after - before for calls in runs for before, after in itertools.pairwise(calls))
+    if shortest < PAUSE:
+        context.fail(
+            "the program pauses between two calls",
+            expected="a short pause after each refusal",
+            actual=f"the next call after {1000 * shortest:.1f} ms",
+            hint=(
+                "A call immediately after a refusal is probably refused, too. Add "
+                "ros::WallDuration(0.2).sleep() between two calls."
+            ),
+        )
+
+
+def _why_not_third(finished: Finished, count: int) -> str:
+    if count == 1 and finished.status == 0:
+        return (
+            "call() returned false, but the program printed the empty response. Check the "
+            "return value of call()."
+        )
+    return (
+        "Repeat the call while call() returns false, with at most three calls in total. "
+        "Then print the volume, and end with exit status 0."
+    )
+
+
+def _gives_up_after_refusals(context: CheckContext, folder: Folder, shapes: set[str]) -> list[float]:
+    name, sides, _ = _random_box(context)
+    server, calls = _refusing(context, name, 1000, 0.0)
+    finished = _run(folder, name, sides)
+    assertion = "if the server always refuses, the program ends with 1 after three calls and prints no volume"
+    good = finished.status == 1 and not _volumes(finished.out, shapes) and len(server.requests) == TRIES
+    count = len(server.requests)
+    context.require(
+        assertion,
+        holds=good,
+        expected=f"exit status 1 and no number, after {TRIES} calls",
+        actual=_outcome(finished, count),
+        hints=_why_not_one(finished, count),
+    )
+    return calls
+
+
+def _why_not_one(finished: Finished, count: int) -> str:
+    if finished.status is None:
+        return "The program does not stop calling. Count the calls, and stop after the third call."
+    if count != TRIES:
+        return f"The number of calls was {count}, but it has to be 3. The first call is one of the three."
+    if finished.status == 0:
+        return (
+            "No call got a response. Return 1 in this case, so that a script that starts "
+            "the client notices the failure."
+        )
+    return "Without a response, there is no volume: return 1 before the line that prints the volume."
+
+
+def _waits_for_a_late_server(context: CheckContext, folder: Folder) -> None:
+    name, sides, volume = _random_box(context)
+    timer = Timer(1.0, context.serve, [name, BOX, lambda _: {"volume": volume}])
+    timer.start()
+    finished = _run(folder, name, sides)
+    timer.join()
+    _prints(
+        context,
+        finished,
+        volume,
+        "a server that starts after 1 s gets a call",
+        MILLISECONDS
+        if re.search(r"waitForService\([^;]*,\s*\d{1,3}\s*\)", context.source(f"file:{FILE}"))
+        else (
+            "The program did not wait. Write client.waitForExistence(ros::Duration(2)) before the first call."
+        ),
+    )
+
+
+def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: set[str]) -> None:
+    name, sides, _ = _random_box(context)
+    finished = _run(folder, name, sides)
+    context.require(
+        "without a server, the program ends with 1 after 2 s and prints no volume",
+        holds=finished.status == 1
+        and not _volumes(finished.out, shapes)
+        and 0.8 * WAIT < finished.took < WAIT + SLACK,
+        expected="exit status 1 after about 2 s",
+        actual=_outcome(finished, 0),
+        hints=(
+            "The program waits without a limit: write waitForExistence(ros::Duration(2))."
+            if finished.status is None
+            else (
+                f"The program waited too long, {finished.took:.1f} s: write "
+                "waitForExistence(ros::Duration(2))."
+            )
+            if finished.took > WAIT + SLACK
+            else "When the time is over, waitForExistence returns false. Return 1 in this case."
+        ),
+    )
+
+
+def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
+    """Return a random name, three sides, and a volume that is not their product."""
+    sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
+    return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
+
+
+def _refusing(
+    context: CheckContext, name: str, times: int, volume: float
+) -> tuple[ScriptedServer, list[float]]:
+    """Serve, but refuse the first `times` calls; return the server and the times of its calls in s."""
+    calls: list[float] = []
+
+    def act(_: object) -> Refuse | dict[str, float]:
+        calls.append(time.monotonic())
+        return Refuse("not now") if len(calls) <= times else {"volume": volume}
+
+    return context.serve(name, BOX, act), calls
+
+
+def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
+    words = [str(side) for side in sides]
+    line = f"patient_client {' '.join(words)}"
+    return folder.command("./program", *words, f"/box:={name}", within=LIMIT, worded=line)
+
+
+def _numbers(out: str) -> list[float]:
+    """Return the printed numbers, without the numbers in log lines of roscpp."""
+    return [float(text) for line in _lines(out) for text in NUMBER.findall(line)]
+
+
+def _lines(out: str) -> list[str]:
+    plain = re.sub(r"\x1b\[[\d;]*m|\[[^\]]*\]", "", out)
+    return [line.strip() for line in plain.splitlines() if "waitForService" not in line]
+
+
+def _volumes(out: str, shapes: set[str]) -> list[str]:
+    """Return the lines with a volume: only a number, "volume" and a number, or a line like one in `shapes`.
+
+    A number of tries or of seconds is not a volume.
+    """
+    volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
+    return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]
+
+
+def _prints(context: CheckContext, finished: Finished, volume: float, assertion: str, hint: str = "") -> None:
+    numbers = _numbers(finished.out)
+    context.require(
+        assertion,
+        holds=finished.status == 0 and volume in numbers,
+        expected=f"{volume:g} and exit status 0",
+        actual=_outcome(finished),
+        hints=hint or _why_not_printed(finished, numbers),
+    )
+
+
+def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
+    if finished.status == 0 and numbers:
+        return (
+            "The server sent another volume: print box.response.volume, and do not compute "
+            "the volume yourself."
+        )
+    return "Print box.response.volume to std::cout, and return 0."
+
+
+def _outcome(finished: Finished, calls: int = -1) -> str:
+    printed = ", ".join(f"{each:g}" for each in _numbers(finished.out)) or "no number"
+    ending = "no end" if finished.status is None else f"exit status {finished.status}"
+    asked = f" after {calls} calls" if calls > 0 else ""
+    return f"{printed}, and {ending}{asked}"

@@ -1,0 +1,125 @@
+"""13.1: the repaired CMakeLists.txt of a package with a C++ program."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from course_pkg.chapters.ch13_cpp.checks.compiled_program import LIMITS, PACKAGE, require_tools
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import run_catkin_make
+from course_pkg.workspace import Fault, explain
+from course_pkg.workspace.cmake_messages import cmake_commands
+
+FILE = f"{PACKAGE}/CMakeLists.txt"
+BUILDING = 75.0  # s; it takes 4 s on an idle machine
+NO_ROSCPP = (
+    "catkin_LIBRARIES contains only the libraries of the packages in "
+    "find_package(catkin … COMPONENTS …). Add roscpp to this list."
+)
+RULE = "catkin_make builds the package"
+
+START = f"""%%writefile {FILE}
+cmake_minimum_required(VERSION 3.10)
+project(cpp_boxes)
+
+find_package(catkin REQUIRED COMPONENTS course_pkg)
+catkin_package()
+
+target_link_libraries(box_server ${{catkin_LIBRARIES}})
+add_executable(box_server box_server.cpp)
+"""
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="2">
+  <name>cpp_boxes</name>
+  <version>0.1.0</version>
+  <description>Boxes in C++.</description>
+  <maintainer email="you@example.com">You</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>catkin</buildtool_depend>
+  <depend>roscpp</depend>
+  <depend>course_pkg</depend>
+</package>
+"""
+PROGRAM = """\
+#include <course_pkg/geometry.h>
+#include <ros/init.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "sound");
+  return course_pkg::geometry::Request().length != 0;
+}
+"""
+
+
+@part(
+    "13.1",
+    points=2,
+    goal="Repair CMakeLists.txt: catkin_make builds the program box_server from src/box_server.cpp.",
+    needs=[f"file:{FILE}"],
+    deadline=90.0,
+    start=START,
+)
+def cmake_list_file(context: CheckContext) -> None:
+    """Build a program of the check with the student's file, and look for the executable."""
+    require_tools()
+    texts = {f"{PACKAGE}/package.xml": MANIFEST, f"{PACKAGE}/src/box_server.cpp": PROGRAM}
+    folder = context.folder(files=[FILE], texts=texts)
+    _builds(context, run_catkin_make(folder, f"{LIMITS};", within=BUILDING))
+    there = folder.command("test", "-x", "devel/lib/cpp_boxes/box_server")
+    context.require(
+        "rosrun finds the program box_server",
+        holds=there.status == 0,
+        expected="devel/lib/cpp_boxes/box_server",
+        actual="no such program",
+        hints=_why_not_there(context.source(f"file:{FILE}")),
+    )
+
+
+def _builds(context: CheckContext, finished: Finished) -> None:
+    if finished.status == 0:
+        context.require(RULE, holds=True)
+        return
+    printed = f"{finished.out}\n{finished.err}"
+    last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
+    fault = explain(printed) or Fault("catkin_make failed", f"Read the end of its output: {last}.")
+    if not fault.file.endswith("CMakeLists.txt"):  # the program belongs to the check and has no mistake
+        fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
+        if _lacks_roscpp(context.source(f"file:{FILE}")):
+            fault = replace(fault, remedy=NO_ROSCPP)
+    context.fail(
+        RULE,
+        expected="a build that passes",
+        actual=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
+        hint=fault.remedy,
+    )
+
+
+def _lacks_roscpp(text: str) -> bool:
+    """Return whether the program is linked with catkin_LIBRARIES, but roscpp is not a component."""
+    code = re.sub(r"#[^\n]*", "", text)
+    return (
+        bool(re.search(r"(?i)target_link_libraries\s*\([^)]*catkin_LIBRARIES", code)) and "roscpp" not in code
+    )
+
+
+def _why_not_there(text: str) -> str:
+    found = {command.name: command for command in cmake_commands(text) if not command.is_comment}
+    if "add_executable" not in found:
+        return (
+            "The command add_executable is missing, so CMake does not build a program from "
+            "src/box_server.cpp."
+        )
+    if "catkin_package" not in found:
+        return (
+            "The command catkin_package is missing, which sets the folder for programs. "
+            "Write it below find_package."
+        )
+    if found["catkin_package"].line > found["add_executable"].line:
+        return (
+            "catkin_package sets the folder for programs, so it has to come first: move it "
+            "above add_executable."
+        )
+    return "The first word in add_executable is the name of the program. It has to be box_server."

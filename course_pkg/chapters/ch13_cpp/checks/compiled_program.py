@@ -1,0 +1,122 @@
+"""Functions that compile a C++ program of the student, and start it with a random service name."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import time
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.errors import CheckError, ToolMissing
+from course_pkg.waiting import at_this_load
+from course_pkg.workspace import Fault, explain, missing_for_cpp
+from course_pkg.workspace.cpp_support import compile_command
+
+PACKAGE = "src/cpp_boxes"
+BOX = "course_pkg/geometry"
+LIMITS = "ulimit -t 30 -f 100000"  # s of CPU time and KiB of a file; compiling one file takes 2 s
+COMPILING = 60.0  # s; it takes 2 s on an idle machine
+STARTING = 6.0  # s until a program is a node; it takes 0.1 s on an idle machine
+REGISTERING = 1.5  # s from then until it offers its service
+STAYING = 0.4  # s; a program whose main ends after advertiseService ends within 0.1 s
+POLL = 0.05  # s between polls
+SERVED = "the program offers /{0} and continues to run"
+
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+def require_tools() -> None:
+    """Raise ToolMissing if no C++ program can be built on this machine."""
+    if missing := missing_for_cpp():
+        raise ToolMissing(missing)
+
+
+def code_of(context: CheckContext, file: str) -> str:
+    """Return the text of the student's file without comments."""
+    return _COMMENT.sub("", context.source(f"file:{file}"))
+
+
+def compiled(context: CheckContext, file: str) -> Folder:
+    """Compile the student's `file` to ./program in a new folder, and assert that this works."""
+    require_tools()
+    folder = context.folder(files=[file])
+    line = f"{LIMITS}; exec {shlex.join(compile_command(file, 'program'))}"
+    finished = folder.command("bash", "-c", line, within=COMPILING, worded=f"the compiler, at {file}")
+    if finished.status is None:
+        raise CheckError(
+            f"The compiler had not finished after {finished.took:.0f} s: the machine is "
+            "busy. Run this cell again."
+        )
+    if finished.status != 0:
+        fault = explain(finished.err + finished.out) or Fault("the compiler ended without a message", "")
+        context.fail(
+            "the compiler accepts the file",
+            expected="a program",
+            actual=f"line {fault.line}: {fault.problem}" if fault.line else fault.problem,
+            hint=fault.remedy,
+        )
+    context.require("the compiler accepts the file", holds=True)
+    return folder
+
+
+def started(context: CheckContext, folder: Folder, service: str, name: str) -> Running:
+    """Start ./program with a random node name, and `name` for its `service` (such as "box")."""
+    line = ["./program", f"/{service}:={name}", f"__name:={context.random.word()}"]
+    return folder.start(*line, worded=f"the program that serves /{service}")
+
+
+def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
+    """Assert that the program offers `name` and keeps running; otherwise report what it does instead."""
+    assertion, deadline = SERVED.format(service), time.monotonic() + at_this_load(STARTING)
+    while context.look().service(name) is None:
+        if running.status is not None or time.monotonic() > deadline:
+            _does_not_serve(context, running, assertion, code)
+        if any(map(context.random.made, (node.name for node in context.look().nodes))):
+            deadline = min(deadline, time.monotonic() + at_this_load(REGISTERING))
+        time.sleep(POLL)
+    time.sleep(STAYING)
+    if running.status is not None:
+        _does_not_serve(context, running, assertion, code)
+    context.require(assertion, holds=True)
+
+
+def _drops_the_service(code: str) -> bool:
+    """Return whether the code does not store the result of advertiseService, so that the service ends."""
+    return bool(re.search(r"(?:^|[;{}])\s*\w+\.advertiseService", code))
+
+
+def _does_not_serve(context: CheckContext, running: Running, assertion: str, code: str) -> None:
+    finished = running.stop()
+    if finished.status is None:
+        seen = "a node that runs, but does not offer this service"
+    else:
+        last = finished.out.strip().rpartition("\n")[2]
+        seen = f"a program that ends with exit status {finished.status}{f', and {last}' if last else ''}"
+    context.fail(
+        assertion,
+        expected="a server that continues to run",
+        actual=seen,
+        hint=_why_not(finished.status, code),
+    )
+
+
+def _why_not(status: int | None, code: str) -> str:
+    if _drops_the_service(code):
+        return (
+            "The service ends when the object that advertiseService returns is deleted. "
+            "Store the object in a variable: ros::ServiceServer server = …"
+        )
+    if status is None:
+        return (
+            "The node does not offer a service of this name. Compare the name with the "
+            "exercise, and create the NodeHandle without an argument."
+        )
+    if status < 0 or status > 100:
+        return "The program crashed. Call ros::init before you create the first NodeHandle."
+    if "Spinner" in code:
+        return (
+            "A spinner that was started does not stop main from ending: call "
+            "ros::waitForShutdown() at the end of main."
+        )
+    return "The function main ended, so the service ended, too. Call ros::spin() at the end of main."

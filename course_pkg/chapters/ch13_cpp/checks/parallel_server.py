@@ -1,0 +1,186 @@
+"""13.4: a C++ server that handles several calls at the same time, and still counts correctly."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+from course_pkg.chapters.ch13_cpp.checks.compiled_program import PACKAGE, code_of, compiled, serves, started
+from course_pkg.checking import CheckContext, matches, part
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.waiting import wait_until
+
+FILE = f"{PACKAGE}/src/number_server.cpp"
+CALLERS = 6
+THINKING, COUNTING = 0.4, 0.05  # s, as in the file at the start of the exercise
+APART = 0.15  # s between two responses: less if all calls overlap, more if a call has to wait for a thread
+OVERLAPPING = 3.0  # s in which six calls have to overlap once; on a busy machine, some of them begin late
+
+START = f"""%%writefile {FILE}
+#include <mutex>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int served = 0;
+
+// Takes long, and uses no shared data.
+void think() {{
+  ros::WallDuration({THINKING}).sleep();
+}}
+
+// Reads the number, takes a moment, and writes the number.
+int count() {{
+  int seen = served;
+  ros::WallDuration({COUNTING}).sleep();
+  served = seen + 1;
+  return served;
+}}
+
+bool handle(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {{
+  think();
+  response.message = std::to_string(count());
+  response.success = true;
+  return true;
+}}
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "number_server");
+  ros::NodeHandle node;
+  ros::ServiceServer server = node.advertiseService("number", handle);
+  ros::spin();
+}}
+"""
+ONE_THREAD = (
+    "ros::spin() executes one callback after the other. Use an AsyncSpinner or a "
+    "MultiThreadedSpinner, which use several threads."
+)
+TOO_FEW = (
+    "Each of the six calls needs a thread: create the spinner with at least six "
+    "threads. (0 or no number means one thread for each processor core.)"
+)
+LOCKED_TOO_LONG = (
+    "The handler holds the lock during think(), so the other calls wait. Hold the "
+    "lock only while you read and write `served`."
+)
+NOT_STARTED = "The AsyncSpinner executes no callbacks, because it was not started: call its method start()."
+NOT_ATOMIC = (
+    "An atomic variable makes each single access safe, but two threads can still "
+    "read the same number before one of them writes. Hold a mutex from the read to "
+    "the write."
+)
+NO_LOCK = (
+    "Two threads read the same number, and both add 1 to it. Hold a mutex from the "
+    "read to the write: std::lock_guard<std::mutex> lock(mutex);"
+)
+LET_GO = (
+    "No lock is held between the read and the write, so two threads read the same "
+    "number. Create a lock_guard with a name before the read."
+)
+OWN_LOCK = (
+    "Each call creates its own mutex, so no call waits for another call. Move the mutex out of the function."
+)
+
+
+@part(
+    "13.4",
+    points=3,
+    goal=(
+        "Change number_server.cpp so that it handles six clients at the same time and counts them correctly."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=120.0,
+    start=START,
+)
+def number_server(context: CheckContext) -> None:
+    """Call once, and then six times at the same time; compare the numbers and the times."""
+    code = code_of(context, FILE)
+    _still_thinks(context, code, THINKING + COUNTING)
+    folder = compiled(context, FILE)
+    name = f"/{context.random.word()}"
+    with started(context, folder, "number", name) as running:
+        serves(context, running, "number", name, code)
+        quiet = (
+            NOT_STARTED if "Spinner" in code else "No spinner executes the callbacks: ros::spin() is missing."
+        )
+        number = context.service(name, "std_srvs/Trigger", hints=[(matches("TimesUp"), quiet)], timeout=4.0)
+        alone = _number(number().message)
+        _still_thinks(context, code, number.took)
+        context.expect(
+            "the first client gets number 1",
+            expected=1,
+            actual=alone,
+            hints=[(-1, "The message has to be only the number: std::to_string(count()).")],
+        )
+        _handles_calls_in_parallel(context, number, code)
+
+
+def _still_thinks(context: CheckContext, code: str, took: float) -> None:
+    """Assert that think() and count() are unchanged, with the code and the duration of a call in s."""
+    context.require(
+        "think() and count() take as long as before",
+        holds=len(re.findall(r"\bsleep\(\)", code)) >= 2
+        and "think()" in code
+        and took > 0.98 * (THINKING + COUNTING),
+        expected=f"the original think() with its {THINKING:g} s, and count() with its {COUNTING:g} s",
+        actual="a server without these pauses"
+        if took >= THINKING + COUNTING
+        else f"{took:.2f} s for a client",
+        hints=(
+            "Do not change the times in think() and count(), which replace real work. Let "
+            "the calls overlap instead."
+        ),
+    )
+
+
+def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
+    """Assert that six calls at the same time get six numbers, and wait until all six overlap.
+
+    A call that waits for a thread begins with think() when another call has finished, so its response is late
+    by the duration of think().
+    """
+    numbers_to_come = itertools.count(2)
+    took: list[float] = []
+    gaps: list[float] = []
+
+    def overlap() -> bool:
+        replies = number.at_once([{}] * CALLERS)
+        numbers = sorted(_number(reply.response.message) for reply in replies)
+        context.expect(
+            "clients at the same time get different numbers, without gaps",
+            expected=list(itertools.islice(numbers_to_come, CALLERS)),
+            actual=numbers,
+            hints=_why_lost(code),
+        )
+        ends = sorted(reply.took for reply in replies)
+        took.append(ends[-1])
+        gaps.append(max(after - before for before, after in itertools.pairwise(ends)))
+        return gaps[-1] < APART
+
+    wait_until(overlap, OVERLAPPING)
+    context.require(
+        "six clients wait only slightly longer than one client",
+        holds=min(gaps) < APART,
+        expected=f"six responses after about {THINKING + CALLERS * COUNTING:.1f} s",
+        actual=f"the last response after {min(took):.1f} s",
+        hints=_why_slow(code),
+    )
+
+
+def _number(message: str) -> int:
+    """Return the number in a response, or -1 if the response is not a number."""
+    return int(message) if message.isdecimal() else -1
+
+
+def _why_lost(code: str) -> str:
+    if "atomic" in code:
+        return NOT_ATOMIC
+    if not re.search(r"lock_guard|unique_lock|scoped_lock|\.lock\(\)", code):
+        return NO_LOCK
+    return OWN_LOCK if re.search(r"\{[^}]*(?<!static )\b(std|boost)::\w*mutex\s+\w+\s*;", code) else LET_GO
+
+
+def _why_slow(code: str) -> str:
+    if "Spinner" not in code:
+        return ONE_THREAD
+    few = re.search(r"Spinner\s+\w+\s*[({]\s*[0-5]?\s*[)}]|Spinner\s+\w+\s*;", code)
+    return TOO_FEW if few else LOCKED_TOO_LONG

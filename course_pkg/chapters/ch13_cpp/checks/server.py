@@ -1,0 +1,139 @@
+"""13.2: a repaired C++ server, with its handler and its main function."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.chapters.ch13_cpp.checks.compiled_program import (
+    BOX,
+    PACKAGE,
+    code_of,
+    compiled,
+    serves,
+    started,
+)
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.geometry import expect_geometry
+
+FILE = f"{PACKAGE}/src/box_server.cpp"
+
+START = f"""%%writefile {FILE}
+#include <course_pkg/geometry.h>
+#include <ros/ros.h>
+
+bool measure(course_pkg::geometry::Request request, course_pkg::geometry::Response response) {{
+  int area = request.length * request.width;
+  response.area = area;
+  response.volume = area * request.height;
+}}
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "box_server");
+  ros::NodeHandle node;
+  node.advertiseService("box", measure);
+}}
+"""
+SIDES = ("length", "width", "height")
+NO_FRACTION = (
+    "The part after the decimal point is missing, because an int contains only "
+    "whole numbers. Use float or auto."
+)
+ZERO_IS_ALLOWED = "A side was 0, and 0 is not below 0. Do not refuse the call; return a volume of 0."
+RETURNED_FALSE = (
+    "The handler returned false for a good request, so the client gets an error. Return true after the "
+    "response is filled."
+)
+
+
+@part(
+    "13.2",
+    points=3,
+    goal=(
+        "Repair box_server.cpp: its service `box` returns the area and the volume, and "
+        "refuses a side below 0."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=90.0,
+    start=START,
+)
+def box_server(context: CheckContext) -> None:
+    """Compile a copy, start it with a random service name, and call it."""
+    folder = compiled(context, FILE)
+    name = f"/{context.random.word()}"
+    with started(context, folder, "box", name) as running:
+        serves(context, running, "box", name, code_of(context, FILE))
+        box = context.service(
+            name, BOX, hints=[(matches("responded with an error"), RETURNED_FALSE)], timeout=4.0
+        )
+        wrong = context.random.shuffled(SIDES)
+        for sides in ([wrong[0]], [wrong[1]], [wrong[2]], wrong[:2]):
+            _measures(context, box)
+            _refuses(context, box, sides)
+        _measures_empty_boxes(
+            context, context.service(name, BOX, hints=[(matches("responded with an error"), ZERO_IS_ALLOWED)])
+        )
+
+
+def _wrong_area(length: float, width: float) -> Hints:
+    return [
+        (0.0, "The area is 0: set response.area."),
+        (
+            float(int(length * width)),
+            NO_FRACTION,
+        ),
+    ]
+
+
+def _wrong_volume(area: float, height: float) -> Hints:
+    return [
+        (0.0, "The volume is 0: set response.volume."),
+        (float(int(area * height)), NO_FRACTION),
+        (int(area) * height, NO_FRACTION),
+        (ANYTHING, "The volume is wrong: multiply the area by the height."),
+    ]
+
+
+def _measures(context: CheckContext, box: Service) -> None:
+    length, width, height = (side + 0.37 for side in context.random.numbers(3, 1.0, 9.0))
+    response = box(length=length, width=width, height=height)
+    area = length * width
+    expect_geometry(
+        context,
+        response,
+        area,
+        height,
+        area=_wrong_area(length, width),
+        volume=_wrong_volume(area, height),
+        assertion="area is length times width, with the part after the decimal point",
+    )
+
+
+def _measures_empty_boxes(context: CheckContext, box: Service) -> None:
+    for side in SIDES:
+        response = box(**{each: 0.0 if each == side else 2.5 for each in SIDES})
+        context.expect(
+            "volume is area times height", expected=0.0, actual=response.volume, hints=ZERO_IS_ALLOWED
+        )
+
+
+def _refuses(context: CheckContext, box: Service, wrong: list[str]) -> None:
+    sides = dict(zip(SIDES, context.random.numbers(3, 1.0, 9.0), strict=True))
+    sides.update({side: -sides[side] for side in wrong})
+    below = " and ".join(wrong)
+    box.refused(
+        "a side below 0 is refused",
+        saying="responded with an error",
+        hints=[
+            (
+                matches("TimesUp|transport"),
+                "The program has ended or does not respond. To refuse a call, only return false.",
+            ),
+            (
+                re.compile(""),
+                f"The server sent a response, but {below} was below 0. Return false in this case.",
+            ),
+        ],
+        **sides,
+    )

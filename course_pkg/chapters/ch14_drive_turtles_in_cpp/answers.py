@@ -1,0 +1,405 @@
+"""Example answers of chapter 14; tests/checking/example_answers.py explains the format."""
+
+# %% 14.1 right: a client of a handle
+solution()
+# %% 14.1 right: the functions of ros::service
+replace("spawn_turtle.cpp", "spawn_turtle.cpp\n#include <iostream>\n")
+replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::init_options::AnonymousName);
+  ros::start();
+  turtlesim::SpawnRequest request;
+  turtlesim::SpawnResponse response;
+  request.x = request.y = 3.0f;
+  request.theta = 0.0f;
+  request.name = "MyTurtle";
+  bool there = ros::service::waitForService("/spawn", 5000);
+  if (!there || !ros::service::call("/spawn", request, response)) {
+    std::cerr << "no turtle" << std::endl;
+    return EXIT_FAILURE;
+  }
+  std::cout << "spawned " << response.name << std::endl;""")
+# %% 14.1 wrong: no wait | hint: Without a wait, the call fails immediately
+replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no simulator within 5 s");\n    return 1;\n  }\n', '')
+# %% 14.1 wrong: no limit | hint: The program waits too long or without a limit
+replace('ros::Duration(5)', '')
+# %% 14.1 wrong: five milliseconds | hint: The program gave up too early
+based_on("the functions of ros::service")
+replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 1500)')
+# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call. Catch this error
+replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
+# %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
+replace('  spawn.request.name = "MyTurtle";\n', '')
+# %% 14.1 wrong: a semicolon is missing | hint: semicolon
+replace('request.x = 3;', 'request.x = 3')
+
+# %% 14.2 right: a function, and spinOnce
+solution()
+
+# %% 14.2 right: a class with a timer
+"""%%writefile src/my_turtles_cpp/src/pubvel_toggle.cpp
+#include <atomic>
+
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <std_srvs/Empty.h>
+
+class Toggle {
+ public:
+  Toggle() : turning_(false) {
+    publisher_ = node_.advertise<geometry_msgs::Twist>("/turtle1/cmd_vel", 1);
+    server_ = node_.advertiseService("/toggle_forward", &Toggle::change, this);
+    timer_ = node_.createTimer(ros::Duration(0.5), &Toggle::publish, this);
+  }
+
+ private:
+  bool change(std_srvs::EmptyRequest&, std_srvs::EmptyResponse&) {
+    turning_ = !turning_;
+    return true;
+  }
+
+  void publish(const ros::TimerEvent&) {
+    geometry_msgs::Twist twist;
+    (turning_ ? twist.angular.z : twist.linear.x) = 1.0;
+    publisher_.publish(twist);
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  ros::ServiceServer server_;
+  ros::Timer timer_;
+  bool turning_;
+};
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "toggler");
+  Toggle toggle;
+  ros::spin();
+  return 0;
+}
+"""
+
+# %% 14.2 wrong: no spinOnce | hint: The call has not returned
+replace('    ros::spinOnce();\n', '')
+# %% 14.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
+replace('bool forward = true', 'bool forward = false')
+# %% 14.2 wrong: the service is dropped | hint: Create the service before the loop begins
+replace('ros::ServiceServer server = node', 'node')
+# %% 14.2 wrong: the same message object in each loop | hint: The turtle turns, but it also still moves ahead
+replace('    geometry_msgs::Twist message;\n', '')
+replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
+# %% 14.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+replace('rate(2)', 'rate(10)')
+# %% 14.2 wrong: no header | hint: std_srvs/Empty.h
+replace('#include <std_srvs/Empty.h>\n', '')
+
+# %% 14.3 right: methods, and spinOnce
+solution()
+# %% 14.3 right: functions, and an AsyncSpinner
+"""%%writefile src/my_turtles_cpp/src/pubvel_toggle_plus.cpp
+#include <atomic>
+#include <stdexcept>
+
+#include <course_pkg/ChangeRate.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <std_srvs/Empty.h>
+
+std::atomic<bool> forward{true};
+std::atomic<double> frequency{2.0};
+
+bool handleToggle(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  forward = !forward;
+  return true;
+}
+
+bool handleRate(course_pkg::ChangeRateRequest& request, course_pkg::ChangeRateResponse& response) {
+  bool allowed = request.rate > 0 && request.rate <= 100;
+  if (!allowed) throw std::runtime_error("a rate is above 0 and at most 100");
+  response.before = frequency.exchange(request.rate);
+  return true;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "pubvel_toggle_plus");
+  ros::NodeHandle node;
+  auto toggle = node.advertiseService("/toggle_forward", handleToggle);
+  auto change = node.advertiseService("/change_rate", handleRate);
+  auto publisher = node.advertise<geometry_msgs::Twist>("/turtle1/cmd_vel", 1);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  while (ros::ok()) {
+    geometry_msgs::Twist twist;
+    twist.linear.x = forward ? 1 : 0;
+    twist.angular.z = forward ? 0 : 1;
+    publisher.publish(twist);
+    ros::Duration(1 / frequency).sleep();
+  }
+}
+"""
+
+# %% 14.3 wrong: the loop keeps its rate | hint: You cannot change the rate of a Rate object
+replace('      rate = ros::Rate(used);\n', '')
+# %% 14.3 wrong: whole numbers | hint: A rate can be 2.5
+replace('double frequency', 'int frequency')
+replace('double used', 'int used')
+# %% 14.3 wrong: returns the new rate | hint: This is the new rate
+replace('    response.before = frequency;\n    frequency = request.rate;\n', '    frequency = request.rate;\n    response.before = frequency;\n')
+# %% 14.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
+replace('    response.before = frequency;\n', '')
+# %% 14.3 wrong: nan is accepted | hint: The node accepted nan
+replace('!(request.rate > 0 && request.rate <= 100)', 'request.rate <= 0 || request.rate > 100')
+
+# %% 14.4 right: boost::bind
+solution()
+
+# %% 14.4 right: a class, a mutex and an AsyncSpinner
+"""%%writefile src/my_turtles_cpp/src/improved_pubvel_toggle.cpp
+#include <cmath>
+#include <mutex>
+#include <string>
+
+#include <course_pkg/ChangeRate.h>
+#include <course_pkg/ChangeSpeed.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/SetBool.h>
+
+class Driver {
+ public:
+  explicit Driver(ros::NodeHandle& node) {
+    servers_[0] = node.advertiseService("toggle_forward", &Driver::toggle, this);
+    servers_[1] = node.advertiseService("change_rate", &Driver::changeRate, this);
+    servers_[2] = node.advertiseService("change_speed", &Driver::changeSpeed, this);
+    servers_[3] = node.advertiseService("start_stop", &Driver::startStop, this);
+    publisher_ = node.advertise<geometry_msgs::Twist>("/turtle1/cmd_vel", 1);
+  }
+
+  void drive() {
+    while (ros::ok()) {
+      double pause = publish();
+      ros::WallDuration(pause).sleep();
+    }
+  }
+
+ private:
+  double publish() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    geometry_msgs::Twist twist;
+    if (moving_) (forward_ ? twist.linear.x : twist.angular.z) = forward_ ? speed_ : 1.0;
+    publisher_.publish(twist);
+    return 1 / rate_;
+  }
+
+  bool toggle(std_srvs::EmptyRequest&, std_srvs::EmptyResponse&) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    forward_ = !forward_;
+    return true;
+  }
+
+  bool changeRate(course_pkg::ChangeRateRequest& request, course_pkg::ChangeRateResponse& response) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    bool allowed = request.rate > 0 && request.rate <= 100;
+    if (allowed) {
+      response.before = rate_;
+      rate_ = request.rate;
+    }
+    return allowed;
+  }
+
+  bool changeSpeed(course_pkg::ChangeSpeedRequest& request, course_pkg::ChangeSpeedResponse& response) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    if (!std::isfinite(request.speed)) return false;
+    response.before = speed_;
+    speed_ = request.speed;
+    return true;
+  }
+
+  bool startStop(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    response.success = true;
+    response.message = bool(request.data) == moving_ ? "It was so already." : "Changed.";
+    moving_ = request.data;
+    return true;
+  }
+
+  std::mutex mutex_;
+  bool forward_ = true;
+  bool moving_ = true;
+  double rate_ = 2;
+  double speed_ = 1;
+  ros::ServiceServer servers_[4];
+  ros::Publisher publisher_;
+};
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "improved_pubvel_toggle");
+  ros::NodeHandle node;
+  Driver driver(node);
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  driver.drive();
+  return 0;
+}
+"""
+
+# %% 14.4 wrong: does not move at the start | hint: The turtle does not move before the first call
+replace('bool moving = true', 'bool moving = false')
+# %% 14.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
+replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
+# %% 14.4 wrong: infinity is accepted | hint: The node accepted
+replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
+# %% 14.4 wrong: forgets success | hint: Set success to True
+replace('  response.success = true;\n', '')
+# %% 14.4 wrong: never already | hint: This call changed nothing
+replace('std::string(same ? "already " : "")', 'std::string(same ? "" : "")')
+
+# %% 14.5 right: a functor
+solution()
+# %% 14.5 right: a function, and three clients
+replace("spawn_turtle_plus.cpp", "spawn_turtle_plus.cpp\n#include <iostream>\n")
+replace("// A functor … publisher;", "ros::Publisher publisher;")
+replace("  void operator … };", "void follow(const geometry_msgs::Twist& message) { publisher.publish(message); }")
+replace("template < … , service);", 'int fail(const char* name) {\n  std::cerr << "no " << name << std::endl;\n  return 1;')
+replace("turtlesim: … follower);", """auto spawn = node.serviceClient<turtlesim::Spawn>("/spawn");
+  auto toggle = node.serviceClient<std_srvs::Empty>("/toggle_forward");
+  auto change = node.serviceClient<course_pkg::ChangeSpeed>("/change_speed");
+  turtlesim::SpawnRequest place;
+  turtlesim::SpawnResponse spawned;
+  place.x = place.y = 3;
+  place.name = "MyTurtle";
+  if (!spawn.waitForExistence(ros::Duration(5.0)) || !spawn.call(place, spawned)) return fail("turtle");
+  std_srvs::Empty nothing;
+  if (!toggle.waitForExistence(ros::Duration(5.0)) || !toggle.call(nothing)) return fail("toggle");
+  course_pkg::ChangeSpeed speed;
+  speed.request.speed = 2;
+  if (!change.waitForExistence(ros::Duration(5.0)) || !change.call(speed)) return fail("speed");
+  publisher = node.advertise<geometry_msgs::Twist>("/" + spawned.name + "/cmd_vel", 100);
+  auto subscriber = node.subscribe("/turtle1/cmd_vel", 100, follow);""")
+replace("spin();", "spin();\n  return 0;")
+# %% 14.5 wrong: no spin | hint: The node ended after the calls
+replace('  ros::spin();\n', '')
+# %% 14.5 wrong: no wait | hint: wait for each service
+replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
+# %% 14.5 wrong: the name is fixed | hint: Publish on /NAME/cmd_vel, where NAME is the name in the response of
+replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
+# %% 14.5 wrong: the speed is missing | hint: Send 2.0 in the field `speed`
+replace('  change.request.speed = 2.0;\n', '')
+# %% 14.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
+replace('    return 1;\n', '    return 0;\n')
+
+# %% 14.6 right: as in the chapter
+solution()
+# %% 14.6 right: a group
+replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default="false"/>
+  <node name="turtlesim" pkg="turtlesim" type="turtlesim_node"/>
+  <node name="improved_pubvel_toggle" pkg="my_turtles_cpp" type="improved_pubvel_toggle"/>
+  <group if="$(arg addturtle)">
+    <node name="spawn_turtle_plus" pkg="my_turtles_cpp" type="spawn_turtle_plus"/>
+  </group>""")
+# %% 14.6 wrong: the name of a Python script | hint: The attributes pkg and type are the two words that follow rosrun
+replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
+# %% 14.6 wrong: true by default | hint: Without an argument, the node must not start
+replace('default="false"', 'default="true"')
+# %% 14.6 wrong: no default | hint: The argument has no default value
+replace(' default="false"', '')
+# %% 14.6 wrong: no condition | hint: The node is started with addturtle:=false, too
+replace('if="$(arg addturtle)" ', '')
+
+# %% 14.7 right: a MultiThreadedSpinner
+solution()
+# %% 14.7 right: an AsyncSpinner
+replace("""ros::MultiThreadedSpinner spinner(4);
+  spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();\n  ros::waitForShutdown();")
+# %% 14.7 wrong: as it was | hint: Use a MultiThreadedSpinner or an AsyncSpinner
+replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
+# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no thread is left
+replace('spinner(4)', 'spinner(1)')
+# %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time hang
+replace('spinner(4)', 'spinner(3)')
+# %% 14.7 wrong: no call | hint: Do not change the two handlers
+replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
+replace('inner.response.message', 'std::to_string(level)')
+# %% 14.7 wrong: no parameter | hint: The level has to come from the parameter ~level
+replace('  ros::param::param("~level", level, 80);\n', '')
+# %% 14.7 wrong: another message | hint: a colon, a space and the level
+replace('"battery: "', '"Battery "')
+# %% 14.7 wrong: a client of another name | hint: The handler returned false, because its call of /battery failed
+replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("level")')
+
+# %% 14.8 right: an AsyncSpinner for the queue
+solution()
+# %% 14.8 right: a thread with callAvailable
+replace("report_queue.cpp", "report_queue.cpp\n#include <thread>\n")
+replace("""ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();""", "std::thread worker([&queue] {\n    while (ros::ok()) queue.callAvailable(ros::WallDuration(0.1));\n  });")
+replace("spin();", "spin();\n  worker.join();")
+# %% 14.8 wrong: more threads only | hint: Create a ros::CallbackQueue
+replace('  ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n', '')
+replace('other.advertise', 'node.advertise')
+replace('spinner(1, &queue)', 'spinner(4)')
+# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no thread is left
+replace('  spinner.start();\n', '')
+# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no thread is left
+replace('node.advertiseService("report"', 'other.advertiseService("report"')
+# %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time hang
+replace('node.advertiseService("report"', 'other.advertiseService("report"')
+replace('spinner(1, &queue)', 'spinner(4, &queue)')
+# %% 14.8 wrong: no call | hint: Do not change the two handlers
+replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
+replace('inner.response.message', 'std::to_string(level)')
+
+# %% 14.9 right: ServiceEvent and M_string
+solution()
+
+# %% 14.9 right: a method
+"""%%writefile src/my_turtles_cpp/src/session_counter.cpp
+#include <unordered_map>
+
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+class Counter {
+ public:
+  explicit Counter(ros::NodeHandle& node) : server_(node.advertiseService("/count", &Counter::count, this)) {}
+
+ private:
+  bool count(ros::ServiceEvent<std_srvs::TriggerRequest, std_srvs::TriggerResponse>& call) {
+    ros::M_string& header = call.getConnectionHeader();
+    if (header.count("session") == 0) throw std::runtime_error("no session");
+    int& number = numbers_[header["session"]];
+    number += 1;
+    call.getResponse().message = std::to_string(number);
+    call.getResponse().success = true;
+    return true;
+  }
+
+  std::unordered_map<std::string, int> numbers_;
+  ros::ServiceServer server_;
+};
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "session_counter");
+  ros::NodeHandle node;
+  Counter counter(node);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  ros::waitForShutdown();
+}
+"""
+
+# %% 14.9 wrong: one count for all | hint: This is the number of all calls
+replace('++calls[session->second]', '++calls["all"]')
+# %% 14.9 wrong: the name of the node | hint: This is the number of all calls
+replace('++calls[session->second]', '++calls[event.getCallerName()]')
+# %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
+replace('++calls[session->second]', 'calls[session->second]++')
+# %% 14.9 wrong: a map in the handler | hint: The count starts again in each call
+replace('std::map<std::string, int> calls;\n', '')
+replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
+# %% 14.9 wrong: no message | hint: The message is empty
+replace('event.getResponse().message = std::to_string(++calls[session->second])', '++calls[session->second]')
+# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the call got a count
+replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::string key = session == header.end() ? "" : session->second;\n')
+replace('++calls[session->second]', '++calls[key]')
+# %% 14.9 wrong: another field | hint: did not get its number
+replace('find("session")', 'find("Session")')

@@ -1,0 +1,175 @@
+"""14.7 and 14.8: a handler that calls a service of its own node, and two ways to avoid that it hangs."""
+
+from __future__ import annotations
+
+import re
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.peers.service_calls import Service
+
+THREADS = cpp("report_threads")
+QUEUE = cpp("report_queue")
+SERVICES = ("battery", "report")
+FEW, MANY = 3, 8  # clients at the same time
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+HANGS = (
+    "The handler of /report waits for /battery, but no thread is left for the "
+    "handler of /battery. Make sure that a free thread can execute the handler of "
+    "/battery."
+)
+
+START = """%%writefile {path}
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+int level = 80;
+ros::ServiceClient battery;
+
+bool handleBattery(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {{
+  response.success = true;
+  response.message = std::to_string(level);
+  return true;
+}}
+
+bool handleReport(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {{
+  std_srvs::Trigger inner;
+  if (!battery.call(inner)) {{
+    return false;
+  }}
+  response.success = true;
+  response.message = "battery: " + inner.response.message;
+  return true;
+}}
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "report");
+  ros::NodeHandle node;
+  ros::param::param("~level", level, 80);
+  battery = node.serviceClient<std_srvs::Trigger>("battery");
+  ros::ServiceServer first = node.advertiseService("battery", handleBattery);
+  ros::ServiceServer second = node.advertiseService("report", handleReport);
+  ros::spin();
+}}
+"""
+
+
+@part(
+    "14.7",
+    points=2,
+    goal=(
+        "Change main of report_threads.cpp: use a spinner with enough threads for 3 "
+        "clients that call /report at the same time."
+    ),
+    needs=[f"file:{THREADS.path}"],
+    deadline=150.0,
+    start=START.format(path=THREADS.path),
+)
+def more_threads(context: CheckContext) -> None:
+    """Call /report once, and then three times at the same time."""
+    _uses(
+        context,
+        THREADS,
+        r"MultiThreadedSpinner|AsyncSpinner",
+        "the program has a spinner with several threads",
+        "Use a MultiThreadedSpinner or an AsyncSpinner instead of ros::spin().",
+    )
+    _reports(
+        context,
+        THREADS,
+        FEW,
+        "One call works, but three calls at the same time hang. Each of them uses a "
+        "thread, and /battery needs another thread.",
+    )
+
+
+@part(
+    "14.8",
+    points=3,
+    goal=(
+        "Change main of report_queue.cpp: give /battery its own callback queue, so that "
+        "8 clients can call /report at the same time."
+    ),
+    needs=[f"file:{QUEUE.path}"],
+    deadline=150.0,
+    start=START.format(path=QUEUE.path),
+)
+def own_queue(context: CheckContext) -> None:
+    """Call /report once, and then eight times at the same time."""
+    _uses(
+        context,
+        QUEUE,
+        r"CallbackQueue\s+\w+",
+        "the program creates another callback queue",
+        "Create a ros::CallbackQueue, and pass it to setCallbackQueue of a second NodeHandle.",
+    )
+    _reports(
+        context,
+        QUEUE,
+        MANY,
+        "One call works, but eight calls at the same time hang. Put only /battery into "
+        "the new queue, and give this queue its own thread.",
+    )
+
+
+def _uses(context: CheckContext, program: TurtleProgram, pattern: str, assertion: str, hint: str) -> None:
+    code = COMMENT.sub("", context.source(f"file:{program.path}"))
+    context.require(
+        assertion,
+        holds=bool(re.search(pattern, code)),
+        expected="in main",
+        actual="none",
+        hints=hint,
+    )
+    context.require(
+        "the handler of /report still calls /battery",
+        holds=bool(re.search(r"\bcall\s*\(\s*\w", code)) and "handleReport" in code,
+        expected="a call of the service",
+        actual="none",
+        hints="Do not change the two handlers. Change only main.",
+    )
+
+
+def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_few: str) -> None:
+    level = context.random.integer(3, 79)
+    world = World(context, program.prepare(context, program), program, services=SERVICES)
+    with world.run(f"_level:={level}") as running:
+        world.serves(running, *SERVICES)
+        _answers(context, world.service("report", "std_srvs/Trigger", _why(HANGS)), level)
+        report = world.service("report", "std_srvs/Trigger", _why(too_few))
+        for reply in report.at_once([{}] * clients):
+            context.require(
+                f"{clients} clients at the same time get their responses",
+                holds=reply.response.message == f"battery: {level}",
+                expected=f"battery: {level}",
+                actual=reply.response.message,
+            )
+
+
+def _why(hangs: str) -> list[tuple[re.Pattern[str], str]]:
+    return [
+        (matches("TimesUp"), hangs),
+        (
+            matches("responded with an error"),
+            "The handler returned false, because its call of /battery failed. Compare the "
+            'service name of the ServiceClient with "battery".',
+        ),
+    ]
+
+
+def _answers(context: CheckContext, report: Service, level: int) -> None:
+    context.expect(
+        "/report responds with the level of the battery",
+        expected=f"battery: {level}",
+        actual=report().message,
+        hints=[
+            (
+                "battery: 80",
+                "The level has to come from the parameter ~level. Keep the line with "
+                "ros::param::param in main.",
+            ),
+            (ANYTHING, 'The message has to be the word "battery", a colon, a space and the level.'),
+        ],
+    )

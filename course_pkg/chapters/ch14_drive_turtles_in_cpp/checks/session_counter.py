@@ -1,0 +1,95 @@
+"""14.9: a handler that reads the connection header of its client."""
+
+from __future__ import annotations
+
+import queue
+import threading
+
+import rospy
+
+from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
+from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.plain_values import ServiceClass
+
+PROGRAM = cpp("session_counter")
+TRIGGER = "std_srvs/Trigger"
+WITHIN = 4.0  # s for a call
+
+
+@part(
+    "14.9",
+    points=3,
+    goal=(
+        "Write session_counter.cpp: /count returns the number of calls in the session "
+        "that the connection header contains."
+    ),
+    needs=[f"file:{PROGRAM.path}"],
+    deadline=150.0,
+    start=f"%%writefile {PROGRAM.path}\n...",
+)
+def count_sessions(context: CheckContext) -> None:
+    """Call the service in two sessions, and without a session."""
+    world = World(context, PROGRAM.prepare(context, PROGRAM), PROGRAM, services=("count",))
+    with world.run() as running:
+        world.serves(running, "count")
+        service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
+        sessions = [context.random.word(), context.random.word()]
+        counts = dict.fromkeys(sessions, 0)
+        for session in context.random.shuffled(sessions * 3):
+            counts[session] += 1
+            _counts(context, service.name, service.kind, session, counts)
+        service.refused(
+            'a call without the field "session" is refused',
+            hints=(
+                'The header had no field "session", but the call got a count. First look for '
+                "the field with find()."
+            ),
+        )
+        session = sessions[0]
+        counts[session] += 1
+        _counts(context, service.name, service.kind, session, counts)
+
+
+def _counts(
+    context: CheckContext, name: str, kind: ServiceClass, session: str, counts: dict[str, int]
+) -> None:
+    context.expect(
+        "the message is the number of calls in this session",
+        expected=str(counts[session]),
+        actual=_call(name, kind, session),
+        hints=[
+            (
+                str(sum(counts.values())),
+                "This is the number of all calls. Store a separate count for each session.",
+            ),
+            (
+                str(counts[session] - 1),
+                "This is the number of calls before this call. Increase the count first.",
+            ),
+            ("1", "The count starts again in each call. Create the map outside the handler."),
+            ("", "The message is empty. Set it to the number, with std::to_string."),
+            (
+                ANYTHING,
+                'The call had the field "session" in its header, but did not get its number. '
+                "Read the field from the connection header.",
+            ),
+        ],
+    )
+
+
+def _call(name: str, kind: ServiceClass, session: str) -> str:
+    """Call in the given session; return the message or the error, within a time limit."""
+    inbox: queue.Queue[str] = queue.Queue()
+
+    def call() -> None:
+        try:
+            inbox.put(rospy.ServiceProxy(name, kind, headers={"session": session})().message)
+        except (rospy.ServiceException, rospy.ROSException) as error:
+            inbox.put(f"{type(error).__name__}: {error}")
+
+    threading.Thread(target=call, daemon=True).start()
+    try:
+        return inbox.get(timeout=WITHIN)
+    except queue.Empty:
+        return f"no answer within {WITHIN:g} s"

@@ -1,0 +1,3 @@
+"""Chapter 15, robot cashier: its checks, fixtures, example answers, recordings and programs."""
+
+TITLE = "Build the robot cashier"  # of its notebook

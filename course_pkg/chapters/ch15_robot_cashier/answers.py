@@ -1,0 +1,862 @@
+"""Example answers of chapter 15; tests/checking/example_answers.py explains the format."""
+
+# %% 15.1 right: a function that returns None for a malformed frame
+solution()
+
+# %% 15.1 right: a class with numpy, and an exception
+'''%%writefile src/my_cashier/scripts/vision.py
+#!/usr/bin/env python3
+"""Tells whether a customer is in a frame."""
+import numpy as np
+import rospy
+from sensor_msgs.msg import Image
+from std_msgs.msg import Bool
+
+THRESHOLD = 96
+
+
+class Vision:
+    def __init__(self):
+        self.publisher = rospy.Publisher("customer_seen", Bool, queue_size=10)
+        self.subscriber = rospy.Subscriber("frames", Image, self.callback)
+
+    def points(self, frame):
+        if frame.encoding != "mono8" or 0 in (frame.width, frame.height):
+            raise ValueError("not a grey picture")
+        if frame.step < frame.width:
+            raise ValueError("the rows are too short")
+        grid = np.frombuffer(frame.data, np.uint8).reshape(frame.height, frame.step)
+        return grid[:, : frame.width]
+
+    def callback(self, frame):
+        try:
+            points = self.points(frame)
+        except ValueError as error:
+            rospy.logwarn("left out: %s", error)
+            return
+        share = np.count_nonzero(points < THRESHOLD) / points.size
+        self.publisher.publish(Bool(data=bool(share >= 0.1)))
+
+
+def main():
+    rospy.init_node("vision")
+    Vision()
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
+'''
+
+# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all others are very
+replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
+# %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
+replace("10 * dark >= frame.width * frame.height", "dark > 0")
+# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, which is enough
+replace(">= frame.width", "> frame.width")
+# %% 15.1 wrong: rounded | hint: The number of dark points was one less than a tenth
+replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
+# %% 15.1 wrong: 96 is dark | hint: All points that look dark have the value 96, but a point
+replace("point < 96", "point <= 96")
+# %% 15.1 wrong: the padding counts | hint: row r begins at r * frame.step
+replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
+# %% 15.1 wrong: always True | hint: All points are light
+replace("10 * dark >= frame.width * frame.height", "dark >= 0")
+# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame
+replace("if customer is not None:", "if customer:")
+# %% 15.1 wrong: publishes twice | hint: The node published more than one message for a frame
+replace("        seen.publish(customer)", "        seen.publish(customer)\n        seen.publish(customer)")
+# %% 15.1 wrong: a malformed frame ends the node | hint: After a malformed frame, the node published nothing for a valid frame
+replace("    if len(frame.data) != frame.height * frame.step:\n        return None", "    if len(frame.data) != frame.height * frame.step:\n        rospy.signal_shutdown('malformed')\n        return None")
+# %% 15.1 wrong: bytes are missing | hint: Bytes are missing in this frame
+replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
+# %% 15.1 wrong: too many bytes | hint: compare with !=, not with <
+replace("len(frame.data) != frame", "len(frame.data) < frame")
+# %% 15.1 wrong: any encoding | hint: This frame has three bytes for each point
+replace('frame.encoding != "mono8" or ', "")
+# %% 15.1 wrong: any step | hint: In this frame, a row has fewer bytes than points, which is
+replace(" or frame.step < frame.width", "")
+# %% 15.1 wrong: an empty frame | hint: A frame of 0 by 0 points
+replace('if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width:\n        return None', 'if frame.encoding != "mono8" or frame.step < frame.width:\n        return None\n    if not frame.data:\n        return False')
+# %% 15.1 wrong: no width | hint: all bytes are padding
+replace('not frame.width or not frame.height or', 'not frame.data or')
+# %% 15.1 wrong: another type | hint: The frames have the type sensor_msgs/Image
+replace("import Image", "import CompressedImage as Image")
+# %% 15.1 wrong: a global name | hint: The program uses the global name
+replace('"frames"', '"/frames"')
+# %% 15.1 wrong: another node name | hint: Call rospy.init_node … without anonymous=True, before
+replace('init_node("vision")', 'init_node("camera")')
+# %% 15.1 wrong: a misspelt topic | hint: The program runs, but nothing in it
+replace('"customer_seen"', '"costumer_seen"')
+# %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
+replace("\n    rospy.spin()", "")
+
+# %% 15.2 right: a condition
+solution()
+# %% 15.2 right: a loop that looks again and again
+replace("threading\n", "math\nimport time")
+replace("import AwaitCustomer", "import AwaitCustomer, AwaitCustomerResponse")
+replace("import Bool\n", "import Bool\n\nnewest = None")
+replace("\nclass Detector … handle_detect)", "")
+replace("    def handle_seen … notify_all()", "def callback(message):\n    global newest\n    newest = message.data")
+replace("    def handle_detect … .patience)", """
+def handle(req):
+    if math.isnan(req.patience) or req.patience < 0 or req.patience > 60:
+        raise rospy.ServiceException("%s is no legal patience" % req.patience)
+    end = time.monotonic() + req.patience
+    while not newest and time.monotonic() < end:
+        time.sleep(0.02)
+    return AwaitCustomerResponse(found=bool(newest))
+
+
+def main():
+    rospy.init_node("customer_detector")
+    rospy.Subscriber("customer_seen", Bool, callback, queue_size=1)
+    rospy.Service("detect_customer", AwaitCustomer, handle)
+    rospy.spin()""")
+replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
+# %% 15.2 wrong: remembers a customer | hint: In the newest message, no customer is there, but found is True
+replace("self.customer = message.data", "self.customer = self.customer or message.data")
+# %% 15.2 wrong: does not wait | hint: The response came before the patience was over, although no customer was
+based_on("a loop that looks again and again")
+replace("while not newest and", "while False and")
+# %% 15.2 wrong: waits for 1 s at most | hint: The response came before the patience was over, although no customer was
+replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
+# %% 15.2 wrong: waits without a limit | hint: The response came long after the patience was over
+replace(", timeout=request.patience)", ", timeout=30)")
+# %% 15.2 wrong: always False | hint: In the newest message, a customer is there, but found is False
+based_on("a loop that looks again and again")
+replace("found=bool(newest)", "")
+# %% 15.2 wrong: waits before it looks | hint: A customer was there before the call
+based_on("a loop that looks again and again")
+replace("    while not newest and time.monotonic() < end:\n        time.sleep(0.02)\n", "    time.sleep(req.patience)\n")
+# %% 15.2 wrong: a lock while it waits | hint: Do not hold a lock while the handler waits
+replace("            return self.changed.wait_for(lambda: self.customer, timeout=request.patience)", "            end = rospy.get_time() + request.patience\n            while not self.customer and rospy.get_time() < end:\n                self.changed.wait(0.02)\n            return self.customer")
+replace("        with self.changed:\n            end", "        with self.turn, self.changed:\n            end")
+replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
+# %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but a call noticed
+replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
+# %% 15.2 wrong: no limits | hint: The patience has to be from 0 to 60 s
+replace("if not 0 <= request.patience <= 60:", "if False:")
+replace("timeout=request.patience)", "timeout=max(0, request.patience))")
+# %% 15.2 wrong: accepts nan | hint: Each comparison with nan (not a number) is False
+replace("if not 0 <= request.patience <= 60:", "if request.patience < 0 or request.patience > 60:")
+# %% 15.2 wrong: a message without patience | hint: The error message has to contain the word "patience"
+replace('"patience has to be', '"it has to be')
+# %% 15.2 wrong: a long patience is cut | hint: The handler waited before it refused
+replace("if not 0 <= request.patience <= 60:", "if request.patience != request.patience or request.patience < 0:")
+replace("timeout=request.patience)", "timeout=min(request.patience, 60))")
+# %% 15.2 wrong: a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
+replace("raise rospy.ServiceException", "raise ValueError")
+# %% 15.2 wrong: refuses short calls | hint: The handler refused a valid call
+replace("0 <= request", "0 < request")
+# %% 15.2 wrong: refuses 60 s | hint: The handler refused a valid call
+replace("<= 60:", "< 60:")
+# %% 15.2 wrong: another type | hint: has the type std_msgs/Bool
+replace("import Bool", "import Int32 as Bool")
+
+# %% 15.3 right: a condition, and the time of the newest message
+solution()
+# %% 15.3 right: a loop, and a pair of the message and its time
+'''%%writefile src/my_cashier/scripts/customer_detector.py
+#!/usr/bin/env python3
+import rospy
+from course_pkg.srv import AwaitCustomer, AwaitCustomerResponse
+from std_msgs.msg import Bool
+
+newest = (False, 0.0)
+
+
+def callback(message):
+    global newest
+    newest = (message.data, rospy.get_time())
+
+
+def look():
+    """Return True or False, or None without a message in the last second."""
+    customer, arrived = newest
+    return customer if rospy.get_time() - arrived <= 1.0 else None
+
+
+def handle(req):
+    if req.patience != req.patience or req.patience < 0 or req.patience > 60:
+        raise rospy.ServiceException("illegal patience")
+    end = rospy.get_time() + req.patience
+    while True:
+        seen = look()
+        if seen or rospy.get_time() >= end:
+            break
+        rospy.sleep(0.02)
+    if seen is None:
+        raise rospy.ServiceException("no message from the camera")
+    return AwaitCustomerResponse(seen)
+
+
+def main():
+    rospy.init_node("customer_detector")
+    rospy.Subscriber("customer_seen", Bool, callback, queue_size=1)
+    rospy.Service("detect_customer", AwaitCustomer, handle)
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
+'''
+
+# %% 15.3 wrong: the detector of 15.2 | hint: The camera is silent, so the node cannot know that found is
+replace("return time.monotonic() - self.arrived > 1.0", "return False")
+# %% 15.3 wrong: an old customer counts | hint: The last message is older than 1 s
+replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
+# %% 15.3 wrong: refuses at once | hint: The node refused before the patience was over
+replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
+# %% 15.3 wrong: a message counts for 0.2 s | hint: The last message was less than 1 s old
+replace("self.arrived > 1.0", "self.arrived > 0.2")
+# %% 15.3 wrong: a message without camera | hint: The error message has to contain the word "camera"
+replace('"the camera is silent"', '"nothing is known"')
+# %% 15.3 wrong: silence at the beginning counts | hint: The camera was silent, but new messages came in time
+replace("        with self.changed:\n            found", "        silent = self.is_silent()\n        with self.changed:\n            found")
+replace("            if not found and self.is_silent():", "            if silent:")
+
+# %% 15.5 right: a new message
+solution()
+
+# %% 15.5 right: a class that changes the message itself
+'''%%writefile src/my_cashier/scripts/robot_cashier.py
+#!/usr/bin/python3
+import math
+import rospy
+from sensor_msgs.msg import JointState
+
+
+class Cashier:
+    def __init__(self):
+        self.pub = rospy.Publisher("mirrored_joints", JointState, queue_size=1)
+        self.sub = rospy.Subscriber("joint_states", JointState, self.mirror, queue_size=10)
+
+    def mirror(self, msg):
+        if len(msg.name) != len(msg.position):
+            return
+        if msg.velocity and len(msg.velocity) != len(msg.name):
+            return
+        if not all(map(math.isfinite, msg.position + msg.velocity)):
+            return
+        msg.position = tuple(-p for p in msg.position)
+        msg.velocity = tuple(-v for v in msg.velocity)
+        self.pub.publish(msg)
+
+
+def main():
+    rospy.init_node("robot_cashier")
+    cashier = Cashier()
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
+'''
+
+# %% 15.5 wrong: unchanged | hint: is not changed: give each number the opposite sign
+replace("[-value for value in joints.velocity]", "joints.velocity")
+# %% 15.5 wrong: an empty list | hint: is empty in the image
+replace("                velocity=[-value for value in joints.velocity],\n", "")
+# %% 15.5 wrong: always negative | hint: use -value, not -abs(value)
+replace("[-value for value in joints.position]", "[-abs(value) for value in joints.position]")
+# %% 15.5 wrong: reversed | hint: Some numbers are wrong
+replace("[-value for value in joints.position]", "[-value for value in reversed(joints.position)]")
+# %% 15.5 wrong: a new stamp | hint: The stamp of the image is not the stamp of its joint
+replace("                header=joints.header,\n", "")
+# %% 15.5 wrong: the stamp only | hint: Copy the whole header, with stamp and frame_id
+replace("        mirrored.publish(", "        joints.header.frame_id = ''\n        mirrored.publish(")
+# %% 15.5 wrong: no effort | hint: has to stay the same: copy the list
+replace("                effort=joints.effort,\n", "")
+# %% 15.5 wrong: any number of positions | hint: The numbers of names and positions are different
+replace("len(joints.position) != count or ", "")
+# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or the number of
+replace(" or len(joints.velocity) not in (0, count)", "")
+# %% 15.5 wrong: nan is mirrored | hint: nan and inf are not valid positions or velocities
+replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
+# %% 15.5 wrong: zeros for an invalid one | hint: Publish nothing for an invalid joint state
+replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joints.position, joints.velocity = [0.0] * len(joints.name), []\n    if True:")
+# %% 15.5 wrong: needs velocities | hint: A joint state without velocities is valid
+replace("not in (0, count)", "!= count")
+# %% 15.5 wrong: finite efforts only | hint: only positions and velocities have to be finite
+replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
+# %% 15.5 wrong: published twice | hint: Publish once for each joint state
+replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
+# %% 15.5 wrong: ends with the first invalid one | hint: No image came after the first invalid joint state
+replace("    if is_valid(joints):", "    if not is_valid(joints):\n        subscriber.unregister()\n    else:")
+replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
+# %% 15.5 wrong: a loop with a pause | hint: Some images are missing
+replace('("robot_cashier")', '("robot_cashier")\n    rospy.Subscriber("joint_states", JointState, lambda joints: None)')
+replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.spin()', """while not rospy.is_shutdown():
+        handle_joints(rospy.wait_for_message("joint_states", JointState))
+        rospy.sleep(0.1)""")
+# %% 15.5 wrong: publishes later | hint: The images come late
+replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
+# %% 15.5 wrong: publishes nothing | hint: No mirror image came
+replace("    if is_valid(joints):", "    if not joints.name:")
+# %% 15.5 wrong: another type | hint: The topic joint_states has the type sensor_msgs/JointState
+replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
+replace("import math\n", "import math\n\nfrom std_msgs.msg import Header as JointTrajectory\n")
+
+# %% 15.6 right: the main thread calls
+solution()
+
+# %% 15.6 right: a class with a thread, and one loop
+'''%%writefile src/my_cashier/scripts/robot_cashier.py
+#!/usr/bin/env python3
+import math
+import threading
+import rospy
+from course_pkg.srv import AwaitCustomer, AwaitCustomerRequest
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+class Cashier:
+    def __init__(self):
+        self.wait = float(rospy.get_param("~wait", 2.0))
+        self.visit = False
+        self.mirrored = rospy.Publisher("mirrored_joints", JointState, queue_size=5)
+        self.greetings = rospy.Publisher("greetings", String, queue_size=5)
+        rospy.Subscriber("joint_states", JointState, self.mirror)
+        threading.Thread(target=self.work, daemon=True).start()
+
+    def mirror(self, msg):
+        n = len(msg.name)
+        bad = [x for x in list(msg.position) + list(msg.velocity) if not math.isfinite(x)]
+        if len(msg.position) == n and len(msg.velocity) in (0, n) and not bad:
+            self.mirrored.publish(
+                JointState(msg.header, msg.name, [-x for x in msg.position], [-x for x in msg.velocity], msg.effort)
+            )
+
+    def work(self):
+        detect = rospy.ServiceProxy("detect_customer", AwaitCustomer)
+        while not rospy.is_shutdown():
+            try:
+                found = detect(AwaitCustomerRequest(patience=0.0 if self.visit else self.wait)).found
+            except rospy.ServiceException as e:
+                rospy.logwarn(e)
+                rospy.sleep(0.5)
+                continue
+            if found and not self.visit:
+                self.greetings.publish(String("Good day!"))
+            if self.visit and not found:
+                self.reset()
+            self.visit = found
+            if found:
+                rospy.sleep(0.2)
+
+    def reset(self):
+        try:
+            rospy.ServiceProxy("till/reset", Trigger)()
+        except rospy.ServiceException as e:
+            rospy.logwarn(e)
+
+
+def main():
+    rospy.init_node("robot_cashier")
+    Cashier()
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
+'''
+
+# %% 15.6 wrong: mirrors only | hint: No call came
+replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
+# %% 15.6 wrong: calls once | hint: The node called, but then it did not call again
+replace("while not rospy … attend_visit()", "while is_there(wait) is None:\n        pass\n    rospy.spin()")
+# %% 15.6 wrong: an error at the start ends it | hint: The node called a service that did not exist yet, and the
+replace('rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "raise")
+# %% 15.6 wrong: a refusal ends it | hint: There was no call after a failed call
+replace("    while not rospy.is_shutdown():\n        if is_there", "    rospy.wait_for_service('detect_customer')\n    while not rospy.is_shutdown():\n        if is_there")
+replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "        raise")
+# %% 15.6 wrong: a reset that fails ends it | hint: The call of till/reset failed, and then no call of detect_customer followed
+replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
+# %% 15.6 wrong: another default | hint: has to be 2 s: rospy.get_param
+replace('"~wait", 2.0', '"~wait", 5.0')
+# %% 15.6 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+replace('rospy.get_param("~wait", 2.0)', '2.0')
+# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, found was True, so a customer is there
+replace("    there = True\n", "    there = False\n")
+# %% 15.6 wrong: a refusal ends a visit | hint: A failed call does not end a visit
+replace("while there is not False and", "while there and")
+# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, found was False, so no customer is there
+replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
+# %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
+replace("        rospy.sleep(0.2)\n", "")
+# %% 15.6 wrong: no pause after a refusal | hint: After a failed call, the next call came immediately
+replace("        rospy.sleep(0.5)\n", "")
+# %% 15.6 wrong: a long pause | hint: the next call came too late
+replace("rospy.sleep(0.5)", "rospy.sleep(3)")
+# %% 15.6 wrong: another call before the response | hint: The node made another call before the response came
+replace("import math", "import math\nimport threading")
+replace("return detect(patience).found", """results = []
+        thread = threading.Thread(target=lambda: results.append(detect(patience).found), daemon=True)
+        thread.start()
+        thread.join(0.8)
+        return results[0] if results else False""")
+# %% 15.6 wrong: no greeting | hint: A customer came, but no greeting followed
+replace('    greetings.publish("Good day!")\n', "")
+# %% 15.6 wrong: greets again | hint: There were more greetings than visits
+replace("        there = is_there(0)\n", "        there = is_there(0)\n        if there:\n            greetings.publish('Good day!')\n")
+# %% 15.6 wrong: the response as a truth value | hint: The node acted as if a customer was there, although found was
+replace("return detect(patience).found", "return bool(detect(patience))")
+# %% 15.6 wrong: another greeting | hint: The text of the greeting is wrong
+replace("Good day!", "Hello")
+# %% 15.6 wrong: no reset | hint: till/reset was not called
+replace("        reset()\n", "        pass\n")
+# %% 15.6 wrong: resets when a visit begins | hint: till/reset was called before the visit had ended
+replace("""    try:
+        reset()
+    except rospy.ServiceException as error:
+        rospy.logwarn("till/reset: %s", error)
+""", "")
+replace('    there = True\n', """    there = True
+    try:
+        reset()
+    except rospy.ServiceException:
+        pass
+""")
+# %% 15.6 wrong: waits for a till | hint: Do not wait for this service without a limit
+replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
+# %% 15.6 wrong: resets before and after | hint: more often than there were visits
+replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
+# %% 15.6 wrong: calls in the callback | hint: While a call waits, no joint state is mirrored
+replace("handle_joints(joints):", "handle_joints(joints):\n    if is_there(wait):\n        attend_visit()")
+replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
+
+# %% 15.4 right: sys.exit with the text
+solution()
+# %% 15.4 right: two functions, and a status
+replace("import sys … AwaitCustomer", '"""Is there a customer?"""\nimport sys\nimport rospy\nimport course_pkg.srv')
+replace('def main() … else "nobody")', """def ask(wait):
+    rospy.wait_for_service("detect_customer", 3.0)
+    detect = rospy.ServiceProxy("detect_customer", course_pkg.srv.AwaitCustomer)
+    return detect(patience=wait).found""")
+replace("main()", """rospy.init_node("ask_customer")
+    try:
+        found = ask(float(rospy.get_param("~wait", default=2)))
+    except rospy.ROSException as e:
+        print("no detector:", e, file=sys.stderr)
+        sys.exit(1)
+    except rospy.ServiceException as e:
+        print("refused:", e, file=sys.stderr)
+        sys.exit(1)
+    if found:
+        print("customer")
+    else:
+        print("nobody")""")
+# %% 15.4 wrong: does not wait | hint: The service started 1 s after the program, but the program had
+replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
+# %% 15.4 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+replace('rospy.get_param("~wait", 2.0)', "2.0")
+# %% 15.4 wrong: another default | hint: the second argument of rospy.get_param is the default
+replace('"~wait", 2.0', '"~wait", 5.0')
+# %% 15.4 wrong: calls twice | hint: The program called more than once
+replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
+# %% 15.4 wrong: does not call | hint: The program did not call the service
+replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
+replace('response.found', 'patience')
+# %% 15.4 wrong: spins | hint: The program called the service, but it did not end
+replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
+# %% 15.4 wrong: prints nothing | hint: The program printed nothing
+replace('print("customer" if', '("customer" if')
+# %% 15.4 wrong: the response as a truth value | hint: found was False, but the program printed "customer"
+replace("if response.found", "if response")
+# %% 15.4 wrong: prints the response | hint: The line has to contain only the word "customer" or only the
+replace('"customer" if response.found else "nobody"', "response")
+# %% 15.4 wrong: two lines | hint: The program printed other lines, too
+replace('    print("customer"', '    print("The detector says:")\n    print("customer"')
+# %% 15.4 wrong: an error status for nobody | hint: remove the sys.exit
+replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
+# %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
+replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
+# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason of the failure
+replace("sys.exit(str(error))", 'sys.exit("failed")')
+# %% 15.4 wrong: exit status 0 after a refusal | hint: The call failed, so the exit status has to be 1
+replace("sys.exit(str(error))", "print(error)\n        return")
+# %% 15.4 wrong: waits without a limit | hint: There was no service, but the program waited for more than 3
+replace(", timeout=3)", ")")
+# %% 15.4 wrong: the timeout is not caught | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
+replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
+# %% 15.4 wrong: silent without a service | hint: There was no service, but the program ended without a message
+based_on("two functions, and a status")
+replace('        print("no detector:", e, file=sys.stderr)\n', "")
+
+# %% 15.7 right: a dict
+solution()
+# %% 15.7 right: a class that keeps the total
+replace("from course_pkg … cents by item", "from course_pkg.srv import TillSet, TillSetResponse, TillTotal, TillTotalResponse")
+replace("def handle_set … .values())", """class Till(object):
+    def __init__(self):
+        self.items = dict()
+        self.total = 0
+        rospy.Service("till/set", TillSet, self.set)
+        rospy.Service("till/total", TillTotal, self.get_total)
+
+    def set(self, req):
+        if req.item == "" or req.cents < 0:
+            raise rospy.ServiceException("'%s' for %d cents is impossible" % (req.item, req.cents))
+        self.total += req.cents - self.items.get(req.item, 0)
+        self.items[req.item] = req.cents
+        return TillSetResponse(total=self.total)
+
+    def get_total(self, req):
+        res = TillTotalResponse()
+        res.cents = self.total
+        res.items = len(self.items)
+        return res""")
+replace("""def handle_total(request):
+    return sum(prices.values()), len(prices)""", 'def main():\n    rospy.init_node("till")\n    till = Till()\n    rospy.spin()')
+replace("""rospy.init_node("till")
+    rospy.Service("till/set", TillSet, handle_set)
+    rospy.Service("till/total", TillTotal, handle_total)
+    rospy.spin()""", "main()")
+# %% 15.7 wrong: the cents of the item | hint: The total has to be the sum of the cents of all
+replace("    return sum(prices.values())\n", "    return request.cents\n")
+# %% 15.7 wrong: an item counts twice | hint: If an item is set again, only the new price counts
+based_on("a class that keeps the total")
+replace(" - self.items.get(req.item, 0)", "")
+# %% 15.7 wrong: no free items | hint: An item that costs 0 cents is also an item
+replace("sum(prices.values()), len(prices)", "sum(prices.values()), len([p for p in prices.values() if p])")
+# %% 15.7 wrong: counts calls | hint: The field `items` has to be the number of different items
+based_on("a class that keeps the total")
+replace("        self.items[req.item] =", "        self.calls = getattr(self, 'calls', 0) + 1\n        self.items[req.item] =")
+replace("len(self.items)", "getattr(self, 'calls', 0)")
+# %% 15.7 wrong: the largest price | hint: The field `cents` of till/total has to be the same sum as
+replace("sum(prices.values()), len(prices)", "max(prices.values(), default=0), len(prices)")
+# %% 15.7 wrong: negative cents | hint: Negative cents have to be refused
+replace("request.cents < 0", "False")
+# %% 15.7 wrong: a message without the cents | hint: contain the name of the item and the cents
+replace('f"{request.item}: {request.cents} cents are negative"', '"an item cannot be negative"')
+# %% 15.7 wrong: no name | hint: An item with an empty name has to be refused
+replace("if not request.item:", "if False:")
+# %% 15.7 wrong: stores before it refuses | hint: The call was refused, but the content of the till has changed
+replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
+# %% 15.7 wrong: 32 bits | hint: The sum of amounts above 2147483647 has to be right, too
+replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
+# %% 15.7 wrong: small letters | hint: milk and MILK are two different items
+replace("prices[request.item]", "prices[request.item.lower()]")
+# %% 15.7 wrong: refuses 0 cents | hint: The till refused a valid item
+replace("request.cents < 0", "request.cents <= 0")
+# %% 15.7 wrong: a ValueError | hint: The handler raised an error that is not a rospy.ServiceException
+replace("raise rospy.ServiceException(f", "raise ValueError(f")
+
+# %% 15.8 right: a lock around it all
+solution()
+# %% 15.8 right: acquire and release, and the error is caught
+replace("\nimport rospy … and counted", """import rospy
+from course_pkg.srv import PrintLine, TillSet, TillSetResponse, TillTotal, TillTotalResponse""")
+replace("def handle_set … len(prices)", """class Till:
+    def __init__(self):
+        self.items = {}
+        self.lock = threading.Lock()
+        self.printer = rospy.ServiceProxy("print_line", PrintLine)
+        rospy.Service("till/set", TillSet, self.set)
+        rospy.Service("till/total", TillTotal, self.total)
+
+    def set(self, req):
+        if len(req.item) == 0 or req.cents < 0:
+            raise rospy.ServiceException("%s %d?" % (req.item, req.cents))
+        self.lock.acquire()
+        try:
+            rospy.wait_for_service("print_line", timeout=1)
+            self.printer(req.item + " " + str(req.cents))
+            self.items[req.item] = req.cents
+            return TillSetResponse(sum(self.items.values()))
+        except (rospy.ServiceException, rospy.ROSException) as e:
+            raise rospy.ServiceException("not printed: " + str(e))
+        finally:
+            self.lock.release()
+
+    def total(self, req):
+        return TillTotalResponse(sum(self.items.values()), len(self.items))""")
+replace("print_line = rospy … handle_total)", "Till()")
+# %% 15.8 wrong: prints nothing | hint: Nothing was printed. Call print_line
+replace('        print_line(f"{request.item} {request.cents}")\n', "")
+# %% 15.8 wrong: another line | hint: The line has to be the name of the item, one space,
+replace('"{request.item} {request.cents}"', '"{request.item}: {request.cents}"')
+# %% 15.8 wrong: the refusal is swallowed | hint: The printer refused the line, but the till accepted the item
+replace('        print_line(f"{request.item} {request.cents}")\n', '''        try:
+            print_line(f"{request.item} {request.cents}")
+        except rospy.ServiceException as error:
+            rospy.logwarn(error)
+''')
+# %% 15.8 wrong: the reason is lost | hint: has to contain the printer's message
+based_on("acquire and release, and the error is caught")
+replace('"not printed: " + str(e)', '"not printed"')
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the item counts
+based_on("prints nothing")
+replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
+# %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
+replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
+# %% 15.8 wrong: repeats a refused line | hint: Call it once for each item
+replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
+            print_line(f"{request.item} {request.cents}")
+        except rospy.ServiceException:
+            print_line(f"{request.item} {request.cents}")
+""")
+# %% 15.8 wrong: no line for the old price | hint: Print a line for each call of till/set
+replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
+# %% 15.8 wrong: prints what it refuses | hint: A line was printed for a refused item
+replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')
+replace('        print_line(f"{request.item} {request.cents}")\n        prices', '        prices')
+# %% 15.8 wrong: no lock | hint: The printer got two lines at the same time
+replace("    with turn:\n        print_line", "    if True:\n        print_line")
+# %% 15.8 wrong: repeats until the printer is free | hint: A line was refused, because another line was being printed
+based_on("the refusal is swallowed")
+replace("""raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")
+    with turn:""", 'raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")\n    for attempt in range(200):')
+replace('(f"{request.item} {request.cents}")', '(f"{request.item} {request.cents}")\n            break')
+replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                raise\n            rospy.sleep(0.01)\n    with turn:')
+# %% 15.8 wrong: the lock ends before the sum | hint: Hold one lock while you print, store and add up
+replace("""prices[request.item] = request.cents
+        return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
+# %% 15.8 wrong: the lock stays locked | hint: After a refused call, the next call got no response
+based_on("prints nothing")
+replace("with turn:\n        prices[request.item] = request.cents\n        return sum(prices.values())", """turn.acquire()
+    print_line(f"{request.item} {request.cents}")
+    prices[request.item] = request.cents
+    total = sum(prices.values())
+    turn.release()
+    return total""")
+replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
+# %% 15.8 wrong: gives up early | hint: The till refused an item although the printer works
+replace('        print_line(f"{request.item} {request.cents}")\n', '        raise rospy.ServiceException("print_line is unavailable")\n')
+
+# %% 15.9 right: the dict is cleared
+solution()
+# %% 15.9 right: a class and a response object
+replace("threading\n", "threading")
+replace("\n\nprices = {}  # cents by item\nturn = threading.Lock()  # held while a line is printed and counted", ", TriggerResponse")
+replace('def handle_set … paid} cents"', """class Till:
+    def __init__(self):
+        self.items = {}
+        self.lock = threading.RLock()
+        self.printer = rospy.ServiceProxy("print_line", PrintLine)
+        rospy.Service("till/set", TillSet, self.set)
+        rospy.Service("till/total", TillTotal, lambda _: [self.sum(), len(self.items)])
+        rospy.Service("till/reset", Trigger, self.reset)
+
+    def sum(self):
+        with self.lock:
+            return sum(self.items.values())
+
+    def set(self, req):
+        if not req.item or req.cents < 0:
+            raise rospy.ServiceException("%s for %d?" % (req.item, req.cents))
+        with self.lock:
+            self.printer(line="%s %d" % (req.item, req.cents))
+            self.items[req.item] = req.cents
+            return self.sum()
+
+    def reset(self, _):
+        response = TriggerResponse(success=True, message="already empty")
+        with self.lock:
+            if len(self.items) > 0:
+                response.message = "paid %d cents" % self.sum()
+            self.items = {}
+        return response""")
+replace("print_line = rospy … handle_reset)", "Till()")
+# %% 15.9 wrong: fails when it is empty | hint: A reset has to succeed in every case
+replace('True, "already empty"', 'False, "already empty"')
+# %% 15.9 wrong: prints the sum | hint: A reset has to succeed in every case
+replace("        prices.clear()\n", '        prices.clear()\n        print_line(f"sum {paid}")\n')
+# %% 15.9 wrong: another message | hint: The message has to be the word "paid", the sum of all
+replace('f"paid {paid} cents"', 'f"{paid} cents paid"')
+# %% 15.9 wrong: no message for an empty till | hint: If the till has no items, the message has to be "already
+replace('        if not prices:\n            return True, "already empty"\n', "")
+# %% 15.9 wrong: looks at the sum | hint: The till has an item, although its sum is 0
+replace("if not prices:", "if not sum(prices.values()):")
+# %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
+replace("        prices.clear()\n", "")
+# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, and its item is
+replace("handle_reset(request):", """handle_reset(request):
+    if not prices:
+        return True, "already empty"
+    paid = sum(prices.values())""")
+replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
+# %% 15.9 wrong: no lock | hint: The reset did not wait for the line
+replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
+# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, and its item was
+replace("by item", "by item\npending = {}")
+replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
+        pending[request.item] = request.cents
+    rospy.sleep(0.3)
+    prices.update(pending)
+    pending.clear()
+    return sum(prices.values())""")
+replace("= sum(prices.values())", "= sum({**prices, **pending}.values())")
+
+# %% 15.10 right: a group
+solution()
+
+# %% 15.10 right: a condition for each node, and a global parameter
+'''%%writefile src/my_cashier/launch/cashier.launch
+<?xml version="1.0"?>
+<launch>
+  <arg name="hardware" default="True"/>
+  <arg name="wait" default="2"/>
+  <node if="$(arg hardware)" name="counter_camera" pkg="course_pkg" type="counter_camera" output="screen"/>
+  <node if="$(arg hardware)" name="robot" pkg="course_pkg" type="robot"/>
+  <node unless="$(eval not arg('hardware'))" name="receipt_printer" pkg="course_pkg" type="receipt_printer"/>
+  <node name="till" pkg="my_cashier" type="till.py" output="screen" respawn="true"/>
+  <param name="robot_cashier/wait" value="$(arg wait)"/>
+  <node name="robot_cashier" pkg="my_cashier" type="robot_cashier.py" output="screen"/>
+  <node name="customer_detector" pkg="my_cashier" type="customer_detector.py"/>
+  <node name="vision" pkg="my_cashier" type="vision.py"/>
+</launch>
+'''
+
+# %% 15.10 wrong: a tag that is not closed | hint: The file is not valid XML
+replace('name="robot" />', 'name="robot" >')
+# %% 15.10 wrong: a fixed argument | hint: The attribute "value" of an <arg> tag cannot be overridden
+replace('name="hardware" default=', 'name="hardware" value=')
+# %% 15.10 wrong: no argument | hint: An argument is not declared
+replace('  <arg name="hardware" default="true" />\n', "")
+# %% 15.10 wrong: no default | hint: The file has to work without arguments
+replace('name="wait" default="2.0"', 'name="wait"')
+# %% 15.10 wrong: yes is no boolean | hint: The attribute "if" needs the value true or false
+replace('if="$(arg hardware)"', 'if="$(arg wait)"')
+# %% 15.10 wrong: an unknown substitution | hint: Type roslaunch --nodes my_cashier
+replace('value="$(arg wait)"', 'value="$(value wait)"')
+# %% 15.10 wrong: always with hardware | hint: With hardware:=false, the nodes counter_camera, robot and receipt_printer must not start
+replace('<group if="$(arg hardware)">', "<group>")
+# %% 15.10 wrong: unless | hint: Without an argument, the hardware has to start
+replace('<group if=', "<group unless=")
+# %% 15.10 wrong: no till | hint: is missing: compare the names of the nodes
+replace('  <node pkg="my_cashier" type="till.py" name="till" />\n', "")
+# %% 15.10 wrong: another node | hint: The exercise does not ask for a node
+replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_customer" />\n</launch>')
+# %% 15.10 wrong: the nodes of the course | hint: A node starts the wrong program
+replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
+# %% 15.10 wrong: no parameter | hint: The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)"
+replace('    <param name="wait" value="$(arg wait)" />\n', "")
+# %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
+replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
+replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
+# %% 15.10 wrong: another default | hint: Without an argument, the patience has to be 2 s: write default="2.0".
+replace('default="2.0"', 'default="3.0"')
+# %% 15.10 wrong: a fixed value | hint: The parameter has a fixed value
+replace('value="$(arg wait)"', 'value="2.0"')
+
+# %% 15.11 right: respawn for four nodes
+solution()
+
+# %% 15.11 right: with a delay, and output on the screen
+'''%%writefile src/my_cashier/launch/cashier.launch
+<launch>
+  <arg name="hardware" default="true"/>
+  <arg name="wait" default="2.0"/>
+  <node if="$(arg hardware)" name="counter_camera" pkg="course_pkg" type="counter_camera" respawn="true"/>
+  <node if="$(arg hardware)" name="robot" pkg="course_pkg" type="robot" respawn="true"/>
+  <node if="$(arg hardware)" name="receipt_printer" pkg="course_pkg" type="receipt_printer" respawn="true"/>
+  <node name="till" pkg="my_cashier" type="till.py" output="screen" respawn="true" respawn_delay="0.5"/>
+  <node name="robot_cashier" pkg="my_cashier" type="robot_cashier.py" output="screen" respawn="true">
+    <param name="wait" type="double" value="$(arg wait)"/>
+  </node>
+  <node name="customer_detector" pkg="my_cashier" type="customer_detector.py" respawn="true"/>
+  <node name="vision" pkg="my_cashier" type="vision.py" respawn="true"/>
+</launch>
+'''
+
+# %% 15.11 wrong: no respawn | hint: only if its <node> tag has respawn
+replace(' respawn="true"', "", times=4)
+# %% 15.11 wrong: one node without respawn | hint: roslaunch starts a node again
+replace('name="till" respawn="true"', 'name="till"')
+# %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type
+replace('name="robot" />', 'name="robot" >')
+# %% 15.11 wrong: no vision | hint: is missing, or it has no … is missing, or it has no
+replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
+# %% 15.11 wrong: another name | hint: is missing, or it has no
+replace('name="till"', 'name="cash_register"')
+
+# %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find one
+change_node("vision", "vision.sees_customer = lambda frame: False")
+
+# %% 15.11 wrong: no greeting | hint: The detector finds the customer, but no greeting came
+change_node("robot_cashier", "robot_cashier.RobotCashier.greet = lambda self, wait: self._over.wait()")
+
+# %% 15.11 wrong: greets again and again | hint: One customer was greeted more than once
+change_node("robot_cashier", """robot_cashier.RobotCashier._await_departure = lambda self: self._over.wait(0.3)
+robot_cashier.RobotCashier._empty_till = lambda self: None""")
+
+# %% 15.11 wrong: a total that loses items | hint: Two customers called till/set at the same time, and then the sum
+change_node("till", "till.Till.handle_total = lambda self, _: (max(self._cents.values(), default=0), len(self._cents))")
+
+# %% 15.11 wrong: no lock in the till | hint: Two customers called till/set at the same time, and a call failed
+change_node("till", """import contextlib
+
+make = till.Till.__init__
+
+
+def unlocked(self):
+    make(self)
+    self._turn = contextlib.nullcontext()
+
+
+till.Till.__init__ = unlocked""")
+
+# %% 15.11 wrong: the printer's refusal is swallowed | hint: so till/set has to refuse the item
+change_node("till", """class Proxy(till.BoundedProxy):
+    def __call__(self, line):
+        try:
+            super().__call__(line)
+        except Exception:
+            pass
+
+
+till.BoundedProxy = Proxy""")
+
+# %% 15.11 wrong: an item without a name | hint: An item without a name has to be refused. Check
+based_on("no lock in the till")
+replace('change_node("till", """import contextlib\n\nmake = till.Till.__init__', 'change_node("till", """handle_set = till.Till.handle_set')
+replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def handle(self, request):
+    request.item = request.item or "no name"
+    return handle_set(self, request)""")
+replace("__init__ = unlocked", "handle_set = handle")
+# %% 15.11 wrong: counts what is refused | hint: A refused item changed the total
+based_on("an item without a name")
+replace('request.item = request.item or "no name"\n    return handle_set(self, request)', """try:
+        return handle_set(self, request)
+    except till.rospy.ServiceException:
+        self._cents["refused"] = 5
+        raise""")
+
+# %% 15.11 wrong: no reset after a visit | hint: The customer has left, but the till still has items
+change_node("robot_cashier", "robot_cashier.RobotCashier._empty_till = lambda self: None")
+
+# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only few mirror images
+change_node("robot_cashier", """import random
+
+mirror = robot_cashier.RobotCashier.mirror
+robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
+
+# %% 15.11 wrong: a guess without a camera | hint: so detect_customer has to refuse. Check
+change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
+
+# %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses
+based_on("no lock in the till")
+replace('till", """import contextlib', 'customer_detector", """import time')
+replace("make = till.Till.__init__", "import course_pkg.shop.watch as watch\n\nlook = watch.Eye.look")
+replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def once(self):
+    if look(self) is None and self._last > 0:
+        self.dead = True
+    return None if hasattr(self, "dead") else look(self)""")
+replace("till.Till.__init__ = unlocked", "watch.Eye.look = once")
+# %% 15.11 wrong: no second start | hint: All nodes were started again, but the next customer was not greeted
+based_on("no lock in the till")
+replace("change_node … Till.__init__", 'change_node("robot_cashier", """import os\n\ngreet = robot_cashier.RobotCashier.greet')
+replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def once(self, wait):
+    if os.path.exists("started"):
+        self._over.wait()
+    open("started", "w").close()
+    greet(self, wait)""")
+replace("till.Till.__init__ = unlocked", "robot_cashier.RobotCashier.greet = once")
+
+# %% 15.11 wrong: vision publishes nothing | hint: The camera publishes frames, but no message comes on customer_seen
+change_node("vision", "vision.Vision.handle_frame = lambda self, frame: None")

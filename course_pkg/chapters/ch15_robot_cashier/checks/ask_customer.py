@@ -1,0 +1,262 @@
+"""15.4: a program that waits for the detector with a limit, calls it once, and ends."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, program, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import examined, started, why_ended
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.scripted_server import Act, Refuse
+from course_pkg.checking.shared.catkin_package import BuiltPackage
+from course_pkg.srv import AwaitCustomerRequest
+from course_pkg.waiting import wait_until
+
+NAME = "ask_customer"
+DETECT = "detect_customer"
+AWAIT = "course_pkg/AwaitCustomer"
+STARTING = 20.0  # s for Python and rospy on a busy machine
+ENDING = 6.0  # s in which a program has to end after the response
+LIMIT = 3.0  # s for which the program waits for the service
+SOON = 1.0  # s between the start of the node and the start of the service
+REASON = "no message from the camera"
+REFUSED = 55.0  # s, a patience that the service refuses
+LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")  # lines of rospy's log, and warnings of Python
+
+LATE = (
+    "The service started 1 s after the program, but the program had already ended. "
+    "Wait for the service with rospy.wait_for_service(name, timeout=3)."
+)
+PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+DEFAULT = (
+    "Without a parameter, the patience has to be 2 s: the second argument of rospy.get_param is the default."
+)
+ONCE = "The program called more than once. Make only one call, and print its result."
+NEVER = "The program did not call the service. Call detect_customer, without a slash, after rospy.init_node."
+NO_END = (
+    "The program called the service, but it did not end. Remove rospy.spin(), "
+    "because the program has nothing else to do."
+)
+SILENT = "The program printed nothing. Print one line: customer or nobody."
+FIELD = (
+    'found was False, but the program printed "customer". In an "if", a response '
+    "object is always true: test its field `found`."
+)
+OTHER_LINE = 'The line has to contain only the word "customer" or only the word "nobody".'
+MORE_LINES = "The program printed other lines, too. Print only one line, because another program may read it."
+STATUS_0 = '"nobody" is also a valid result, so the exit status has to be 0: remove the sys.exit.'
+CATCH_REFUSAL = (
+    "A refused call raises rospy.ServiceException. Catch this error, and end with sys.exit(str(error))."
+)
+NO_REASON = (
+    "The output does not contain the reason of the failure: print the text of the rospy.ServiceException."
+)
+STATUS_1 = (
+    "The call failed, so the exit status has to be 1: sys.exit(TEXT) prints the "
+    "text and ends with the exit status 1."
+)
+FOREVER = (
+    "There was no service, but the program waited for more than 3 s: call "
+    "rospy.wait_for_service with a timeout."
+)
+CATCH_TIMEOUT = "After its timeout, rospy.wait_for_service raises rospy.ROSException: catch this error, too."
+NO_WORD = "There was no service, but the program ended without a message: print the reason before it ends."
+
+
+@part(
+    "15.4",
+    points=2,
+    goal=(
+        "Write ask_customer.py: it waits up to 3 s for detect_customer, calls it once, "
+        "prints customer or nobody, and ends."
+    ),
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME),
+)
+def the_client(context: CheckContext) -> None:
+    """Start the program before its service, with a responding or refusing service, and without one."""
+    package = examined(context, NAME)
+    with ExitStack() as ending:
+        detector = _Detector(context.random.number(3.0, 30.0, digits=1))
+        usual = _Detector(detector.wait)
+        early, default, refused, alone = (
+            Run(context, package, ending, given)
+            for given in ({"wait": detector.wait}, {}, {"wait": REFUSED}, {"wait": 1.0})
+        )
+        for run in (default, refused):
+            context.serve(f"{run.space}/{DETECT}", AWAIT, usual.answer)
+        early.is_on_the_graph()
+        wait_until(early.has_ended, SOON)
+        _waits(context, early)
+        context.serve(f"{early.space}/{DETECT}", AWAIT, detector.answer)
+        _calls(context, early.end(), detector)
+        _finds_nobody(context, default.end(), usual)
+        _is_refused(context, refused.end())
+        alone.is_on_the_graph()
+        _gives_up(context, alone.end(LIMIT + 2.0))
+
+
+class Run:
+    """One run of the program, in a separate namespace."""
+
+    def __init__(
+        self, context: CheckContext, package: BuiltPackage, ending: ExitStack, given: dict[str, float]
+    ) -> None:
+        self.space = f"/{context.random.word()}"
+        self.status: int | None = None
+        self.out = ""
+        self._context = context
+        self._running: Running = ending.enter_context(started(package, NAME, self.space, [DETECT], given))
+
+    def has_ended(self) -> bool:
+        """Return whether the program has ended by itself."""
+        return self._running.status is not None
+
+    def is_on_the_graph(self) -> None:
+        """Wait until the node is on the graph or the program has ended."""
+        wait_until(
+            lambda: (
+                self.has_ended()
+                or any(node.name.startswith(f"{self.space}/") for node in self._context.look().nodes)
+            ),
+            STARTING,
+            0.1,
+        )
+
+    def end(self, within: float = ENDING) -> Run:
+        """Wait for the program's end, or stop it `within` s after its node is on the graph (status None)."""
+        self.is_on_the_graph()
+        wait_until(self.has_ended, within, 0.05)
+        finished = self._running.stop()
+        self.status, self.out = finished.status, finished.out
+        return self
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines that the program printed."""
+        return [line.strip() for line in self.out.splitlines() if line.strip()]
+
+    @property
+    def found_no_service(self) -> bool:
+        """Whether the program's output shows that the service did not exist."""
+        return "timeout exceeded" in self.out or "unavailable" in self.out
+
+    @property
+    def last(self) -> str:
+        """The last line that the program printed, and how it ended."""
+        ended = "still running" if self.status is None else f"exit status {self.status}"
+        return f"{self.lines[-1] if self.lines else 'no output'} ({ended})"
+
+
+class _Detector:
+    """Finds a customer if the patience is `wait`, and nobody otherwise; refuses the patience REFUSED."""
+
+    def __init__(self, wait: float) -> None:
+        self.wait = wait
+        self.patiences: list[float] = []
+
+    def answer(self, request: AwaitCustomerRequest) -> Act:
+        patience = round(request.patience, 3)
+        if patience == REFUSED:
+            return Refuse(REASON)
+        self.patiences.append(patience)
+        return {"found": patience == self.wait}
+
+
+def _waits(context: CheckContext, run: Run) -> None:
+    if run.has_ended():
+        run.end()
+        unexplained = run.found_no_service or not run.out.strip()
+        context.fail(
+            "the program waits for a service that does not exist yet",
+            expected="a program that is still running",
+            actual=run.last,
+            hint=LATE if unexplained else why_ended(program(NAME), run.out),
+        )
+    context.require("the program waits for a service that does not exist yet", holds=True)
+
+
+def _calls(context: CheckContext, run: Run, detector: _Detector) -> None:
+    calls = detector.patiences
+    context.require(
+        "the program calls the service once and ends",
+        holds=run.status is not None and len(calls) == 1,
+        expected="one call and an exit status",
+        actual=f"{len(calls)} calls; {run.last}",
+        hints=[
+            (lambda _: not calls and run.found_no_service, LATE),
+            (lambda _: not calls, NEVER),
+            (lambda _: len(calls) > 1, ONCE),
+            (ANYTHING, NO_END),
+        ],
+    )
+    context.expect(
+        "the patience is the parameter ~wait",
+        expected=detector.wait,
+        actual=calls[0],
+        near=1e-3,
+        hints=PARAMETER,
+    )
+    _prints(context, run, "customer")
+
+
+def _finds_nobody(context: CheckContext, run: Run, detector: _Detector) -> None:
+    context.expect(
+        "without the parameter, the patience is 2 s",
+        expected=[2.0],
+        actual=detector.patiences,
+        near=1e-6,
+        hints=DEFAULT,
+    )
+    _prints(context, run, "nobody")
+
+
+def _prints(context: CheckContext, run: Run, word: str) -> None:
+    words = [line for line in run.lines if line in ("customer", "nobody")]
+    others = [line for line in run.lines if line not in words and not LOGGED.search(line)]
+    wrong: Hints = [
+        (lambda _: not run.lines, SILENT),
+        (lambda _: word == "nobody" and words == ["customer"], FIELD),
+        (lambda _: bool(words), MORE_LINES),
+        (ANYTHING, OTHER_LINE),
+    ]
+    context.require(
+        "the program prints only customer or nobody",
+        holds=words == [word] and not others,
+        expected=word,
+        actual=" / ".join(run.lines[:3]) or "no output",
+        hints=wrong,
+    )
+    context.expect("after a response, the exit status is 0", expected=0, actual=run.status, hints=STATUS_0)
+
+
+def _is_refused(context: CheckContext, run: Run) -> None:
+    context.require(
+        "after a refused call, the program prints the reason, and its exit status is 1",
+        holds=run.status == 1 and REASON in run.out and "Traceback" not in run.out,
+        expected=f"{REASON} (exit status 1)",
+        actual=run.last,
+        hints=[
+            (lambda _: "Traceback" in run.out, CATCH_REFUSAL),
+            (lambda _: REASON not in run.out, NO_REASON),
+            (ANYTHING, STATUS_1),
+        ],
+    )
+
+
+def _gives_up(context: CheckContext, run: Run) -> None:
+    context.require(
+        "without a service, the program gives up after 3 s with a message, and its exit status is 1",
+        holds=run.status == 1 and bool(run.lines) and "Traceback" not in run.out,
+        expected="a message (exit status 1)",
+        actual=run.last,
+        hints=[
+            (lambda _: run.status is None, FOREVER),
+            (lambda _: "Traceback" in run.out, CATCH_TIMEOUT),
+            (lambda _: not run.lines, NO_WORD),
+            (ANYTHING, STATUS_1),
+        ],
+    )

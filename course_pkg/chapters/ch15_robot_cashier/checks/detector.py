@@ -1,0 +1,256 @@
+"""15.2 and 15.3: a service that waits for a customer with a limit, and refuses if the camera is silent."""
+
+from __future__ import annotations
+
+import math
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.refusals import BUG, refused
+from course_pkg.chapters.ch15_robot_cashier.checks.seen_customers import SeenCustomers
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
+from course_pkg.checking.peers.service_calls import Service
+
+NAME = "customer_detector"
+SEEN, DETECT = "customer_seen", "detect_customer"
+INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
+AWAIT = "course_pkg/AwaitCustomer"
+LONG = 6.0  # s of patience, longer than any wait that succeeds
+LATER = 2.2  # s until a customer comes
+SLACK = 2.0  # s that a call may take longer on a busy machine
+EARLY = 0.1  # s by which a call may end too early, because of rounding
+CALLERS = 4
+
+NOT_SEEN = (
+    "In the newest message, a customer is there, but found is False in the response. Use the newest message."
+)
+REMEMBERED = (
+    "In the newest message, no customer is there, but found is True in the "
+    "response. Use only the newest message."
+)
+NO_WAIT = (
+    "The response came before the patience was over, although no customer was "
+    "there. Wait for request.patience seconds."
+)
+TOO_LONG = (
+    "The response came long after the patience was over: use request.patience as the limit of the wait."
+)
+ONE_BY_ONE = (
+    "While one call waited, another call got no response. Do not hold a lock while "
+    "the handler waits; Condition.wait_for releases its lock."
+)
+NOT_WOKEN = (
+    "The customer came while several calls were waiting, but a call noticed this "
+    "too late. Wake up all waiting calls in the callback, with notify_all."
+)
+UNREFUSED = "The patience has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
+NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
+NAMELESS = 'The error message has to contain the word "patience".'
+FIRST = "The handler waited before it refused: check the patience at the beginning of the handler."
+
+FAILED: Hints = [
+    (
+        REFUSED_BY_HANDLER,
+        "The handler refused a valid call. Accept each patience from 0 to 60 s while messages arrive.",
+    ),
+    (matches("error processing"), BUG),
+    (matches("TimesUp"), TOO_LONG),
+]
+
+
+@part(
+    "15.2",
+    points=3,
+    goal="Write customer_detector.py: detect_customer waits for a customer, with a limit.",
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME),
+)
+def the_detector(context: CheckContext) -> None:
+    """Publish on customer_seen; call with and without a customer, and several times at the same time."""
+    with student_node(context, NAME, INTERFACE) as space:
+        vision = SeenCustomers(f"{space}/{SEEN}")
+        vision.is_heard(context)
+        vision.show(False)
+        detect = context.service(f"{space}/{DETECT}", AWAIT, timeout=LONG + SLACK, hints=FAILED)
+        vision.show(True)
+        _finds(context, detect, LONG, NOT_SEEN)
+        for patience in (0.0, 60.0):
+            _finds(context, detect, patience, NOT_SEEN)
+        vision.show(False)
+        _finds_nobody(context, detect, 0.0)
+        _finds_nobody(context, detect, context.random.number(1.2, 1.5))
+        _serves_several_callers(context, detect, vision)
+        _refuses_impossible_patience(context, detect, vision)
+
+
+def _finds(context: CheckContext, detect: Service, patience: float, hint: str, within: float = SLACK) -> None:
+    response = detect(patience=patience)
+    context.expect("a customer is found", expected=True, actual=response.found, hints=hint)
+    context.require(
+        "a customer is found immediately",
+        holds=detect.took < within,
+        expected="an immediate response",
+        actual=f"a response after {detect.took:.1f} s",
+        hints="A customer was there before the call: check first, and wait only if no customer is there.",
+    )
+
+
+def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> None:
+    response = detect(patience=patience)
+    context.expect(
+        "without a customer, found is False", expected=False, actual=response.found, hints=REMEMBERED
+    )
+    context.require(
+        "without a customer, the call waits for the whole patience",
+        holds=patience - EARLY < detect.took < patience + SLACK,
+        expected=f"a response after {patience:g} s",
+        actual=f"a response after {detect.took:.1f} s",
+        hints=NO_WAIT if detect.took < patience else TOO_LONG,
+    )
+
+
+def _serves_several_callers(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
+    """Let several calls wait; make a short call in the meantime; then let a customer come."""
+    with ThreadPoolExecutor(1) as pool:
+        began = time.monotonic()
+        vision.show_later(LATER, True)
+        waiting: Future[list[float]] = pool.submit(
+            lambda: [each.took for each in detect.at_once([{"patience": LONG}] * CALLERS)]
+        )
+        time.sleep(0.5)
+        short = context.service(detect.name, AWAIT, timeout=LATER)
+        response = short(patience=0.0)
+        context.require(
+            "a call that waits does not block other calls",
+            holds=not response.found and time.monotonic() - began < LATER,
+            expected="an immediate response",
+            actual="a response after the customer had come",
+            hints=ONE_BY_ONE,
+        )
+        took = waiting.result()
+    context.require(
+        "all waiting calls get a response when the customer comes",
+        holds=min(took) > LATER - 2 * EARLY and max(took) < LATER + SLACK,
+        expected=f"{CALLERS} responses after {LATER:g} s",
+        actual=f"responses after {min(took):.1f} to {max(took):.1f} s",
+        hints=NO_WAIT if min(took) < LATER - 2 * EARLY else NOT_WOKEN,
+    )
+
+
+def _refuses_impossible_patience(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
+    vision.show(False)
+    hasty = context.service(detect.name, AWAIT, timeout=3.0)
+    for what, patience in (
+        ("negative", -context.random.number(0.1, 5.0)),
+        ("above 60", context.random.number(60.5, 90.0)),
+        ("infinite", math.inf),
+        ("nan", math.nan),
+    ):
+        refused(
+            context,
+            hasty,
+            f"a patience that is {what} is refused immediately",
+            "patience",
+            patience=patience,
+            hints=[
+                (matches("TimesUp"), NAN if what == "nan" else FIRST),
+                (matches("cannot process request"), NAMELESS),
+                (ANYTHING, NAN if what == "nan" else UNREFUSED),
+            ],
+        )
+
+
+SILENT = 'The error message has to contain the word "camera".'
+OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
+NOBODY_KNOWS = (
+    "The camera is silent, so the node cannot know that found is False: raise "
+    "rospy.ServiceException when the patience is over."
+)
+TOO_SOON = (
+    "The node refused before the patience was over. New messages may arrive, so wait for the whole patience."
+)
+FRESH = "The last message was less than 1 s old, so it is valid. Use it."
+CAME_BACK = (
+    "The camera was silent, but new messages came in time. Use the newest message, "
+    "even if there was a pause before it."
+)
+
+REFUSED_TOO_MUCH: Hints = [(matches("camera"), FRESH), *FAILED[1:]]
+REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
+
+
+@part(
+    "15.3",
+    points=2,
+    goal="Extend customer_detector.py: without a message in the last second, detect_customer refuses.",
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
+)
+def the_silent_camera(context: CheckContext) -> None:
+    """Call before the first message, soon and long after the last message, and when new messages come."""
+    with student_node(context, NAME, INTERFACE) as space:
+        vision = SeenCustomers(f"{space}/{SEEN}")
+        vision.is_heard(context)
+        name = f"{space}/{DETECT}"
+        detect = context.service(name, AWAIT, timeout=LONG + SLACK, hints=REFUSED_RETURN)
+        _refuses(context, detect, 0.3, "before the first message, the node refuses")
+        vision.show_later(0.4, True)
+        _finds(context, detect, LONG, CAME_BACK, within=LONG / 2)
+        vision.customer = None
+        _counts_for_a_second(context, name, vision)
+        while vision.silent_for() < 1.2:
+            time.sleep(0.05)
+        _refuses(context, detect, 0.3, "after 1 s without a message, the node refuses")
+        vision.show(False)
+        vision.customer = None
+        _refuses(context, detect, 1.5, "if the camera becomes silent during the call, the node refuses")
+        vision.show_later(0.5, False)
+        response = detect(patience=1.0)
+        context.expect(
+            "if messages come again during the call, found has a value",
+            expected=False,
+            actual=response.found,
+            hints=CAME_BACK,
+        )
+
+
+def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers) -> None:
+    time.sleep(0.4)
+    detect = context.service(name, AWAIT, timeout=LONG, hints=REFUSED_TOO_MUCH)
+    found = True
+    if vision.silent_for() < 0.8:
+        found = detect(patience=0.0).found
+    if vision.silent_for() > 1.0:  # the machine is too busy for this test
+        found = True
+    context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
+
+
+def _refuses(context: CheckContext, detect: Service, patience: float, assertion: str) -> None:
+    started = time.monotonic()
+    refused(
+        context,
+        detect,
+        assertion,
+        "camera",
+        patience=patience,
+        hints=[
+            (matches("TimesUp"), TOO_LONG),
+            (matches("cannot process request"), SILENT),
+            (matches("True"), OLD),
+            (ANYTHING, NOBODY_KNOWS),
+        ],
+    )
+    took = time.monotonic() - started
+    context.require(
+        "the node refuses when the patience is over, not before",
+        holds=took > patience - EARLY,
+        expected=f"an error after {patience:g} s",
+        actual=f"an error after {took:.1f} s",
+        hints=TOO_SOON,
+    )

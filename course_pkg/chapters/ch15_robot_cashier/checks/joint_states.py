@@ -1,0 +1,88 @@
+"""The joint states that a check sends to the student's mirror."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.plain_values import Fields
+
+JOINTS = "sensor_msgs/JointState"
+FIRST = 1000  # s, the stamp of the first joint state; each further stamp is 1 s later
+COUNT = 24
+EFFORT = 7  # the number of a joint state with an infinite effort
+
+
+@dataclass
+class JointState:
+    """The fields of a joint state: positions in rad, velocities in rad/s, efforts in N m."""
+
+    secs: int
+    nsecs: int
+    frame_id: str
+    name: list[str]
+    position: list[float]
+    velocity: list[float]
+    effort: list[float]
+
+    @classmethod
+    def of(cls, fields: Fields) -> JointState:
+        """Return the joint state of a message."""
+        stamp = fields["header"]["stamp"]
+        arrays = (fields["name"], fields["position"], fields["velocity"], fields["effort"])
+        return cls(stamp["secs"], stamp["nsecs"], fields["header"]["frame_id"], *arrays)
+
+    def fields(self) -> Fields:
+        """Return the fields of the message."""
+        header = {"stamp": {"secs": self.secs, "nsecs": self.nsecs}, "frame_id": self.frame_id}
+        arrays = {"position": self.position, "velocity": self.velocity, "effort": self.effort}
+        return {"header": header, "name": self.name, **arrays}
+
+    @property
+    def misses_positions(self) -> bool:
+        """Whether there are more or fewer positions than names."""
+        return len(self.position) != len(self.name)
+
+    @property
+    def misses_velocities(self) -> bool:
+        """Whether there are velocities, but more or fewer than names."""
+        return len(self.velocity) not in (0, len(self.name))
+
+    @property
+    def is_valid(self) -> bool:
+        """Whether the arrays have the right lengths and all positions and velocities are finite."""
+        if self.misses_positions or self.misses_velocities:
+            return False
+        return all(map(math.isfinite, [*self.position, *self.velocity]))
+
+    @property
+    def header_text(self) -> str:
+        """The header as a report shows it."""
+        return f"frame_id {self.frame_id or 'none'}, stamp {self.secs}.{self.nsecs:09d}"
+
+
+def joint_states(context: CheckContext) -> list[JointState]:
+    """Return joint states; the first, the last and the next after each invalid joint state are valid."""
+    states = [_joint_state(context, number) for number in range(COUNT)]
+    states[3].position = states[3].position[:2]
+    states[5].position = [*states[5].position, 0.5]  # this one has no velocities
+    states[8].position = []
+    states[12].position = [math.nan, *states[12].position[1:]]
+    states[14].velocity = states[14].velocity[:2]
+    states[17].velocity = [*states[17].velocity[:-1], math.inf]
+    states[19].velocity = [*states[19].velocity, 0.5]
+    states[EFFORT].effort[0] = math.inf  # this one is valid
+    return states
+
+
+def _joint_state(context: CheckContext, number: int) -> JointState:
+    return JointState(
+        secs=FIRST + number,
+        nsecs=context.random.integer(1, 999_999_999),
+        frame_id="arm",
+        name=["base", "shoulder", "elbow"],
+        position=context.random.numbers(3, -3.0, 3.0),
+        velocity=context.random.numbers(3, -3.0, 3.0) if number % 5 else [],
+        effort=context.random.numbers(3, 1.0, 9.0) if number % 2 else [],
+    )

@@ -1,0 +1,182 @@
+"""15.10: a launch file with two arguments; roslaunch itself reads it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from contextlib import ExitStack
+
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import LAUNCH, MY_CASHIER, NODES
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.commands.folder import Running, telling_line
+from course_pkg.checking.shared.catkin_package import BuiltPackage, copied
+from course_pkg.waiting import wait_until
+
+FILE = MY_CASHIER.path(LAUNCH)
+START = f"%%writefile {FILE}\n..."
+HARDWARE = ("counter_camera", "robot", "receipt_printer")
+READING = 20.0  # s for roslaunch to read the file on a busy machine
+OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
+# Prints the nodes and the parameters that roslaunch reads from a launch file with the given arguments.
+READER = """
+import re, sys
+from roslaunch.config import load_config_default
+config = load_config_default([(sys.argv[1], sys.argv[2:])], None)
+for node in config.nodes:
+    print("node", node.namespace + node.name, node.package, node.type)
+    for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
+        print(f"{node.namespace}{node.name}/{key}: {value}")
+for parameter in config.params.values():
+    print(f"{parameter.key}: {parameter.value}")
+"""
+
+UNDECLARED = 'An argument is not declared: write an <arg> tag for "wait" and an <arg> tag for "hardware".'
+NO_XML = "The file is not valid XML: close each tag, and write each value in quotes."
+FIXED = 'The attribute "value" of an <arg> tag cannot be overridden. Use the attribute "default" instead.'
+REQUIRED = 'The file has to work without arguments: add the attribute "default" to each <arg> tag.'
+NO_BOOLEAN = 'The attribute "if" needs the value true or false. Write if="$(arg hardware)".'
+OTHER = "Type roslaunch --nodes my_cashier cashier.launch in the terminal, and read its output."
+UNREADABLE: Hints = [
+    (matches("Invalid roslaunch XML|not well-formed|mismatched"), NO_XML),
+    (matches("cannot override arg"), FIXED),
+    (matches("unused args"), UNDECLARED),
+    (matches("requires the|requires.*arg"), REQUIRED),
+    (matches("is not a valid|invalid boolean|not a .?bool"), NO_BOOLEAN),
+    (ANYTHING, OTHER),
+]
+NO_HARDWARE = (
+    "With hardware:=false, the nodes counter_camera, robot and receipt_printer must "
+    'not start: put them into a <group> with the attribute "if".'
+)
+DEFAULT_HARDWARE = (
+    'Without an argument, the hardware has to start: write default="true", and use '
+    'the attribute "if", not "unless".'
+)
+PROGRAMS = (
+    "A node starts the wrong program. Each type has to be the name of the node, "
+    "with .py for the four nodes of my_cashier: compare the attributes pkg and "
+    "type."
+)
+NO_PARAMETER = 'The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)".'
+PLACE = (
+    'The parameter "wait" does not belong to robot_cashier: write the <param> tag '
+    "inside the <node> tag of robot_cashier."
+)
+DEFAULT_WAIT = 'Without an argument, the patience has to be 2 s: write default="2.0".'
+NOT_PASSED = (
+    'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
+)
+
+
+@part(
+    "15.10",
+    points=2,
+    goal="Write cashier.launch: it starts the whole system, with the arguments wait and hardware.",
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def the_launch_file(context: CheckContext) -> None:
+    """Compare the nodes, programs and parameters that roslaunch would start."""
+    package = copied(context, MY_CASHIER, examined=LAUNCH, alone=True)
+    wait = context.random.number(2.5, 9.0)
+    given = [f"wait:={wait}", "hardware:=false"]
+    with ExitStack() as ending:
+        listed = [ending.enter_context(_roslaunch(package, words)) for words in ([], given)]
+        for command, words, wanted in zip(listed, ([], given), ((*HARDWARE, *NODES), NODES), strict=True):
+            _lists(context, _read(context, command), " ".join(words) or "no argument", wanted)
+    for words, value in (([], 2.0), (given, wait)):
+        printed = package.run(f"python3 -c '{READER}' {FILE} {' '.join(words)}", within=READING).out
+        _passes_the_argument(context, printed, value, words)
+        _starts_programs(context, printed)
+
+
+def _roslaunch(package: BuiltPackage, words: list[str]) -> Running:
+    return package.start(" ".join(["roslaunch --nodes my_cashier cashier.launch", *words]))
+
+
+def _printed(command: Running) -> tuple[int | None, str]:
+    wait_until(lambda: command.status is not None, READING, 0.05)
+    status = command.status
+    return status, command.stop().out
+
+
+def _read(context: CheckContext, command: Running) -> str:
+    """Assert that roslaunch can read the file; return its output."""
+    status, printed = _printed(command)
+    text = context.source(f"file:{FILE}")
+    asked = re.search(r"requires the '(\w+)' arg", printed)
+    undeclared = bool(asked) and not re.search(rf"<arg[^>]*name=.{asked[1] if asked else ''}\W", text)
+    context.require(
+        "roslaunch can read the file",
+        holds=status == 0,
+        expected="the nodes that it would start",
+        actual=telling_line(printed),
+        hints=[(lambda _: undeclared, UNDECLARED), *UNREADABLE],
+    )
+    return printed
+
+
+def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str]) -> None:
+    nodes = {line.strip().removeprefix("/") for line in printed.splitlines() if line.startswith("/")}
+    missing, others = sorted(set(wanted) - nodes), sorted(nodes - set(wanted))
+    missing_hint = (
+        DEFAULT_HARDWARE
+        if set(missing) == set(HARDWARE)
+        else f"{', '.join(missing)} is missing: compare the names of the nodes with the exercise."
+    )
+    context.require(
+        "the file starts the nodes of the exercise",
+        holds=not missing,
+        expected=f"{', '.join(wanted)} for {given}",
+        actual=", ".join(sorted(nodes)) or "no node",
+        hints=missing_hint,
+    )
+    context.require(
+        "the file does not start other nodes",
+        holds=not others,
+        expected=f"{', '.join(wanted)} for {given}",
+        actual=", ".join(sorted(nodes)),
+        hints=NO_HARDWARE
+        if set(others) <= set(HARDWARE)
+        else f"The exercise does not ask for a node {others[0]}: remove this node from the file.",
+    )
+
+
+def _passes_the_argument(context: CheckContext, printed: str, wait: float, given: list[str]) -> None:
+    """Assert that the private parameter of the cashier has the value `wait`."""
+    found = OF_CASHIER.search(printed)
+    every = re.findall(r"^(\S*wait): *(.+)$", printed, re.MULTILINE)
+    context.require(
+        "the parameter /robot_cashier/wait has the value of the argument wait",
+        holds=bool(found) and _number(found[1] if found else "") == wait,
+        expected=f"/robot_cashier/wait: {wait:g} for {' '.join(given) or 'no argument'}",
+        actual=", ".join(f"{name}: {value}" for name, value in every) or "no parameter wait",
+        hints=[
+            (matches("no parameter"), NO_PARAMETER),
+            (lambda _: not found, PLACE),
+            (lambda _: not given, DEFAULT_WAIT),
+            (ANYTHING, NOT_PASSED),
+        ],
+    )
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text.strip().strip("'\""))
+    except ValueError:
+        return None
+
+
+def _starts_programs(context: CheckContext, printed: str) -> None:
+    """Assert that each node runs the program with the node's name."""
+    for node, package, program in re.findall(r"^node /(\S+) (\S+) (\S+)", printed, re.MULTILINE):
+        wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
+        context.require(
+            "each node has its own program",
+            holds=f"{package} {program}" == wanted,
+            expected=wanted,
+            actual=f"{package} {program}",
+            hints=PROGRAMS,
+        )

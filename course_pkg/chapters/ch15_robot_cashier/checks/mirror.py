@@ -1,0 +1,200 @@
+"""15.5: a node that mirrors each valid joint state, and ignores invalid joint states."""
+
+from __future__ import annotations
+
+from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
+    EFFORT,
+    FIRST,
+    JOINTS,
+    JointState,
+    joint_states,
+)
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.subscription import Arrival, Subscription
+
+NAME = "robot_cashier"
+ARM, MIRRORED = "joint_states", "mirrored_joints"
+DETECT, RESET = "detect_customer", "till/reset"
+INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
+PROMPT = 0.5  # s from a joint state to its mirror image, on a busy machine
+EVERY = 0.05  # s between two joint states
+NOT_HEARD = "The topic joint_states has the type sensor_msgs/JointState: pass this type to rospy.Subscriber."
+NONE_CAME = "No mirror image came. Publish the mirror image of each valid joint state in the callback."
+OTHER_TIME = "The stamp of the image is not the stamp of its joint state: copy the header of the message."
+LATE = "The images come late. Publish in the callback, without any wait in the callback."
+ZEROS = (
+    "Zeros are valid positions, so the arm would move to them. Publish nothing for an invalid joint state."
+)
+
+
+@part(
+    "15.5",
+    points=2,
+    goal="Write robot_cashier.py: it publishes the mirror image of each valid joint state.",
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME),
+)
+def the_mirror(context: CheckContext) -> None:
+    """Publish valid and invalid joint states, and compare them with the mirror images."""
+    with student_node(context, NAME, INTERFACE, calls=[DETECT, RESET]) as space:
+        subscription = context.subscribe(f"{space}/{MIRRORED}", JOINTS)
+        subscription.published()
+        states = joint_states(context)
+        messages = [state.fields() for state in states]
+        publisher = context.publish(f"{space}/{ARM}", JOINTS, messages, every=EVERY, once=True)
+        publisher.listened(hints=NOT_HEARD)
+        publisher.finish(10.0)
+        _mirrors(context, subscription, states)
+        _is_prompt(context, subscription, publisher.sent)
+
+
+def _secs(arrival: Arrival) -> int:
+    return int(arrival.fields["header"]["stamp"]["secs"])
+
+
+def _mirrors(context: CheckContext, subscription: Subscription, states: list[JointState]) -> None:
+    valid = {state.secs: state for state in states if state.is_valid}
+    last = max(valid)
+    subscription.until(lambda arrivals: any(_secs(arrival) == last for arrival in arrivals), 3.0)
+    images = [JointState.of(arrival.fields) for arrival in subscription.arrivals]
+    published = {state.secs for state in states}
+    strange = [image.secs for image in images if image.secs not in published]
+    context.require(
+        "the images have the stamps of their joint states",
+        holds=bool(images) and not strange,
+        expected="images with the stamps of the published joint states",
+        actual=f"the stamp {strange[0]} s" if strange else "no image",
+        hints=[(matches("no image"), NONE_CAME), (ANYTHING, OTHER_TIME)],
+    )
+    _leaves_out(context, images, {state.secs: state for state in states if not state.is_valid})
+    for image in images:
+        _is_image(context, valid[image.secs], image)
+    stamps = list(valid)
+    context.expect(
+        "every valid joint state is mirrored once, and in the right order",
+        expected=stamps,
+        actual=[image.secs for image in images],
+        hints=_wrong_selection(stamps),
+    )
+
+
+def _is_prompt(context: CheckContext, subscription: Subscription, sent: list[float]) -> None:
+    delays = sorted(arrival.at - sent[_secs(arrival) - FIRST] for arrival in subscription.arrivals)
+    median = delays[len(delays) // 2]
+    context.require(
+        "each image comes immediately",
+        holds=median < PROMPT,
+        expected="an image some milliseconds after its joint state",
+        actual=f"half of the images after more than {median:.1f} s",
+        hints=LATE,
+    )
+
+
+def _leaves_out(context: CheckContext, images: list[JointState], invalid: dict[int, JointState]) -> None:
+    for image in images:
+        if image.secs in invalid:
+            actual, hint = _why_invalid(invalid[image.secs])
+            if image.position and not any(image.position):
+                hint = ZEROS
+            context.fail(
+                "an invalid joint state is ignored",
+                expected="no image of this joint state",
+                actual=actual,
+                hint=hint,
+            )
+    context.require("an invalid joint state is ignored", holds=True)
+
+
+def _why_invalid(state: JointState) -> tuple[str, str]:
+    """Return a description of the image of an invalid joint state, and the hint."""
+    if state.misses_positions:
+        return (
+            f"an image of {len(state.position)} positions for {len(state.name)} joints",
+            "The numbers of names and positions are different: compare both lengths, and "
+            "ignore such a message.",
+        )
+    if state.misses_velocities:
+        return (
+            f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
+            "The number of velocities has to be 0 or the number of names: check this "
+            "length, too, and ignore such a message.",
+        )
+    return (
+        "an image of a number that is not finite",
+        "nan and inf are not valid positions or velocities: check each number with math.isfinite.",
+    )
+
+
+def _is_image(context: CheckContext, state: JointState, image: JointState) -> None:
+    if image.header_text != state.header_text:
+        context.fail(
+            "the header is not changed",
+            expected=state.header_text,
+            actual=image.header_text,
+            hint="Copy the whole header, with stamp and frame_id: header=joints.header.",
+        )
+    for field, values, actual in (("name", state.name, image.name), ("effort", state.effort, image.effort)):
+        context.expect(
+            f"the field {field} is not changed",
+            expected=values,
+            actual=actual,
+            hints=f"The field `{field}` has to stay the same: copy the list from the joint state.",
+        )
+    for field, values, actual in (
+        ("position", state.position, image.position),
+        ("velocity", state.velocity, image.velocity),
+    ):
+        context.expect(
+            f"every {field} has the opposite sign",
+            expected=[-value for value in values],
+            actual=actual,
+            near=1e-9,
+            hints=_wrong_signs(field, values),
+        )
+
+
+def _wrong_signs(field: str, values: list[float]) -> Hints:
+    return [
+        (values, f"The list `{field}` is not changed: give each number the opposite sign."),
+        (
+            [],
+            f"The list `{field}` is empty in the image, but it was not empty in the joint "
+            "state. Copy it with opposite signs.",
+        ),
+        (
+            [-abs(value) for value in values],
+            "A negative number has to become a positive number: use -value, not -abs(value).",
+        ),
+        (ANYTHING, "Some numbers are wrong. Change only the sign of each number."),
+    ]
+
+
+def _wrong_selection(stamps: list[int]) -> Hints:
+    return [
+        (
+            lambda actual: len(set(actual)) < len(actual),
+            "Some images came more than once. Publish once for each joint state.",
+        ),
+        (
+            lambda actual: actual and actual == stamps[: len(actual)] and len(actual) < 5,
+            "No image came after the first invalid joint state. Ignore this message, and "
+            "continue with the next one.",
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + EFFORT},
+            "An infinite effort is valid: only positions and velocities have to be finite.",
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},
+            "A joint state without velocities is valid, because many robots send no "
+            "velocities. Mirror it, too.",
+        ),
+        (
+            ANYTHING,
+            "Some images are missing. Publish in the callback, because a loop with a pause misses messages.",
+        ),
+    ]

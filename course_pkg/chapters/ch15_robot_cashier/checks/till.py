@@ -1,0 +1,395 @@
+"""15.7, 15.8 and 15.9: a till that adds up prices, prints each item before it counts, and can be reset."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.printer import Printer
+from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.scripted_server import ScriptedServer
+from course_pkg.checking.peers.service_calls import Service
+
+NAME = "till"
+SET, TOTAL, RESET, PRINT = "till/set", "till/total", "till/reset", "print_line"
+TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
+    "course_pkg/TillSet",
+    "course_pkg/TillTotal",
+    "std_srvs/Trigger",
+    "course_pkg/PrintLine",
+)
+MANY = 8  # calls at the same time
+ANSWER = 5.0  # s for a call
+HOLDING = 0.4  # s that the printing of a line takes while a reset waits
+
+SET_HINTS: Hints = [
+    (
+        matches("jam"),
+        "The printer got two lines at the same time. Hold a lock while you print and store the price.",
+    ),
+    (
+        matches("out of|unavailable"),
+        "The till refused an item although the printer works. Call print_line, and accept the item.",
+    ),
+    (
+        matches("cannot process request: (?!.*handler returned)"),
+        "The till refused a valid item. Accept each item that has a name and 0 cents or more.",
+    ),
+]
+BROKEN = (
+    "After a refused call, the next call got no response. Use `with`, so that the "
+    "lock is also released after an exception."
+)
+
+
+@dataclass(frozen=True)
+class Till:
+    """The student's till, its services, and the printer of the check."""
+
+    space: str
+    printer: Printer
+    server: ScriptedServer
+    set: Service
+
+    def service(self, context: CheckContext, name: str, kind: str, hints: Hints = ()) -> Service:
+        """Return another service of the till."""
+        return context.service(f"{self.space}/{name}", kind, timeout=ANSWER, hints=hints)
+
+
+@contextmanager
+def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
+    """Start the student's till with a printer of the check."""
+    with student_node(context, NAME, Interface(services=[SET, *names]), calls=[PRINT]) as space:
+        printer = Printer()
+        server = context.serve(f"{space}/{PRINT}", PRINT_LINE, printer.answer)
+        kind = context.service(f"{space}/{SET}", TILL_SET, timeout=ANSWER, hints=SET_HINTS)
+        yield Till(space, printer, server, kind)
+
+
+def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
+    """Return items with different names and with amounts in cents."""
+    cents = context.random.integers(count, 50, 900)
+    return [(context.random.word(), amount) for amount in cents]
+
+
+# -- 15.7
+
+NOT_ADDED = "The total has to be the sum of the cents of all items, including the item of this call."
+TWICE = "If an item is set again, only the new price counts. Replace the old price."
+FREE = "An item that costs 0 cents is also an item. Store it like all other items."
+CASE = "milk and MILK are two different items. Store each name as the request contains it."
+COUNT = "The field `items` has to be the number of different items."
+SUM = "The field `cents` of till/total has to be the same sum as the total in the last response of till/set."
+NEGATIVE = "Negative cents have to be refused: raise rospy.ServiceException."
+NEGATIVE_TEXT = "The error message has to contain the name of the item and the cents."
+NAMELESS = "An item with an empty name has to be refused: raise rospy.ServiceException."
+CHANGED = (
+    "The call was refused, but the content of the till has changed. Check the "
+    "request before you store anything."
+)
+BIG = (
+    "The sum of amounts above 2147483647 has to be right, too. An int in Python has "
+    "no limit, so do not convert the numbers."
+)
+
+
+@part(
+    "15.7",
+    points=2,
+    goal=(
+        "Write till.py: till/set stores the price of an item, and till/total returns the sum of all prices."
+    ),
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME),
+)
+def the_sum(context: CheckContext) -> None:
+    """Set items, some of them twice; compare the total; send items that the till has to refuse."""
+    with running_till(context, TOTAL) as till:
+        total = till.service(context, TOTAL, TILL_TOTAL)
+        _totals(context, total, {}, COUNT, SUM)
+        prices: dict[str, int] = {}
+        items = _items(context, 4)
+        for item, cents, hint in (
+            (*items[0], NOT_ADDED),
+            (*items[1], NOT_ADDED),
+            (items[0][0], items[2][1], TWICE),
+            (items[1][0], items[1][1], TWICE),
+            (items[3][0], 0, FREE),
+            (items[0][0].upper(), items[3][1], CASE),
+            (items[2][0], 3_000_000_000, BIG),
+        ):
+            prices[item] = cents
+            _sets(context, till, item, cents, sum(prices.values()), hint)
+            _totals(context, total, prices, FREE if not cents else COUNT, SUM)
+        amount = -context.random.integer(1, 900)
+        item = context.random.word()
+        for word in (str(amount), item):
+            refused(
+                context, till.set, "negative cents are refused with item and cents in the message", word,
+                item=item, cents=amount,
+                hints=[(matches("cannot process request"), NEGATIVE_TEXT), (ANYTHING, NEGATIVE)],
+            )  # fmt: skip
+        refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
+        _totals(context, total, prices, CHANGED, CHANGED)
+
+
+def _sets(context: CheckContext, till: Till, item: str, cents: int, total: int, hint: str) -> None:
+    response = till.set(item=item, cents=cents)
+    context.expect("till/set returns the total", expected=total, actual=response.total, hints=hint)
+
+
+def _totals(context: CheckContext, total: Service, prices: dict[str, int], count: str, cents: str) -> None:
+    response = total()
+    context.expect(
+        "till/total returns the number of items", expected=len(prices), actual=response.items, hints=count
+    )
+    context.expect(
+        "till/total returns the sum", expected=sum(prices.values()), actual=response.cents, hints=cents
+    )
+
+
+# -- 15.8
+
+REASON = "out of paper"
+LINE = 'The line has to be the name of the item, one space, and the cents, such as "milk 120".'
+NOT_PRINTED = "Nothing was printed. Call print_line in the handler of till/set."
+NOT_REFUSED = (
+    "The printer refused the line, but the till accepted the item: raise "
+    "rospy.ServiceException if the printer refuses."
+)
+REASONLESS = (
+    "The error message has to contain the printer's message: use the text of the exception that you caught."
+)
+COUNTED = "The line was not printed, but the item counts. Store the price only after print_line has returned."
+NO_PRINTER = (
+    "Without a printer, the till has to refuse the call within 5 s. Do not wait for "
+    "the service without a limit."
+)
+ILLEGAL = (
+    "A line was printed for a refused item. Check for negative cents and an empty name before you print."
+)
+ORDER = (
+    "A total is not the sum of the lines printed before it, because another call "
+    "changed the till in the meantime. Hold one lock while you print, store and add "
+    "up."
+)
+
+
+@part(
+    "15.8",
+    points=3,
+    goal=(
+        "Extend till.py: an item counts only after print_line has printed it, and only "
+        "one line is printed at a time."
+    ),
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
+)
+def the_printed_till(context: CheckContext) -> None:
+    """Set items with a printer that works or refuses; then many at the same time; then without a printer."""
+    with running_till(context, TOTAL) as till:
+        total = till.service(context, TOTAL, TILL_TOTAL)
+        (item, cents), (other, more), (third, rest) = _items(context, 3)
+        _sets(context, till, item, cents, cents, NOT_ADDED)
+        context.require(
+            "the till prints a line",
+            holds=bool(till.printer.lines),
+            expected="a line",
+            actual="none",
+            hints=NOT_PRINTED,
+        )
+        context.expect(
+            "the line consists of the item and its cents",
+            expected=f"{item} {cents}",
+            actual=till.printer.lines[0],
+            hints=LINE,
+        )
+        prices = {item: cents}
+        _refuses_without_print(context, till, total, prices, (other, more))
+        _sets(context, till, other, more, cents + more, NOT_ADDED)
+        before = len(till.printer.lines)
+        _sets(context, till, other, more, cents + more, TWICE)
+        context.require(
+            "the till prints a line",
+            holds=len(till.printer.lines) == before + 1,
+            expected="one line for each call, also if the price is the old one",
+            actual=f"{len(till.printer.lines) - before} lines",
+            hints="The item had this price before. Print a line for each call of till/set.",
+        )
+        _prints_no_illegal_item(context, till)
+        _adds_up_in_order(context, till, {**prices, other: more})
+        _refuses_without_printer(context, till, third, rest)
+
+
+def _refuses_without_print(
+    context: CheckContext, till: Till, total: Service, prices: dict[str, int], item: tuple[str, int]
+) -> None:
+    """Let the printer refuse a new item, and a new price for an old item."""
+    till.printer.fault = REASON
+    for name, cents in (item, (next(iter(prices)), 1)):
+        before = till.printer.calls
+        refused(
+            context, till.set, "if the printer refuses, the till refuses with the printer's message", REASON,
+            item=name, cents=cents,
+            hints=[
+                (matches("TimesUp"), BROKEN),
+                (matches("cannot process request"), REASONLESS),
+                (ANYTHING, NOT_REFUSED),
+            ],
+        )  # fmt: skip
+        context.require(
+            "if the printer refuses, the till refuses with the printer's message",
+            holds=till.printer.calls <= before + 1,
+            expected="one call of print_line",
+            actual=f"{till.printer.calls - before} calls",
+            hints="The till called print_line again after a refusal. Call it once for each item.",
+        )
+        _totals(context, total, prices, COUNTED, COUNTED)
+    till.printer.fault = ""
+
+
+def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
+    before = len(till.printer.lines)
+    refused(context, till.set, "an item without a name is refused", "", item="", cents=5, hints=NAMELESS)
+    refused(context, till.set, "negative cents are refused", "", item="x", cents=-5, hints=NEGATIVE)
+    context.expect(
+        "nothing is printed for a refused item",
+        expected=[],
+        actual=till.printer.lines[before:],
+        hints=ILLEGAL,
+    )
+
+
+def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int]) -> None:
+    """Set many items at the same time; after each printed line, the total has to grow by its price."""
+    before = len(till.printer.lines)
+    items = _items(context, MANY)
+    replies = till.set.at_once([{"item": item, "cents": cents} for item, cents in items])
+    context.expect(
+        "the printer never gets two lines at the same time",
+        expected=0,
+        actual=till.printer.jams,
+        hints=(
+            "A line was refused, because another line was being printed. Hold a lock while "
+            "you print, and do not repeat the call."
+        ),
+    )
+    printed = [line.rpartition(" ") for line in till.printer.lines[before:]]
+    sums = list(itertools.accumulate((int(cents) for _, _, cents in printed), initial=sum(prices.values())))
+    wanted = {name: total for (name, _, _), total in zip(printed, sums[1:], strict=True)}
+    context.expect(
+        "each total is the sum of the lines printed so far",
+        expected=[wanted.get(item) for item, _ in items],
+        actual=[reply.response.total for reply in replies],
+        hints=ORDER,
+    )
+
+
+def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents: int) -> None:
+    till.server.leave()
+    refused(
+        context, till.set, "without a printer, the till refuses", "", item=item, cents=cents, hints=NO_PRINTER
+    )
+
+
+# -- 15.9
+
+SUCCEEDS = "A reset has to succeed in every case: set the field `success` to True."
+PAID = (
+    'The message has to be the word "paid", the sum of all items, and the word '
+    '"cents", such as "paid 460 cents".'
+)
+EMPTY = (
+    'If the till has no items, the message has to be "already empty", and the field `success` has to be True.'
+)
+FREE_ITEM = "The till has an item, although its sum is 0: check the number of items, not the sum."
+KEPT = (
+    "The till still has items after a reset. Remove all items, so that the next customer begins with 0 cents."
+)
+NOT_COUNTED = (
+    "A line was being printed during the reset, and its item is missing in the sum: "
+    "let the reset wait for the lock."
+)
+TOO_EARLY = "The reset did not wait for the line that was being printed. Use the same lock as in till/set."
+LEFT = (
+    "A line was being printed during the reset, and its item was in the till after "
+    "the reset. Hold a lock while you print and store."
+)
+
+
+@part(
+    "15.9",
+    points=2,
+    goal="Extend till.py: till/reset removes all items and returns a message with the sum that was paid.",
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
+)
+def the_reset(context: CheckContext) -> None:
+    """Reset a till with and without items, with a free item, and while a line is being printed."""
+    with running_till(context, TOTAL, RESET) as till:
+        total = till.service(context, TOTAL, TILL_TOTAL)
+        reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])
+        _resets(context, reset, "already empty", EMPTY)
+        items = _items(context, 2)
+        for item, cents in items:
+            till.set(item=item, cents=cents)
+        _resets(context, reset, f"paid {sum(cents for _, cents in items)} cents", PAID)
+        _totals(context, total, {}, KEPT, KEPT)
+        _resets(context, reset, "already empty", EMPTY)
+        till.set(item=items[0][0], cents=0)
+        _resets(context, reset, "paid 0 cents", FREE_ITEM)
+        _waits_for_a_line(context, till, reset, total)
+        till.set(item=items[0][0], cents=items[0][1])
+        till.server.leave()
+        _resets(context, reset, f"paid {items[0][1]} cents", PAID)
+
+
+def _resets(context: CheckContext, reset: Service, message: str, hint: str) -> None:
+    response = reset()
+    context.expect("a reset succeeds", expected=True, actual=response.success, hints=SUCCEEDS)
+    context.expect("the message of a reset is right", expected=message, actual=response.message, hints=hint)
+
+
+def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: Service) -> None:
+    """Call till/reset while a line is being printed."""
+    first, second = _items(context, 2)
+    till.set(item=first[0], cents=first[1])
+    till.printer.began.clear()
+    till.printer.held.clear()
+    release = threading.Timer(HOLDING, till.printer.held.set)
+    with ThreadPoolExecutor(1) as pool:
+        setting: Future[list[object]] = pool.submit(
+            lambda: [each.response for each in till.set.at_once([{"item": second[0], "cents": second[1]}])]
+        )
+        till.printer.began.wait(ANSWER)
+        release.start()
+        started = time.monotonic()
+        response = reset()
+        waited = time.monotonic() - started
+        setting.result()
+    context.require(
+        "a reset waits for the line that is being printed",
+        holds=waited > HOLDING - 0.1,
+        expected="a response after the line",
+        actual="a response before the line was printed",
+        hints=TOO_EARLY,
+    )
+    context.expect(
+        "the sum that was paid contains the item of this line",
+        expected=f"paid {first[1] + second[1]} cents",
+        actual=response.message,
+        hints=NOT_COUNTED,
+    )
+    _totals(context, total, {}, LEFT, LEFT)

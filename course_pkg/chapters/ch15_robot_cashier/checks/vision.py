@@ -1,0 +1,246 @@
+"""15.1: a node that publishes for each valid frame whether it shows a customer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import rospy
+from sensor_msgs.msg import Image
+
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, student_node
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.waiting import wait_until
+
+NAME = "vision"
+FRAMES, SEEN = "frames", "customer_seen"
+INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
+BOOL = "std_msgs/Bool"
+DARK = 96
+ANSWER = 8.0  # s for a message after a frame, on a busy machine; it usually takes 5 ms
+AGAIN = 0.03  # s in which a wrong second message for a frame would come
+SILENT = 0.25  # s in which a wrong message for a malformed frame would come
+
+AVERAGE = (
+    "A fifth of the points is dark, and all others are very light. Count the dark "
+    "points; do not use the average."
+)
+NOISE = (
+    "Only a twentieth of the points is dark. A frame shows a customer if at least a "
+    "tenth of all points is dark."
+)
+TENTH = "Exactly a tenth of the points is dark, which is enough: compare with >=."
+ROUNDED = (
+    "The number of dark points was one less than a tenth. Compare without rounding: "
+    "10 * dark >= width * height."
+)
+LIMIT = "All points that look dark have the value 96, but a point is dark only below 96: compare with <."
+PADDING = (
+    "A row has frame.step bytes, but only the first frame.width bytes are points: "
+    "row r begins at r * frame.step."
+)
+EMPTY = "All points are light, so this frame does not show a customer. Publish False."
+NOTHING = "The node published nothing for a valid frame. Does the callback reach the line that publishes?"
+TWICE = "The node published more than one message for a frame. Publish once for each valid frame."
+BROKE = (
+    "After a malformed frame, the node published nothing for a valid frame. Check "
+    "each frame before you read its points."
+)
+
+
+@part(
+    "15.1",
+    points=2,
+    goal=(
+        "Write vision.py: for each valid frame, it publishes on customer_seen whether "
+        "the frame shows a customer."
+    ),
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME),
+)
+def the_vision(context: CheckContext) -> None:
+    """Send frames with dark points around the limit, frames with padding, and malformed frames."""
+    with student_node(context, NAME, INTERFACE) as space:
+        seen = context.subscribe(f"{space}/{SEEN}", BOOL)
+        seen.published()
+        camera = Camera(f"{space}/{FRAMES}")
+        camera.is_heard(context)
+        width, height = (10 * number for number in context.random.integers(2, 2, 5))
+        for frame in _valid_frames(context, width, height):
+            _shows(context, camera, seen, frame)
+        for what, malformed, hint in _malformed_frames(context, width, height):
+            _leaves_out(context, camera, seen, malformed, what, hint)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A valid frame, whether it shows a customer, and the hint for a wrong message."""
+
+    assertion: str
+    image: Image
+    customer: bool
+    hint: str
+
+
+@dataclass(frozen=True)
+class Style:
+    """The brightness of dark points; the number of padding bytes in a row, and their value."""
+
+    dark: tuple[int, int] = field(default=(0, DARK - 1))
+    padding: int = 0
+    filling: int = 0
+
+
+class Camera:
+    """Publishes frames, one at a time."""
+
+    def __init__(self, topic: str) -> None:
+        self._publisher = rospy.Publisher(topic, Image, queue_size=10, tcp_nodelay=True)
+
+    def is_heard(self, context: CheckContext) -> None:
+        """Assert that the node receives the frames."""
+        context.require(
+            "the node subscribes to the frames with the type sensor_msgs/Image",
+            holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
+            expected="a subscriber of the type sensor_msgs/Image",
+            actual="a subscriber of another type",
+            hints="The frames have the type sensor_msgs/Image: pass this type to rospy.Subscriber.",
+        )
+
+    def send(self, image: Image) -> None:
+        """Publish one frame."""
+        image.header.stamp = rospy.Time.now()
+        self._publisher.publish(image)
+
+
+def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
+    """Return a frame with `dark` dark points at random places; all other points are very light."""
+    style = style or Style()
+    points = [context.random.integer(*style.dark) for _ in range(dark)]
+    points += [context.random.integer(230, 255) for _ in range(width * height - dark)]
+    points = context.random.shuffled(points)
+    rows = [points[start : start + width] for start in range(0, len(points), width)]
+    data = bytes(byte for row in rows for byte in [*row, *[style.filling] * style.padding])
+    return Image(width=width, height=height, step=width + style.padding, encoding="mono8", data=data)
+
+
+def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]:
+    tenth = width * height // 10
+    return [
+        Frame(assertion, image_of(context, width, height, dark, style), customer, hint)
+        for assertion, dark, customer, style, hint in (
+            ("a light frame shows no customer", 0, False, Style(), EMPTY),
+            ("a frame with many dark points shows a customer", 2 * tenth, True, Style(), AVERAGE),
+            ("a frame with few dark points shows no customer", tenth // 2, False, Style(), NOISE),
+            ("a tenth of the points is enough", tenth, True, Style(), TENTH),
+            ("one dark point less is not enough", tenth - 1, False, Style(), ROUNDED),
+            ("a point with the value 96 is not dark", 2 * tenth, False, Style(dark=(DARK, DARK)), LIMIT),
+            ("padding at the end of a row does not count", 0, False, Style(padding=7), PADDING),
+            (
+                "padding at the end of a row does not count",
+                tenth,
+                True,
+                Style(padding=9, filling=255),
+                PADDING,
+            ),
+        )
+    ]
+
+
+def _shows(context: CheckContext, camera: Camera, seen: Subscription, frame: Frame) -> None:
+    before = seen.count
+    camera.send(frame.image)
+    came = seen.until(lambda arrivals: len(arrivals) > before, ANSWER if before else 3.0)
+    context.require(
+        "the node publishes a message for a valid frame",
+        holds=came,
+        expected="a message on customer_seen",
+        actual="none",
+        hints=frame.hint if frame.hint is PADDING else NOTHING,
+    )
+    _once(context, seen, before)
+    context.expect(
+        frame.assertion,
+        expected=frame.customer,
+        actual=seen.arrivals[before].fields["data"],
+        hints=frame.hint,
+    )
+
+
+def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tuple[str, Image, str]]:
+    dark = width * height
+    frames = [image_of(context, width, height, dark) for _ in range(6)]
+    frames[0].data = frames[0].data[:-3]
+    frames[1].data += b"\0"
+    frames[2].encoding, frames[2].step, frames[2].data = "rgb8", 3 * width, frames[2].data * 3
+    frames[3].step, frames[3].data = width - 1, frames[3].data[height:]
+    frames[4].width, frames[4].height, frames[4].step, frames[4].data = 0, 0, 0, b""
+    frames[5].width, frames[5].step, frames[5].data = 0, 4, bytes(4 * height)
+    return [
+        (
+            "too few bytes",
+            frames[0],
+            "Bytes are missing in this frame. First compare len(frame.data) with height * step.",
+        ),
+        (
+            "too many bytes",
+            frames[1],
+            "This frame has more bytes than height * step: compare with !=, not with <.",
+        ),
+        ("another encoding", frames[2], "This frame has three bytes for each point: check frame.encoding."),
+        (
+            "a step below the width",
+            frames[3],
+            "In this frame, a row has fewer bytes than points, which is impossible: compare step and width.",
+        ),
+        (
+            "no points and no bytes",
+            frames[4],
+            "A frame of 0 by 0 points is malformed: check width and height, and publish nothing.",
+        ),
+        (
+            "no points in a row",
+            frames[5],
+            "The width is 0, so all bytes are padding: check width and height.",
+        ),
+    ]
+
+
+def _leaves_out(
+    context: CheckContext, camera: Camera, seen: Subscription, malformed: Image, what: str, hint: str
+) -> None:
+    """Send a malformed frame and then a valid frame; exactly one message has to come."""
+    before = seen.count
+    camera.send(malformed)
+    seen.until(lambda arrivals: len(arrivals) > before, SILENT)
+    context.require(
+        f"nothing is published for a malformed frame: {what}",
+        holds=seen.count == before,
+        expected="no message",
+        actual="a message on customer_seen",
+        hints=hint,
+    )
+    camera.send(image_of(context, 10, 10, 0))
+    came = seen.until(lambda arrivals: len(arrivals) > before, ANSWER)
+    context.require(
+        "the node continues after a malformed frame",
+        holds=came,
+        expected="a message",
+        actual="none",
+        hints=BROKE,
+    )
+    _once(context, seen, before)
+
+
+def _once(context: CheckContext, seen: Subscription, before: int) -> None:
+    """Assert that exactly one message has come after the first `before` messages."""
+    seen.until(lambda arrivals: len(arrivals) > before + 1, AGAIN)
+    context.require(
+        "the node publishes one message for each frame",
+        holds=seen.count == before + 1,
+        expected="one message",
+        actual=f"{seen.count - before} messages",
+        hints=TWICE,
+    )

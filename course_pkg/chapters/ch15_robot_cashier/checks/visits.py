@@ -1,0 +1,335 @@
+"""15.6: a node that waits for customers and greets them, while it mirrors the arm."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from std_srvs.srv import TriggerRequest
+
+from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import JOINTS
+from course_pkg.chapters.ch15_robot_cashier.checks.mirror import ARM, DETECT, MIRRORED, NAME, RESET
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import file_of, program, start_of
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface, complete, examined, started
+from course_pkg.checking import CheckContext, part
+from course_pkg.checking.peers.scripted_server import Act, HangUp, Late, Refuse
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.plain_values import Value
+from course_pkg.srv import AwaitCustomerRequest
+from course_pkg.waiting import wait_until
+
+GREETINGS = "greetings"
+INTERFACE = Interface(publishes=[MIRRORED, GREETINGS], subscribes=[ARM])
+AWAIT = "course_pkg/AwaitCustomer"
+TRIGGER = "std_srvs/Trigger"
+STRING = "std_msgs/String"
+GREETING = "Good day!"
+STANDING = 1.2  # s for which the first call waits
+PAUSE, TOO_LONG = 0.4, 2.0  # s, limits for a measured pause of half a second, on a busy machine
+BETWEEN = 0.1  # s, the shortest time between two calls while a customer is there
+NEXT_CALL = 6.0  # s for the next call, on a busy machine
+
+
+class Step(NamedTuple):
+    """One call that the node has to make: its patience, the response, and the name of the response."""
+
+    waits: bool  # True: the patience has to be ~wait; False: 0
+    act: Act
+    name: str
+
+
+def found(customer: bool) -> Mapping[str, Value]:
+    """Return the fields of a response."""
+    return {"found": customer}
+
+
+REASON = "no message from the camera"
+STEPS = (
+    Step(True, Late(STANDING, found(False)), "False"),
+    Step(True, found(True), "True"),
+    Step(False, found(True), "True"),
+    Step(False, Refuse(REASON), "an error"),
+    Step(False, found(True), "True"),
+    Step(False, found(False), "False"),
+    Step(True, Refuse(REASON), "an error"),
+    Step(True, HangUp(), "a closed connection"),
+    Step(True, found(True), "True"),
+    Step(False, found(False), "False"),
+    Step(True, Late(0.3, found(False)), "False"),
+)
+# The calls of detect_customer, counted from 1, that end a visit; till/reset follows each of them.
+VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
+NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
+GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
+CALLED_ONCE = (
+    "The node called, but then it did not call again. Call in a loop: while not rospy.is_shutdown()."
+)
+RESET_FAILED = (
+    "The call of till/reset failed, and then no call of detect_customer followed. "
+    "Catch rospy.ServiceException for till/reset, too, and continue."
+)
+NO_TILL = (
+    "Without the service till/reset, the node stopped calling detect_customer. Do not wait for this service "
+    "without a limit, and catch rospy.ServiceException."
+)
+NO_DEFAULT = 'Without a parameter, the patience has to be 2 s: rospy.get_param("~wait", 2.0).'
+PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+STILL_THERE = (
+    "In the last response, found was True, so a customer is there: set the patience of the next call to 0."
+)
+VISIT_GOES_ON = (
+    "A failed call does not end a visit: after this failure, continue to call with "
+    "the patience 0 until found is False."
+)
+VISIT_OVER = (
+    "In the last response, found was False, so no customer is there: set the "
+    "patience of the next call to the value of ~wait."
+)
+HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
+NO_PAUSE = (
+    "After a failed call, the next call came immediately. Wait 0.5 s first, for "
+    "example with rospy.sleep(0.5)."
+)
+LONG_PAUSE = "After a failed call, the next call came too late: wait only 0.5 s."
+HUNG_UP = (
+    "The node made another call before the response came. A call with a patience of "
+    "some seconds can take this long: wait for its response."
+)
+NOT_GREETED = "A customer came, but no greeting followed: publish on greetings when found is True."
+GREETED_AGAIN = "There were more greetings than visits. Publish once, when the visit begins."
+NOT_FOUND = (
+    "The node acted as if a customer was there, although found was False. In an "
+    '"if", a response object is always true: test its field `found`.'
+)
+TEXT = "The text of the greeting is wrong. Compare it with the exercise, letter by letter."
+NO_RESET = "The visit is over, but till/reset was not called: call it when found is False."
+EARLY_RESET = "till/reset was called before the visit had ended: call it when found is False."
+RESETS = "till/reset was called more often than there were visits: call it once after each visit."
+STANDS_STILL = (
+    "While a call waits, no joint state is mirrored. Make the call in the main "
+    "thread, and publish in the callback of the subscriber."
+)
+
+
+@part(
+    "15.6",
+    points=3,
+    goal=(
+        "Extend robot_cashier.py: it waits for customers, greets each of them once, and "
+        "mirrors the arm at the same time."
+    ),
+    needs=[f"file:{file_of(NAME)}"],
+    deadline=60.0,
+    start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
+)
+def the_visits(context: CheckContext) -> None:
+    """Serve a detector with responses, refusals and a lost connection, and a till that refuses once."""
+    package = examined(context, NAME)
+    names = [*INTERFACE.names, DETECT, RESET]
+    space, other = (f"/{context.random.word()}" for _ in range(2))
+    wait = context.random.number(2.5, 9.0, digits=1)
+    detector = Detector(wait)
+    till = Till(detector)
+    with (
+        started(package, NAME, space, names, {"wait": wait}) as running,
+        started(package, NAME, other, names) as default,
+    ):
+        complete(context, running, program(NAME), space, INTERFACE)
+        greetings = context.subscribe(f"{space}/{GREETINGS}", STRING)
+        mirrored = context.subscribe(f"{space}/{MIRRORED}", JOINTS)
+        greetings.published()
+        mirrored.published()
+        context.publish(f"{space}/{ARM}", JOINTS, [{"name": ["a"], "position": [0.1]}], every=0.05)
+        context.serve(f"{space}/{RESET}", TRIGGER, till.answer)
+        context.serve(f"{space}/{DETECT}", AWAIT, detector.answer)
+        alone = Alone()
+        context.serve(f"{other}/{DETECT}", AWAIT, alone.answer)
+        _makes_the_calls(context, detector, mirrored)
+        _greets(context, greetings, till)
+        wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
+        context.expect(
+            "without the parameter, the patience is 2 s",
+            expected=[2.0],
+            actual=alone.patiences[:1],
+            near=1e-6,
+            hints=NO_DEFAULT,
+        )
+        wait_until(lambda: len(alone.patiences) > 2 or default.status is not None, NEXT_CALL)
+        context.require(
+            "the node calls detect_customer in a loop",
+            holds=len(alone.patiences) > 2,
+            expected="a call after the end of a visit, also without the service till/reset",
+            actual="no call",
+            hints=NO_TILL,
+        )
+
+
+class Alone:
+    """Serves a node that has no till: a customer comes, and leaves after one call."""
+
+    def __init__(self) -> None:
+        self.patiences: list[float] = []
+
+    def answer(self, request: AwaitCustomerRequest) -> Act:
+        """Return the response to this call."""
+        self.patiences.append(request.patience)
+        return found(True) if len(self.patiences) == 1 else Late(0.5, found(False))
+
+
+@dataclass
+class Call:
+    """One call of the node: its patience, its arrival and its response, both in s of time.monotonic()."""
+
+    patience: float
+    came: float
+    answered: float
+
+
+class Detector:
+    """Responds to the calls as in STEPS, and records them."""
+
+    def __init__(self, wait: float) -> None:
+        self.wait = wait
+        self.calls: list[Call] = []
+        self._lock = threading.Lock()
+
+    def answer(self, request: AwaitCustomerRequest) -> Act:
+        """Return the response or the failure of this call."""
+        with self._lock:
+            step = STEPS[min(len(self.calls), len(STEPS) - 1)]
+            now = time.monotonic()
+            delay = step.act.delay if isinstance(step.act, Late) else 0.0
+            self.calls.append(Call(round(request.patience, 3), now, now + delay))
+            return step.act
+
+
+class Till:
+    """Responds to each reset, and stores how often the detector was called before; refuses the second."""
+
+    def __init__(self, detector: Detector) -> None:
+        self.resets: list[int] = []
+        self._detector = detector
+
+    def answer(self, _: TriggerRequest) -> Act:
+        """Return the response or the failure of this call."""
+        self.resets.append(len(self._detector.calls))
+        second = len(self.resets) == 2
+        return Refuse("no till today") if second else {"success": True, "message": "paid 5 cents"}
+
+
+def _called(detector: Detector, times: int) -> bool:
+    """Wait until the detector was called `times` times; return whether it was."""
+    return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
+
+
+def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
+    """Wait for the calls of STEPS one after the other, and compare their patience and their times."""
+    for number, step in enumerate(STEPS):
+        came = _called(detector, number + 1)
+        before = STEPS[number - 1].name if number else "nothing"
+        context.require(
+            "the node calls detect_customer in a loop",
+            holds=bool(came),
+            expected="a call" if not number else f"a call after the response {before}",
+            actual="no call",
+            hints=_why_no_call(number, before),
+        )
+        call = detector.calls[number]
+        context.require(
+            "the node waits for each response before the next call",
+            holds=not number or call.came > detector.calls[number - 1].answered - 0.05,
+            expected="one call at a time",
+            actual="a second call",
+            hints=HUNG_UP,
+        )
+        wanted = detector.wait if step.waits else 0.0
+        context.require(
+            "the patience is ~wait, and 0 during a visit",
+            holds=abs(call.patience - wanted) < 1e-3,
+            expected=f"the patience {wanted:g} after the response {before}",
+            actual=f"the patience {call.patience:g}",
+            hints=_wrong_patience(number, call.patience, wanted),
+        )
+        if number == 0:
+            _mirrors_meanwhile(context, mirrored, call)
+    _pauses(context, detector.calls)
+
+
+def _why_no_call(number: int, before: str) -> str:
+    if not number:
+        return NO_CALL
+    if number == len(STEPS) - 1:
+        return RESET_FAILED
+    return CALLED_ONCE if before in ("True", "False") else GIVEN_UP
+
+
+def _wrong_patience(number: int, patience: float, wanted: float) -> str:
+    if not number or (wanted and patience):
+        return PARAMETER
+    if wanted:
+        return NOT_FOUND if number == 1 else VISIT_OVER
+    return STILL_THERE if STEPS[number - 1].name == "True" else VISIT_GOES_ON
+
+
+def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call) -> None:
+    """Count the images that arrive while the first call waits."""
+    wait_until(lambda: time.monotonic() > call.answered, STANDING + 1.0)
+    meanwhile = [each for each in mirrored.arrivals if call.came + 0.2 < each.at < call.answered]
+    context.require(
+        "the node mirrors the arm while a call waits",
+        holds=len(meanwhile) > 2,
+        expected="an image every 50 ms",
+        actual=f"{len(meanwhile)} images in 1 s",
+        hints=STANDS_STILL,
+    )
+
+
+def _pauses(context: CheckContext, calls: list[Call]) -> None:
+    for (before, after), step in zip(itertools.pairwise(calls), STEPS, strict=False):
+        pause = after.came - before.answered
+        if step.name in ("True", "False"):
+            context.require(
+                "during a visit, the node waits 0.2 s between two calls",
+                holds=step.name == "False" or pause > BETWEEN,
+                expected="a pause of 0.2 s",
+                actual=f"a pause of {pause:.2f} s",
+                hints=HASTY,
+            )
+        else:
+            context.require(
+                "after a failed call, the node waits 0.5 s",
+                holds=PAUSE < pause < TOO_LONG,
+                expected="a pause of 0.5 s",
+                actual=f"a pause of {pause:.1f} s",
+                hints=NO_PAUSE if pause < PAUSE else LONG_PAUSE,
+            )
+
+
+def _greets(context: CheckContext, greetings: Subscription, till: Till) -> None:
+    greetings.wait(2, 1.0)
+    texts = [arrival.fields["data"] for arrival in greetings.arrivals]
+    context.require(
+        "the node greets each customer once",
+        holds=len(texts) == 2,
+        expected="2 greetings for 2 visits",
+        actual=f"{len(texts)} greetings",
+        hints=NOT_GREETED if len(texts) < 2 else GREETED_AGAIN,
+    )
+    context.expect(f"the greeting is {GREETING}", expected=[GREETING] * 2, actual=texts, hints=TEXT)
+    context.require(
+        "the node resets the till once after each visit",
+        holds=till.resets == VISITS_END,
+        expected="2 calls of till/reset, each when a visit has ended",
+        actual=f"{len(till.resets)} calls",
+        hints=_wrong_resets(till.resets),
+    )
+
+
+def _wrong_resets(resets: list[int]) -> str:
+    if len(resets) == len(VISITS_END):
+        return EARLY_RESET
+    return NO_RESET if len(resets) < len(VISITS_END) else RESETS

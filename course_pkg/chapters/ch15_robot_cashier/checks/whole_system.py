@@ -1,0 +1,336 @@
+"""15.11: the student's whole system, which the check launches and uses like a customer, with faults."""
+
+from __future__ import annotations
+
+import threading
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+
+from sensor_msgs.msg import Image
+
+from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import JOINTS
+from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import FILE
+from course_pkg.chapters.ch15_robot_cashier.checks.packages import LAUNCH, MY_CASHIER, NODES
+from course_pkg.chapters.ch15_robot_cashier.checks.printer import Printer
+from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
+from course_pkg.chapters.ch15_robot_cashier.checks.student_node import still
+from course_pkg.chapters.ch15_robot_cashier.checks.vision import Camera, image_of
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.commands.folder import Running, telling_line
+from course_pkg.checking.peers.publisher import Publisher
+from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.shared.catkin_package import BuiltPackage, copied
+from course_pkg.ros import Snapshot
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
+from course_pkg.waiting import wait_until
+
+STARTING = 40.0  # s for the system to start on a busy machine; it takes 3 s on an idle machine
+COMPLETE = 6.0  # s for all other nodes after the first node; at least three times what the first node needed
+POLL = 0.1  # s between two snapshots of the graph
+REACTION = 5.0  # s for a greeting, for a reset, and until the detector notices a change
+BACK = 8.0  # s until killed nodes run again; at least twice what the system needed to start
+EVERY = 0.1  # s between two frames
+WAIT = 1.5  # s, the argument wait
+SERVICES = {
+    "detect_customer": "customer_detector",
+    "till/set": "till",
+    "till/total": "till",
+    "till/reset": "till",
+}
+TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
+REASON = "out of paper"
+VISITS = 2  # customers at most after the restart, until one of them is greeted
+MANY = 6  # calls at the same time, by two customers
+
+NOT_LAUNCHED = (
+    "roslaunch ended. Type roslaunch my_cashier cashier.launch hardware:=false, and read its output."
+)
+NO_CUSTOMER = "The frames show a customer, but detect_customer does not find one. Check 15.1 and 15.2 again."
+NO_MESSAGE = "The camera publishes frames, but no message comes on customer_seen. Check 15.1 again."
+NOT_GREETED = "The detector finds the customer, but no greeting came. Check 15.6 again."
+GREETED_AGAIN = "One customer was greeted more than once. Check 15.6 again."
+ADDING = (
+    "Two customers called till/set at the same time, and then the sum in the till "
+    "was not the sum of the printed lines. Check 15.8 again."
+)
+REFUSED_ITEM = "Two customers called till/set at the same time, and a call failed. Check 15.8 again."
+PRINTER = "The printer refused a line, so till/set has to refuse the item. Check 15.8 again."
+UNKNOWN = "An item without a name has to be refused. Check 15.7 again."
+COUNTED = "A refused item changed the total of the till. Check 15.8 again."
+NOT_RESET = "The customer has left, but the till still has items. Check 15.6 and 15.9 again."
+NO_MIRROR = (
+    "Joint states were published all the time, but only few mirror images came. Check 15.5 and 15.6 again."
+)
+SILENT = "No frame came for more than 1 s, so detect_customer has to refuse. Check 15.3 again."
+NOT_RECOVERED = "New frames came after a pause, but detect_customer still refuses. Check 15.3 again."
+RESPAWN = 'roslaunch starts a node again only if its <node> tag has respawn="true".'
+AFTERWARDS = (
+    "All nodes were started again, but the next customer was not greeted. Start the "
+    "system, kill a node, and read the output that follows."
+)
+
+
+@part(
+    "15.11",
+    points=3,
+    goal=(
+        "Change cashier.launch so that roslaunch restarts each of your nodes if it "
+        "dies; this check then tests the whole system."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
+)
+def the_whole_system(context: CheckContext) -> None:
+    """Serve two customers at the same time, with faults of printer and camera; then kill all nodes."""
+    package = copied(context, MY_CASHIER, examined=LAUNCH)
+    space = f"/{context.random.word()}"
+    printer = Printer()
+    context.serve(f"{space}/print_line", "course_pkg/PrintLine", printer.answer)
+    greetings = context.subscribe(f"{space}/greetings", "std_msgs/String")
+    mirrored = context.subscribe(f"{space}/mirrored_joints", JOINTS)
+    seen = context.subscribe(f"{space}/customer_seen", "std_msgs/Bool")
+    counter = Counter(context, f"{space}/frames")
+    states = [{"name": ["a"], "position": [0.1]}]
+    arm = context.publish(f"{space}/joint_states", JOINTS, states, every=0.05)
+    line = f"roslaunch my_cashier cashier.launch hardware:=false wait:={WAIT}"
+    with package.start(f"env ROS_NAMESPACE={space} {line}", worded=line) as running:
+        took = _comes_up(context, running, space)
+        greetings.published()
+        mirrored.published()
+        shop = Shop(context, space, printer, greetings, seen, counter)
+        shop.looks_at_frames()
+        shop.serves_two_customers(mirrored, arm)
+        shop.notices_a_silent_camera()
+        _restarts_killed_nodes(context, package, space, max(BACK, 2 * took))
+        shop.greets_after_the_restart()
+
+
+class Counter:
+    """The camera of the counter: publishes a frame every 0.1 s, with or without a customer, or no frames."""
+
+    def __init__(self, context: CheckContext, topic: str) -> None:
+        self._frames = {there: image_of(context, 40, 30, 500 * there) for there in (False, True)}
+        self._camera = Camera(topic)
+        self._shown: Image | None = self._frames[False]
+        threading.Thread(target=self._publish, daemon=True).start()
+
+    def show(self, customer: bool | None) -> None:
+        """Publish frames with or without a customer from now on; None publishes no frame."""
+        self._shown = None if customer is None else self._frames[customer]
+
+    def _publish(self) -> None:
+        while True:
+            if self._shown is not None:
+                self._camera.send(self._shown)
+            time.sleep(EVERY)
+
+
+def _comes_up(context: CheckContext, running: Running, space: str) -> float:
+    """Wait until all services and topics exist, or report the first one that is missing.
+
+    Return the time in s that the system needed to start.
+    """
+    started = time.monotonic()
+    patience = deadline = started + STARTING
+    while missing := _missing(seen := context.look(), space):
+        if any(node.name.startswith(f"{space}/") for node in seen.nodes):
+            patience = min(patience, still(started, COMPLETE))
+        if running.status is not None or time.monotonic() > min(deadline, patience):
+            status, printed = running.status, running.stop().out
+            name, node = missing[0]
+            context.fail(
+                "roslaunch starts the whole system",
+                expected=f"{name} of the node {node}",
+                actual=telling_line(printed) if status is not None else f"no {name}",
+                hint=NOT_LAUNCHED
+                if status is not None
+                else (
+                    f"The node {node} is missing, or it has no {name}. Check the exercise of this node again."
+                ),
+            )
+        time.sleep(POLL)
+    context.require("roslaunch starts the whole system", holds=True)
+    return time.monotonic() - started
+
+
+def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
+    """Return the missing services and topics, each with its node."""
+    published = {(topic.name, node) for topic in seen.topics for node in topic.publishers}
+    served = {(service.name, service.node) for service in seen.services if service.reachable}
+    return [
+        (name, node)
+        for names, found in ((SERVICES, served), (TOPICS, published))
+        for name, node in names.items()
+        if (f"{space}/{name}", f"{space}/{node}") not in found
+    ]
+
+
+@dataclass
+class Shop:
+    """The system, used like a customer."""
+
+    context: CheckContext
+    space: str
+    printer: Printer
+    greetings: Subscription
+    seen: Subscription
+    counter: Counter
+
+    def service(self, name: str, kind: str, hint: str, timeout: float = 5.0) -> Service:
+        """Return a service of the system; `hint` is for a call that fails."""
+        return self.context.service(f"{self.space}/{name}", kind, timeout=timeout, hints=[(ANYTHING, hint)])
+
+    def looks_at_frames(self) -> None:
+        """Assert that vision publishes a message for the next frames."""
+        before = self.seen.count
+        self.context.require(
+            "the frames lead to messages on customer_seen",
+            holds=self.seen.until(lambda arrivals: len(arrivals) > before, REACTION),
+            expected="a message for each frame",
+            actual="no message",
+            hints=NO_MESSAGE,
+        )
+
+    def knows(self, customer: bool, hint: str) -> bool:
+        """Return whether detect_customer soon responds with `customer`; `hint` is for a call that fails."""
+        detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
+
+        def told() -> bool:
+            return bool(detect(patience=WAIT).found) == customer
+
+        return bool(wait_until(told, REACTION, POLL))
+
+    def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
+        """Let a customer come, two clients buy at the same time, the printer fail, and the customer leave."""
+        context = self.context
+        total = self.service("till/total", "course_pkg/TillTotal", COUNTED)
+        put = self.service("till/set", "course_pkg/TillSet", REFUSED_ITEM)
+        images, sent = mirrored.count, len(arm.sent)
+        self.counter.show(True)
+        context.require(
+            "a customer is detected", holds=self.knows(True, NO_CUSTOMER), expected="found=True",
+            actual="found=False", hints=NO_CUSTOMER,
+        )  # fmt: skip
+        self.is_greeted(1, NOT_GREETED)
+        self.greetings.during(1.0)
+        context.require(
+            "each customer is greeted once",
+            holds=self.greetings.count == 1,
+            expected="1 greeting",
+            actual=f"{self.greetings.count} greetings",
+            hints=GREETED_AGAIN,
+        )
+        bought = [(context.random.word(), cents) for cents in context.random.integers(MANY, 50, 900)]
+        put.at_once([{"item": item, "cents": cents} for item, cents in bought])
+        wanted = sum(int(line.rpartition(" ")[2]) for line in self.printer.lines)
+        context.expect(
+            "two customers at the same time: the till has the sum of the printed lines",
+            expected=[wanted, MANY],
+            actual=[(now := total()).cents, now.items],
+            hints=ADDING,
+        )
+        self.printer.fault = REASON
+        refused(
+            context,
+            put,
+            "if the printer fails, the till refuses the item",
+            REASON,
+            item="milk",
+            cents=1,
+            hints=PRINTER,
+        )
+        self.printer.fault = ""
+        refused(context, put, "an item without a name is refused", "", item="", cents=1, hints=UNKNOWN)
+        context.expect("a refused item does not count", expected=wanted, actual=total().cents, hints=COUNTED)
+        self.counter.show(False)
+        context.require(
+            "after the visit the till is empty",
+            holds=bool(wait_until(lambda: total().items == 0, REACTION, POLL)),
+            expected="0 items",
+            actual=f"{MANY} items",
+            hints=NOT_RESET,
+        )
+        images, sent = mirrored.count - images, len(arm.sent) - sent
+        context.require(
+            "the arm is mirrored all the time",
+            holds=images > sent / 4,
+            expected=f"{sent} images",
+            actual=f"{images} images",
+            hints=NO_MIRROR,
+        )
+
+    def is_greeted(self, count: int, hint: str) -> None:
+        """Assert that `count` greetings have come."""
+        self.context.require(
+            "a customer is greeted",
+            holds=len(self.greetings.wait(count, REACTION)) == count,
+            expected="a greeting",
+            actual="none",
+            hints=hint,
+        )
+
+    def notices_a_silent_camera(self) -> None:
+        """Stop the frames, and then continue."""
+        self.counter.show(None)
+        time.sleep(1.4)
+        detect = self.service("detect_customer", "course_pkg/AwaitCustomer", NOT_RECOVERED)
+        refused(
+            self.context,
+            detect,
+            "if the camera is silent, detect_customer refuses",
+            "camera",
+            patience=0.0,
+            hints=SILENT,
+        )
+        self.counter.show(False)
+        self.looks_at_frames()
+        time.sleep(0.3)
+        self.context.require(
+            "when frames come again, detect_customer responds", holds=self.knows(False, NOT_RECOVERED),
+            expected="found=False", actual="found=True", hints=NOT_RECOVERED,
+        )  # fmt: skip
+
+    def greets_after_the_restart(self) -> None:
+        """Let customers come; the first greeting may be lost while the node and the check connect."""
+        for _ in range(VISITS):
+            self.counter.show(True)
+            if len(self.greetings.wait(2, REACTION)) == 2:
+                break
+            self.counter.show(False)
+            time.sleep(2 * WAIT)
+        self.is_greeted(2, AFTERWARDS)
+
+
+def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
+    """Kill the four nodes; each of them has to run again `within` s, as another process."""
+    before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
+    package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
+
+    def dead() -> list[str]:
+        seen = context.look()
+        pids = {node: _pid(seen, f"{space}/{node}") for node in NODES}
+        lacking = {node for _, node in _missing(seen, space)}
+        return [node for node in NODES if pids[node] in (0, before[node]) or node in lacking]
+
+    wait_until(lambda: not dead(), within, 0.2)
+    lost = dead()
+    context.require(
+        "a node that was killed is started again",
+        holds=not lost,
+        expected="the four nodes of my_cashier",
+        actual=f"no {', no '.join(lost)}",
+        hints=RESPAWN,
+    )
+
+
+def _pid(seen: Snapshot, name: str) -> int:
+    """Return the process id of a node, or 0 if the node does not respond."""
+    node = seen.node(name)
+    if node is None or not node.reachable:
+        return 0
+    with suppress(OSError, *NO_ANSWER):
+        return int(str(items(XmlRpcClient(node.uri, 1.0).ask("getPid", "/check"))[2]))
+    return 0

@@ -1,0 +1,93 @@
+"""The node `robot_cashier`: mirrors the arm and greets customers at the same time.
+
+It publishes the mirror image of each message of `joint_states` on `mirrored_joints`. It calls
+`detect_customer` (course_pkg/AwaitCustomer) repeatedly, each time with a patience of `~wait` (default 2) s,
+and publishes one greeting for each visit on `greetings` (std_msgs/String). After a visit it calls
+`till/reset` (std_srvs/Trigger).
+"""
+
+from __future__ import annotations
+
+import threading
+from contextlib import suppress
+
+import rospy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from course_pkg.errors import CourseError
+from course_pkg.nodes.simulator import mirrored
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
+from course_pkg.ros.node.proxy import BoundedProxy
+from course_pkg.srv import AwaitCustomer
+
+QUIET = 5.0  # s between two warnings
+GRACE = 2.0  # s that a call may take longer than its patience
+AGAIN = 0.5  # s between a failed call and the next call
+POLL = 0.2  # s between calls while a customer is there
+FAILED = (rospy.ServiceException, CourseError)  # errors of a call
+
+
+class RobotCashier:
+    """Mirrors the arm, and waits for customers and greets them."""
+
+    def __init__(self) -> None:
+        self._mirror = rospy.Publisher("mirrored_joints", JointState, queue_size=10, tcp_nodelay=True)
+        self._greetings = rospy.Publisher("greetings", String, queue_size=10)
+        self._detect = BoundedProxy("detect_customer", AwaitCustomer)
+        self._reset = BoundedProxy("till/reset", Trigger)
+        self._over = threading.Event()
+        for proxy in (self._detect, self._reset):
+            rospy.on_shutdown(proxy.cancel)  # without this, the shutdown would wait for a pending call
+        rospy.on_shutdown(self._over.set)
+        rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)
+
+    def mirror(self, joints: JointState) -> None:
+        """Publish the mirror image of a joint state; rospy calls this on its own thread."""
+        try:
+            self._mirror.publish(mirrored(joints))
+        except ValueError as error:
+            rospy.logwarn_throttle(QUIET, "Not mirrored: %s", error)
+
+    def greet(self, wait: float) -> None:
+        """Wait for customers and greet them until the node is shut down."""
+        while not self._over.is_set():
+            if self._is_there(wait):
+                self._greetings.publish("Good day!")
+                self._await_departure()
+                self._empty_till()
+
+    def _is_there(self, wait: float, otherwise: bool = False) -> bool:
+        """Return whether a customer comes within `wait` s; return `otherwise` after a failed call."""
+        try:
+            return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
+        except FAILED as error:
+            if not self._over.is_set():  # the shutdown of the node has cancelled the call
+                rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
+            self._over.wait(AGAIN)
+            return otherwise
+
+    def _await_departure(self) -> None:
+        """Return when no customer is there. After a failed call, the customer may still be there."""
+        while not self._over.wait(POLL) and self._is_there(0, otherwise=True):
+            pass
+
+    def _empty_till(self) -> None:
+        """Reset the till once; if no till is running, the cashier continues."""
+        try:
+            self._reset.call(timeout=GRACE)
+        except FAILED as error:
+            if not self._over.is_set():
+                rospy.logwarn("The till was not reset: %s", error)
+
+
+def main() -> None:
+    """Mirror and greet until the node is shut down."""
+    if not start_node("robot_cashier"):
+        return
+    wait = number_parameter("~wait", 2.0, 0.1, 60.0)
+    with undisturbed():
+        cashier = RobotCashier()
+    with suppress(rospy.ROSInterruptException):  # the node was shut down during a call
+        cashier.greet(wait)

@@ -1,0 +1,40 @@
+"""The node `vision`: publishes on `customer_seen` (std_msgs/Bool) whether a frame shows a customer.
+
+It subscribes to `frames` (sensor_msgs/Image), and publishes one message for each valid frame.
+"""
+
+from __future__ import annotations
+
+import rospy
+from sensor_msgs.msg import Image
+from std_msgs.msg import Bool
+
+from course_pkg.ros.node.program import start_node, undisturbed
+from course_pkg.shop.pictures import sees_customer
+
+QUIET = 5.0  # s between two warnings
+
+
+class Vision:
+    """Checks each frame for a customer."""
+
+    def __init__(self) -> None:
+        self._seen = rospy.Publisher("customer_seen", Bool, queue_size=1, tcp_nodelay=True)
+        # Only the newest frame is used, so a queue for older frames is not necessary.
+        rospy.Subscriber("frames", Image, self.handle_frame, queue_size=1, tcp_nodelay=True)
+
+    def handle_frame(self, frame: Image) -> None:
+        """Publish whether a frame shows a customer; publish nothing for a malformed frame."""
+        try:
+            self._seen.publish(sees_customer(frame))
+        except ValueError as error:
+            rospy.logwarn_throttle(QUIET, "Ignored a frame: %s", error)
+
+
+def main() -> None:
+    """Check frames until the node is shut down."""
+    if not start_node("vision"):
+        return
+    with undisturbed():
+        Vision()
+    rospy.spin()

@@ -1,0 +1,350 @@
+"""Example answers of chapter 16; tests/checking/example_answers.py explains the format."""
+
+# %% 16.1 right: checks before each thing
+class Fetcher:
+    def __init__(self, name):
+        self.server = actionlib.SimpleActionServer(name, FetchAction, execute_cb=self.fetch, auto_start=False)
+        self.server.start()
+
+    def fetch(self, goal):
+        for fetched in range(goal.things):
+            if self.server.is_preempt_requested():
+                self.server.set_preempted(FetchResult(fetched=fetched))
+                return
+            time.sleep(goal.seconds)
+            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+        self.server.set_succeeded(FetchResult(fetched=goal.things))
+
+# %% 16.1 right: counts in the result, and checks after each thing
+class Fetcher(object):
+    """A robot that sleeps with rospy."""
+
+    def __init__(self, action_name):
+        self._name = action_name
+        self._as = actionlib.SimpleActionServer(self._name, FetchAction, self.execute, False)
+        self._as.start()
+
+    def execute(self, goal):
+        result = FetchResult()
+        feedback = FetchFeedback()
+        while result.fetched < goal.things and not self._as.is_preempt_requested():
+            rospy.sleep(goal.seconds)
+            result.fetched += 1
+            feedback.fetched = result.fetched
+            self._as.publish_feedback(feedback)
+        if result.fetched < goal.things:
+            self._as.set_preempted(result, "cancelled")
+        else:
+            self._as.set_succeeded(result)
+
+# %% 16.1 right: accepts goals in its own thread
+import threading
+
+
+class Fetcher:
+    def __init__(self, name):
+        self.server = actionlib.SimpleActionServer(name, FetchAction, auto_start=False)
+        self.server.register_goal_callback(lambda: threading.Thread(target=self.work, daemon=True).start())
+        self.server.start()
+
+    def work(self):
+        goal = self.server.accept_new_goal()
+        done = 0
+        while done < goal.things:
+            if self.server.is_preempt_requested():
+                return self.server.set_preempted(FetchResult(done))
+            time.sleep(goal.seconds)
+            done += 1
+            self.server.publish_feedback(FetchFeedback(done))
+        self.server.set_succeeded(FetchResult(done))
+
+# %% 16.1 wrong: never checks for a cancellation | hint: Check is_preempt_requested() before each thing
+replace("\n            if self.server … return", "")
+# %% 16.1 wrong: a count for all goals | hint: The number continued from the previous goal
+replace("        self.server.start()", "        self.server.start()\n        self.fetched = 0")
+replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
+replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
+replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
+replace("fetched=goal.things", "fetched=self.fetched")
+# %% 16.1 wrong: returns the result, as a service does | hint: The function ended without a state
+replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
+replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
+# %% 16.1 wrong: not started | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
+replace("\n        self.server.start()", "")
+# %% 16.1 wrong: a fixed action name | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
+replace("Server(name", 'Server("/my_fetch"')
+# %% 16.1 wrong: succeeds although it was cancelled | hint: The goal was cancelled, so the right state is not SUCCEEDED
+replace("set_preempted", "set_succeeded")
+# %% 16.1 wrong: aborts a cancelled goal | hint: set_aborted means that the robot failed
+replace("set_preempted", "set_aborted")
+# %% 16.1 wrong: no feedback | hint: No feedback arrived
+replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "")
+# %% 16.1 wrong: counts from 0 | hint: After the first thing, `fetched` has to be 1, but range() counts
+replace("fetched + 1", "fetched")
+# %% 16.1 wrong: an empty result | hint: The field `fetched` of the result is 0
+replace("(FetchResult(fetched=fetched))", "()")
+replace("(FetchResult(fetched=goal.things))", "()")
+# %% 16.1 wrong: takes no time | hint: The goal ended too early
+replace("return\n            time.sleep(goal.seconds)", "return")
+# %% 16.1 wrong: the missing things when it is cancelled | hint: the same number as the last feedback
+replace("(fetched=fetched)", "(fetched=goal.things - fetched)")
+# %% 16.1 wrong: feedback before the thing | hint: The feedback came before the thing was fetched
+replace("""time.sleep(goal.seconds)
+            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))""", """self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
+            time.sleep(goal.seconds)""")
+# %% 16.1 wrong: continues after the cancellation | hint: The robot continued to fetch, because set_preempted ends the goal, but not
+replace("\n                return", "")
+# %% 16.1 wrong: succeeds in the loop | hint: set_succeeded ends the goal: call it once
+replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
+            self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
+# %% 16.1 wrong: a second for each | hint: The time for one thing is different in each goal
+replace("goal.seconds", "1")
+# %% 16.1 wrong: a fifth of a second for each | hint: The time for one thing is different in each goal
+replace("goal.seconds", "0.2")
+# %% 16.1 wrong: the time of the chapter's first goal | hint: The time for one thing is different in each goal
+replace("goal.seconds", "0.05")
+# %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() counts from 0
+replace("(fetched=goal.things)", "(fetched=fetched)")
+# %% 16.1 wrong: feedback at the end only | hint: Only one feedback arrived, at the end
+replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "\n        self.server.publish_feedback(FetchFeedback(fetched=goal.things))")
+# %% 16.1 wrong: empty feedback | hint: The field `fetched` is 0 in each feedback
+replace("FetchFeedback(fetched=fetched + 1)", "FetchFeedback()")
+# %% 16.1 wrong: all feedback at the end | hint: All feedback arrived at the end
+replace("time.sleep(goal.seconds)", "time.sleep(goal.seconds)\n        for fetched in range(goal.things):")
+# %% 16.1 wrong: an empty result when it is cancelled | hint: The field `fetched` is 0 in the result of the cancelled goal
+replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted()")
+# %% 16.1 wrong: the number of the goal when it is cancelled | hint: 80 is the number in the goal
+replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=goal.things))")
+# %% 16.1 wrong: a misspelt field | hint: The function raised an exception
+replace("FetchFeedback(fetched", "FetchFeedback(count")
+# %% 16.1 wrong: does not count | hint: Check that the loop ends
+based_on("counts in the result, and checks after each thing")
+replace("            result.fetched += 1\n", "")
+
+# %% 16.2 right: waits, cancels, and waits again
+def fetch_within(name, things, seconds):
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    if not client.wait_for_server(rospy.Duration(2)):
+        return None
+    client.send_goal(FetchGoal(things=things, seconds=0.1))
+    if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    return client.get_result().fetched
+
+# %% 16.2 right: by send_goal_and_wait
+def fetch_within(name, things, seconds):
+    robot = actionlib.SimpleActionClient(name, FetchAction)
+    if robot.wait_for_server(rospy.Duration.from_sec(2.0)):
+        goal = FetchGoal()
+        goal.things, goal.seconds = things, 0.1
+        robot.send_goal_and_wait(goal, rospy.Duration(seconds), rospy.Duration(3))
+        return robot.get_result().fetched
+
+# %% 16.2 wrong: waits without a limit | hint: A wait without a time limit did not end
+replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result()")
+# %% 16.2 wrong: sleeps for the whole time | hint: The function continued to wait after the result had arrived
+replace("if not client.wait_for_result(rospy.Duration(seconds)):", "time.sleep(seconds)\n    if client.get_result() is None:")
+# %% 16.2 wrong: waits for ever after the cancellation | hint: Wait at most 2 s after cancel_goal()
+replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result()")
+# %% 16.2 wrong: whole seconds | hint: Pass a rospy.Duration above 0
+replace("rospy.Duration(seconds)", "rospy.Duration(int(seconds))")
+# %% 16.2 wrong: gives up, and cancels nothing | hint: get_result() returned None, because the goal had not ended
+replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result(rospy.Duration(seconds))")
+# %% 16.2 wrong: returns nothing when the time is over | hint: If wait_for_result returns False, the time is over
+replace("""if not client.wait_for_result(rospy.Duration(seconds)):
+        client.cancel_goal()
+        client.wait_for_result(rospy.Duration(2))
+    """, "if client.wait_for_result(rospy.Duration(seconds)):\n        ")
+# %% 16.2 wrong: does not wait for the end after the cancellation | hint: the robot first finishes the thing that it is fetching
+replace("client.wait_for_result(rospy.Duration(2))", "time.sleep(0.15)")
+# %% 16.2 wrong: a plain number of seconds | hint: actionlib does not accept a plain number of seconds
+replace("rospy.Duration(seconds)", "seconds")
+# %% 16.2 wrong: waits for a server for ever | hint: No server exists, but the wait has no limit
+replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
+# %% 16.2 wrong: returns the number of the goal | hint: This is the number in the goal
+replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
+# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive, because messages that are sent before the
+replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return None", "")
+replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
+# %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
+replace("things, seconds=0.1", "things")
+# %% 16.2 wrong: five seconds in any case | hint: The limit has to be the argument `seconds`
+replace("(seconds)", "(4.5)")
+# %% 16.2 wrong: cancels early | hint: The limit has to be the argument `seconds`
+replace("(seconds)", "(0.3)")
+# %% 16.2 wrong: five seconds for a server | hint: The function waited too long for a server
+replace("(rospy.Duration(2)):", "(rospy.Duration(5)):")
+# %% 16.2 wrong: hardly waits for a robot | hint: The server started 0.6 s … The server started
+replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
+# %% 16.2 wrong: the whole result | hint: This is the whole result
+replace(".get_result().fetched", ".get_result()")
+# %% 16.2 wrong: things is left out | hint: The field `things` of the goal is 0
+replace("things=things, seconds", "seconds")
+# %% 16.2 wrong: None after the cancellation | hint: The robot sends its result after the cancellation
+replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
+# %% 16.2 wrong: sends the goal without a robot | hint: wait_for_server returns False if no server started in time
+replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server(rospy.Duration(2))")
+
+# %% 16.3 right: checks the type first
+def speed_of(robot, default):
+    speed = rospy.get_param(f"/{robot}/speed", default)
+    if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:
+        return default
+    return speed
+
+# %% 16.3 right: by an exception
+def speed_of(robot, default):
+    try:
+        speed = rospy.get_param("/" + robot + "/speed")
+        number = float(speed)
+    except (KeyError, TypeError, ValueError):
+        return default
+    return default if speed is True or number <= 0 else number
+
+# %% 16.3 right: from the cache
+based_on("by an exception")
+replace("speed = rospy … ValueError):", 'speed = rospy.get_param_cached(f"/{robot}/speed")\n    except KeyError:')
+replace("default if speed is True or number <= 0 else number", "speed if type(speed) in (int, float) and speed > 0 else default")
+# %% 16.3 wrong: no default | hint: get_param raises a KeyError if the parameter is not set
+replace("speed = rospy … return speed", 'return rospy.get_param(f"/{robot}/speed")')
+# %% 16.3 wrong: sets the default | hint: The function has set the parameter
+replace("    if isinstance", '    rospy.set_param(f"/{robot}/speed", speed)\n    if isinstance')
+# %% 16.3 wrong: a fixed name | hint: The name of the parameter has to contain the name of the
+replace("speed = rospy … return speed", 'return rospy.get_param("~speed", default)')
+
+# %% 16.3 wrong: remembers the first | hint: The parameter was changed, but the function returned the old value
+known = {}
+
+def speed_of(robot, default):
+    if robot not in known:
+        speed = rospy.get_param(f"/{robot}/speed", None)
+        if speed is None:
+            return default
+        known[robot] = speed
+    return known[robot]
+
+# %% 16.3 wrong: does not check the value | hint: Check that the value is a number.
+based_on("a fixed name")
+replace('"~speed"', 'f"/{robot}/speed"')
+# %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a text or a list with a number
+replace("if isinstance … return speed", "return speed if speed > 0 else default")
+# %% 16.3 wrong: takes every number | hint: The value was negative
+based_on("compares a string with 0")
+replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True")
+# %% 16.3 wrong: 0 is a speed | hint: The value was 0, but a speed has to be above 0
+based_on("compares a string with 0")
+replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and speed >= 0")
+# %% 16.3 wrong: excludes a string only | hint: A parameter can also be a list
+replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
+        return default
+    if not isinstance(speed, list) and speed <= 0:""")
+# %% 16.3 wrong: no whole numbers | hint: The value was the int 2
+replace("(int, float)", "float")
+# %% 16.3 wrong: a fixed default | hint: The parameter is not set
+replace(", default)\n", ", 1.0)\n")
+# %% 16.3 wrong: does not catch what float() raises | hint: float() raises a ValueError for a text
+based_on("by an exception")
+replace(", ValueError", "")
+# %% 16.3 wrong: takes True for a speed | hint: In Python, True is an int
+replace("isinstance(speed, bool) or not", "not")
+
+# %% 16.4 right: a class
+solution()
+# %% 16.4 right: functions, a timer and spin
+replace("capacity.", "capacity.\nimport time\n")
+replace(", SetBoolResponse", "\n\ncharge = 100")
+replace("class ParcelRobot … goal.things))", 'def door(request):\n    return True, "open" if request.data else "closed"')
+replace("if __name__ … rate.sleep()", """def deliver(goal):
+    global charge
+    result = FetchResult()
+    if goal.things > rospy.get_param("~capacity", 5):
+        server.set_aborted(result)
+        return
+    while result.fetched < goal.things:
+        if server.is_preempt_requested():
+            server.set_preempted(result)
+            return
+        time.sleep(goal.seconds)
+        result.fetched += 1
+        charge -= 1
+        server.publish_feedback(FetchFeedback(result.fetched))
+    server.set_succeeded(result)
+
+
+rospy.init_node("robot", anonymous=True)
+publisher = rospy.Publisher("battery", Float32, queue_size=10, latch=True)
+rospy.Service("door", SetBool, door)
+server = actionlib.SimpleActionServer("deliver", FetchAction, deliver, False)
+server.start()
+timer = rospy.Timer(rospy.Duration(0.2), lambda event: publisher.publish(charge))
+rospy.spin()""")
+# %% 16.4 wrong: the charge falls at the end | hint: The parcels of a cancelled delivery did not reduce the charge
+replace("            self.charge -= 1\n", "")
+replace("        self.server.set_succeeded", "        self.charge -= goal.things\n        self.server.set_succeeded")
+# %% 16.4 wrong: the charge falls at the start | hint: The charge became smaller for parcels that were not delivered
+replace("            self.charge -= 1\n", "")
+replace("        for delivered in", "        self.charge -= goal.things\n        for delivered in")
+# %% 16.4 wrong: a full battery for each delivery | hint: A new delivery set the charge to 100 again
+replace("        for delivered in", "        self.charge = 100.0\n        for delivered in")
+# %% 16.4 wrong: continues after set_aborted | hint: The function continued to deliver after set_aborted, because set_aborted does not end
+replace('can carry")\n            return', 'can carry")')
+# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value, without a request for each value
+replace("from std_srvs.srv import SetBool, SetBoolResponse", "from std_srvs.srv import SetBool, SetBoolResponse, Trigger")
+replace('rospy.Publisher("battery", Float32, queue_size=1)', 'rospy.Service("battery", Trigger, lambda request: (True, str(self.charge)))')
+replace("robot.battery.publish(robot.charge)\n        ", "")
+# %% 16.4 wrong: a topic for the door | hint: The move is short, and the client must not continue before it
+replace("import Float32", "import Bool, Float32")
+replace('rospy.Service("door", SetBool', 'rospy.Subscriber("door", Bool')
+# %% 16.4 wrong: a service for the delivery | hint: The client wants to get progress reports and to cancel the job
+replace("""self.server = actionlib.SimpleActionServer("deliver", FetchAction, execute_cb=self.deliver, auto_start=False)
+        self.server.start()""", 'self.server = rospy.Service("deliver", SetBool, self.move_door)')
+# %% 16.4 wrong: a service for the capacity | hint: "capacity" is a setting that the user chooses at the start
+replace("import SetBool, SetBoolResponse", "import SetBool, SetBoolResponse, Trigger")
+replace('self.capacity = rospy.get_param("~capacity", 5)', 'self.capacity = 5\n        rospy.Service("capacity", Trigger, lambda request: (True, "5"))')
+# %% 16.4 wrong: absolute names | hint: This name is not in the namespace in which the robot was
+replace('"battery"', '"/battery"')
+# %% 16.4 wrong: another name | hint: The node offers nothing with this name
+replace('"deliver"', '"delivery"')
+# %% 16.4 wrong: misspells a library | hint: The program has ended
+replace("import actionlib\n", "import action_lib\n")
+# %% 16.4 wrong: no pause | hint: Publish in a loop that calls sleep() of a rospy.Rate(5) once in
+replace("\n        rate.sleep()", "")
+# %% 16.4 wrong: a fraction for the charge | hint: Publish the charge in percent
+replace("self.charge = 100.0", "self.charge = 1.0")
+# %% 16.4 wrong: reports on and off | hint: The field `message` has to be "open" after a request with True,
+replace('"open" if request.data else "closed"', '"on" if request.data else "off"')
+# %% 16.4 wrong: success only if it opens | hint: The field `success` has to be True after every request, because the
+replace("success=True", "success=request.data")
+# %% 16.4 wrong: no state at the end | hint: Call set_succeeded at the end of the delivery
+replace("\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", "")
+# %% 16.4 wrong: a misspelt field | hint: The function that delivers raised an exception
+replace("FetchFeedback(fetched", "FetchFeedback(delivered")
+# %% 16.4 wrong: counts from 0 | hint: Publish the number of delivered parcels after each parcel
+replace("delivered + 1", "delivered")
+# %% 16.4 wrong: an empty result | hint: with the number of parcels to set_succeeded
+replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
+# %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery values stopped during the delivery
+replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
+# %% 16.4 wrong: the charge stays | hint: The charge did not change
+replace("            self.charge -= 1\n", "")
+# %% 16.4 wrong: one percent for all | hint: The charge changed only once for the whole delivery
+replace("            self.charge -= 1\n", "")
+replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
+# %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
+replace("\n            if self.server … return", "")
+# %% 16.4 wrong: an empty result of a cancelled delivery | hint: Pass FetchResult(fetched=…) with the number of parcels delivered so far to set_preempted
+replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
+# %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
+replace("\n        if goal.things … return", "")
+# %% 16.4 wrong: always carries five | hint: whose default is 5
+replace('rospy.get_param("~capacity", 5)', "5")
+# %% 16.4 wrong: checks the capacity too late | hint: Compare goal.things with the capacity before the loop
+replace("if goal.things … goal.things):", """for delivered in range(goal.things):
+            if delivered == self.capacity:
+                self.server.set_aborted(FetchResult(fetched=0))
+                return""")
+# %% 16.4 wrong: counts parcels that it does not deliver | hint: No parcel was delivered
+replace("set_aborted(FetchResult(fetched=0)", "set_aborted(FetchResult(fetched=goal.things)")
+# %% 16.4 wrong: one parcel less | hint: The robot can carry as many parcels as its capacity
+replace("goal.things > self.capacity", "goal.things >= self.capacity")

@@ -1,0 +1,318 @@
+"""16.2: an action client that cancels a goal if it takes too long."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import actionlib
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.result import Result
+from course_pkg.msg import FetchAction, FetchGoal, FetchResult
+from course_pkg.ros.node.action_server import ActionServer
+
+WAIT = 2.0  # s for which the client waits for an action server
+LONG = 6.0  # s that a robot needs for a goal that the client cancels
+PROMPT = 4.0  # s for a client whose robot finishes in 0.3 s, on a busy machine
+ENOUGH = 5.0  # limit of the client in s, for a robot that finishes in time
+BRIEF = 0.2  # limit of the client in s, for a robot that ignores the cancellation
+LATE = 0.6  # s after the call until a late robot starts
+SECONDS = 0.8  # s after which the client has to cancel the goal; not a whole number
+SLACK = 3.0  # s that a busy machine may add
+LONGEST = 4.7  # s for a client that has to give up after WAIT, on a busy machine
+BOUND = (
+    "A wait without a time limit did not end. Pass a rospy.Duration above 0 to "
+    "wait_for_server and also to wait_for_result."
+)
+DURATION = "actionlib does not accept a plain number of seconds: pass rospy.Duration(seconds)."
+UNSENT = (
+    "The goal did not arrive, because messages that are sent before the connection "
+    "exists are lost. Call wait_for_server(rospy.Duration(2)) before send_goal."
+)
+HOW_LONG = "The limit has to be the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
+NOBODY = (
+    "wait_for_server returns False if no server started in time. In this case, "
+    "return None and do not send a goal."
+)
+EARLY = (
+    "There is no result before the goal has ended. After cancel_goal(), wait once "
+    "more, because the robot first finishes the thing that it is fetching."
+)
+
+
+class Robot:
+    """An action server that records its goals and a cancellation."""
+
+    def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False) -> None:
+        self.goals: list[FetchGoal] = []
+        self.cancelled = threading.Event()
+        self.took = 0.0  # s from the goal to its cancellation
+        self.over = threading.Event()  # ends a stubborn robot, one that ignores a cancellation
+        self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
+
+    def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
+        """Finish after the robot's time or after a cancellation; the result is the same in both cases."""
+        self.goals.append(goal)
+        began = time.monotonic()
+        if self._stubborn:
+            self.over.wait(LONG)
+            return
+        wait, left = threading.Event(), self._seconds
+        while left > 0 and not server.is_preempt_requested():
+            wait.wait(0.05)
+            left -= 0.05
+        if server.is_preempt_requested():
+            self.took = time.monotonic() - began
+            self.cancelled.set()
+            wait.wait(0.3)  # the robot finishes the thing that it is fetching
+            server.set_preempted(FetchResult(fetched=self._fetched))
+        else:
+            server.set_succeeded(FetchResult(fetched=self._fetched))
+
+
+@part(
+    "16.2",
+    points=3,
+    goal=(
+        "Send a goal, wait for the result with a limit, cancel the goal when the limit "
+        "is over, and return the number of fetched things."
+    ),
+    needs=["fetch_within"],
+    deadline=60.0,
+)
+def bounded_goal(context: CheckContext) -> None:
+    """Offer a robot that finishes in time, is too slow, ignores a cancellation, or starts late; then none."""
+    _in_time(context)
+    _too_late(context)
+    _goes_on(context)
+    _comes(context)
+    _nobody(context)
+
+
+def _wrong_result(robot: Robot, things: int) -> Hints:
+    return [
+        ((lambda _: not robot.goals), UNSENT),
+        (None, NO_RETURN),
+        (
+            things,
+            "This is the number in the goal. Return the number in the result: get_result().fetched.",
+        ),
+        (
+            lambda actual: isinstance(actual, dict),
+            "This is the whole result. Return only its field `fetched`.",
+        ),
+    ]
+
+
+@contextmanager
+def _serving(name: str, robot: Robot) -> Iterator[None]:
+    """Offer the action `name`, executed by `robot`, until the block ends."""
+    server = ActionServer(name, FetchAction, robot.execute)
+    try:
+        yield
+    finally:
+        server.stop()
+
+
+def _in_time(context: CheckContext) -> None:
+    name = f"/{context.random.word()}"
+    things, fetched = context.random.integer(3, 9), context.random.integer(20, 90)
+    robot = Robot(fetched, 0.3)
+    with _serving(name, robot):
+        result = _fetch(context, robot, name, things, ENOUGH)
+        context.expect(
+            "if a robot finishes in time, its result is returned",
+            expected=fetched,
+            actual=result.returned(),
+            hints=_wrong_result(robot, things),
+        )
+        context.require(
+            "if a robot finishes in time, its result is returned",
+            holds=result.took < PROMPT,
+            expected="the result as soon as it arrives",
+            actual=f"the result after {result.took:.1f} s",
+            hints=(
+                "The function continued to wait after the result had arrived. wait_for_result "
+                "returns as soon as the goal has ended, so you do not need sleep()."
+            ),
+        )
+    _sends_the_goal(context, robot.goals[0], things)
+    context.require(
+        "a robot that finishes in time is not cancelled",
+        holds=not robot.cancelled.is_set(),
+        expected="no cancellation",
+        actual="a cancellation",
+        hints=HOW_LONG,
+    )
+
+
+def _sends_the_goal(context: CheckContext, goal: FetchGoal, things: int) -> None:
+    context.expect(
+        "the goal contains the number of things",
+        expected=things,
+        actual=goal.things,
+        hints=[(0, "The field `things` of the goal is 0. Set it: FetchGoal(things=…, seconds=0.1).")],
+    )
+    context.expect(
+        "the goal contains the time for each thing",
+        expected=0.1,
+        actual=goal.seconds,
+        near=1e-6,
+        hints="The field `seconds` of the goal is not 0.1. Set it: FetchGoal(things=…, seconds=0.1).",
+    )
+
+
+def _too_late(context: CheckContext) -> None:
+    name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
+    robot = Robot(fetched, LONG)
+    with _serving(name, robot):
+        result = _fetch(context, robot, name, 5, SECONDS)
+        if not result.error:
+            _is_cancelled(context, robot)
+        context.expect(
+            "after a cancellation, the number of things fetched so far is returned",
+            expected=fetched,
+            actual=result.returned(),
+            hints=[
+                (
+                    None,
+                    "The function returned None. The robot sends its result after the cancellation: "
+                    "wait for this result.",
+                ),
+            ],
+        )
+
+
+def _is_cancelled(context: CheckContext, robot: Robot) -> None:
+    context.require(
+        "a robot that does not finish in time is cancelled",
+        holds=robot.cancelled.wait(1.0),
+        expected=f"a cancellation after {SECONDS:g} s",
+        actual="no cancellation: the robot continues, although the client does not wait any more",
+        hints=[
+            ((lambda _: not robot.goals), UNSENT),
+            (ANYTHING, "If wait_for_result returns False, the time is over: call cancel_goal()."),
+        ],
+    )
+    if not 0.6 * SECONDS < robot.took < SECONDS + SLACK:
+        context.fail(
+            "a robot that does not finish in time is cancelled",
+            expected=f"a cancellation after {SECONDS:g} s",
+            actual=f"a cancellation after {robot.took:.1f} s",
+            hint=HOW_LONG,
+        )
+
+
+def _goes_on(context: CheckContext) -> None:
+    """Offer a robot that ignores the cancellation: the function has to end, with any value or error."""
+    name = f"/{context.random.word()}"
+    robot = Robot(0, LONG, stubborn=True)
+    with _serving(name, robot):
+        result = context.run("fetch_within", name, 3, BRIEF, within=BRIEF + WAIT + SLACK)
+        robot.over.set()
+    context.require(
+        "a robot that does not finish in time is cancelled",
+        holds=not result.error.startswith("TimesUp"),
+        expected=f"an end at most {WAIT:g} s after the cancellation",
+        actual="a function that does not end",
+        hints=(
+            "The robot ignored the cancellation, so the function waited forever. Wait at "
+            "most 2 s after cancel_goal()."
+        ),
+    )
+
+
+def _comes(context: CheckContext) -> None:
+    """Start a robot while the client waits for it."""
+    name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
+    robot = Robot(fetched, 0.1)
+    with ExitStack() as ending:
+
+        def serve() -> None:
+            ending.callback(ActionServer(name, FetchAction, robot.execute).stop)
+
+        coming = threading.Timer(LATE, serve)
+        coming.start()
+        try:
+            result = _fetch(context, robot, name, 3, ENOUGH)
+        finally:
+            coming.join()
+        if result.returned() != fetched:
+            too_short = (
+                f"The server started {LATE:g} s after the call: use wait_for_server to wait up to 2 s for it."
+            )
+            context.fail(
+                "a server that starts within 2 s gets the goal",
+                expected=str(fetched),
+                actual=str(result.returned()),
+                # A client that waited for a result sent the goal before the robot had started.
+                hint=UNSENT if result.took > ENOUGH else too_short,
+            )
+
+
+def _nobody(context: CheckContext) -> None:
+    result = _call_without_robot(context)
+    context.expect(
+        "None if no robot offers the action",
+        expected=None,
+        actual=result.returned(),
+        hints=NOBODY,
+    )
+    if result.took > LONGEST:
+        context.fail(
+            "None if no robot offers the action",
+            expected=f"None after {WAIT:g} s",
+            actual=f"None after {result.took:.1f} s",
+            hint=(
+                f"The function waited too long for a server: pass rospy.Duration({WAIT:g}) to "
+                "wait_for_server."
+            ),
+        )
+
+
+WAITED_FOR_EVER: Hints = [
+    (
+        matches("TimesUp"),
+        "No server exists, but the wait has no limit: write wait_for_server(rospy.Duration(2)).",
+    ),
+    (
+        matches("NoneType"),
+        NOBODY,
+    ),
+]
+
+
+def _call_without_robot(context: CheckContext) -> Result:
+    """Send a goal to a robot that does not exist."""
+    return context.run(
+        "fetch_within", f"/{context.random.word()}", 3, 1.0, within=WAIT + 4.0, hints=WAITED_FOR_EVER
+    )
+
+
+def _fetch(context: CheckContext, robot: Robot, name: str, things: int, seconds: float) -> Result:
+    def is_early(_: object) -> bool:
+        return robot.cancelled.is_set()
+
+    return context.run(
+        "fetch_within",
+        name,
+        things,
+        seconds,
+        within=seconds + 5.0,
+        hints=[
+            (matches("TimesUp"), BOUND),
+            (matches("unsupported operand|'float' object|'int' object|Duration"), DURATION),
+            ((lambda error: not robot.goals and "NoneType" in error), UNSENT),
+            (is_early, EARLY),
+            (
+                matches("NoneType"),
+                "get_result() returned None, because the goal had not ended. When the time is "
+                "over, call cancel_goal() and wait for the result once more.",
+            ),
+        ],
+    )

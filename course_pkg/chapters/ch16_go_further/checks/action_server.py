@@ -1,0 +1,290 @@
+"""16.1: an action server with feedback, result and cancellation."""
+
+from __future__ import annotations
+
+import itertools
+import statistics
+import time
+
+import actionlib
+import rospy
+from actionlib import CommState
+from actionlib_msgs.msg import GoalStatus
+
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.msg import FetchAction, FetchGoal
+from course_pkg.waiting import Deadline, at_this_load, wait_until
+
+STATES = {
+    value: name for name, value in vars(GoalStatus).items() if name.isupper() and isinstance(value, int)
+}
+BEGIN = """
+kept = []
+
+def begin(kind, name):
+    kept.append(kind(name))
+"""
+QUICK, LONG = (0.03, 0.05), (0.22, 0.3)  # s for one thing, in two goals, so that no fixed time fits both
+TIMEOUT = 6.0  # s for a goal that needs less than one second
+BUSY = 2.0  # s in which a slow goal is sent again, because a busy machine delays single messages
+STARTING = 2.0  # s for a server to start
+CANCELLING = 3.0  # s in which a goal has to end after its cancellation
+FIXED = "The time for one thing is different in each goal: sleep for goal.seconds, not for a fixed time."
+NO_STATE = (
+    "The function ended without a state for the goal. Call set_succeeded, "
+    "set_preempted or set_aborted of the server; the return value of the function "
+    "is ignored."
+)
+
+
+@part(
+    "16.1",
+    points=3,
+    goal="Write an action server: feedback after each thing, the result at the end, and cancellation.",
+    needs=["Fetcher"],
+    deadline=60.0,
+)
+def executed_goal(context: CheckContext) -> None:
+    """Create an object of the student's class, and send goals with different times; one is cancelled."""
+    name = f"/{context.random.word()}"
+    context.prepare(BEGIN)
+    feedback = context.subscribe(f"{name}/feedback", "course_pkg/FetchActionFeedback")
+    context.run("begin", Its("Fetcher"), name, worded="Fetcher(name)").returned()
+    client = actionlib.SimpleActionClient(name, FetchAction)
+    _is_served(context, client)
+    _carries_out(context, client, feedback)
+    _takes_long_for_a_long_thing(context, client)
+    _cancels(context, client, feedback)
+    _fetches_nothing(context, client)
+
+
+def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    context.require(
+        "Fetcher(name) offers an action of this name",
+        holds=client.wait_for_server(rospy.Duration(at_this_load(STARTING))),
+        expected="an action server",
+        actual="no action server",
+        hints=(
+            "Pass the argument `name` of the constructor to SimpleActionServer, and call "
+            "start() of the server."
+        ),
+    )
+
+
+def _wrong_number_fetched(things: int) -> Hints:
+    return [
+        (0, "The field `fetched` of the result is 0. Write set_succeeded(FetchResult(fetched=…))."),
+        (
+            1,
+            "The goal ended after the first thing, because set_succeeded ends the goal: "
+            "call it once, after the loop.",
+        ),
+        (
+            things - 1,
+            "The result is too small by one, because range() counts from 0. Return the number of things.",
+        ),
+    ]
+
+
+def _wrong_feedback(things: int) -> Hints:
+    return [
+        ([], "No feedback arrived: call publish_feedback(FetchFeedback(fetched=…)) after each thing."),
+        (
+            list(range(things)),
+            "After the first thing, `fetched` has to be 1, but range() counts from 0: add 1.",
+        ),
+        ([things], "Only one feedback arrived, at the end. Publish feedback in the loop, after each thing."),
+        (
+            lambda actual: not any(actual),
+            "The field `fetched` is 0 in each feedback. Write FetchFeedback(fetched=…).",
+        ),
+    ]
+
+
+def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
+    """Send a quick goal; if it was too slow, send another one, because the machine may be busy."""
+    things = context.random.integer(3, 4)
+    each = context.random.number(*QUICK, digits=3)
+    limit = Deadline(BUSY)
+    while True:
+        before, began = feedback.count, time.monotonic()
+        client.send_goal(FetchGoal(things=things, seconds=each))
+        _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
+        took = time.monotonic() - began
+        feedback.wait(before + things, within=1.0)
+        at = [arrival.at for arrival in feedback.arrivals[before:]]
+        if _pace(at, took / things) < LONG[0] / 2 or limit.passed:
+            break
+    context.expect(
+        "the result is the number of fetched things",
+        expected=things,
+        actual=client.get_result().fetched,
+        hints=_wrong_number_fetched(things),
+    )
+    context.require(
+        "each thing takes the time that the goal contains",
+        holds=took > 0.9 * things * each and _pace(at, took / things) < LONG[0] / 2,
+        expected=f"about {things * each:.2f} s for {things} things",
+        actual=f"{took:.2f} s",
+        hints="The goal ended too early: sleep for goal.seconds before each feedback."
+        if took < 0.9 * things * each
+        else FIXED,
+    )
+    _sends_feedback(context, feedback, before, things)
+    _is_on_time(context, at, began, each)
+
+
+def _pace(at: list[float], alone: float) -> float:
+    """Return the usual time between two messages in s, or `alone` if there are not enough of them."""
+    gaps = [after - before for before, after in itertools.pairwise(at)]
+    return statistics.median(gaps) if gaps else alone
+
+
+def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, things: int) -> None:
+    context.expect(
+        "after each thing, the feedback is the number of things fetched so far",
+        expected=list(range(1, things + 1)),
+        actual=_counts(feedback)[before:],
+        hints=_wrong_feedback(things),
+    )
+
+
+def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
+    """Assert that each feedback comes as soon as its thing has been fetched, not earlier or later."""
+    context.require(
+        "the feedback arrives while the goal is executed",
+        holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
+        expected="one after the other",
+        actual="all at the same moment",
+        hints="All feedback arrived at the end. Publish each feedback as soon as its thing has been fetched.",
+    )
+    context.require(
+        "the feedback comes after its thing",
+        holds=at[0] - began > 0.9 * each,
+        expected=f"the first after {each:.2f} s",
+        actual=f"the first after {at[0] - began:.3f} s",
+        hints="The feedback came before the thing was fetched. First sleep, and then publish.",
+    )
+
+
+def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    each = context.random.number(*LONG, digits=3)
+    began = time.monotonic()
+    client.send_goal(FetchGoal(things=2, seconds=each))
+    _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
+    took = time.monotonic() - began
+    context.require(
+        "each thing takes the time that the goal contains",
+        holds=took > 1.9 * each,
+        expected=f"about {2 * each:.2f} s for 2 things",
+        actual=f"{took:.2f} s",
+        hints=FIXED,
+    )
+    context.expect(
+        "the result is the number of fetched things",
+        expected=2,
+        actual=client.get_result().fetched,
+        hints="The number continued from the previous goal. Begin each goal with 0.",
+    )
+
+
+def _wrong_number_left(last: int) -> Hints:
+    return [
+        (
+            0,
+            "The field `fetched` is 0 in the result of the cancelled goal. Write "
+            "set_preempted(FetchResult(fetched=…)).",
+        ),
+        (80, "80 is the number in the goal. Return the number of things fetched before the cancellation."),
+        (
+            lambda actual: actual < last,
+            "The robot continued to fetch, because set_preempted ends the goal, but not "
+            "your function. Return after this call.",
+        ),
+        (ANYTHING, "The result has to contain the same number as the last feedback."),
+    ]
+
+
+def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
+    before = feedback.count
+    client.send_goal(FetchGoal(things=80, seconds=0.1))
+    feedback.wait(before + 2, within=TIMEOUT)
+    client.cancel_goal()
+    context.require(
+        "a goal that is cancelled ends soon",
+        holds=_is_over(client, CANCELLING),
+        expected="an end after the thing that is being fetched",
+        actual="a robot that continues to fetch",
+        hints="Check is_preempt_requested() before each thing, and end the goal if it returns True.",
+    )
+    _ends_as(context, client, "a goal that is cancelled ends as PREEMPTED", GoalStatus.PREEMPTED)
+    last = _last(feedback)
+    context.expect(
+        "the result of a cancelled goal is the number of things fetched so far",
+        expected=last,
+        actual=client.get_result().fetched,
+        hints=_wrong_number_left(last),
+    )
+
+
+def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    client.send_goal(FetchGoal(things=0, seconds=0.1))
+    _ends_as(
+        context,
+        client,
+        "a goal with 0 things ends immediately, even after a cancelled goal",
+        GoalStatus.SUCCEEDED,
+    )
+
+
+WRONG_STATE: Hints = [
+    (matches("No terminal state"), NO_STATE),
+    (
+        matches("Exception in execute callback"),
+        "The function raised an exception. Read the error message above, and correct the error.",
+    ),
+    (
+        matches("^SUCCEEDED"),
+        "The goal was cancelled, so the right state is not SUCCEEDED: call set_preempted, and return.",
+    ),
+    (
+        matches("^ABORTED"),
+        "The goal was cancelled, but set_aborted means that the robot failed. Call set_preempted instead.",
+    ),
+    (matches("no end"), "The goal did not end. Check that the loop ends and that set_succeeded is called."),
+]
+
+
+def _ends_as(context: CheckContext, client: actionlib.SimpleActionClient, assertion: str, state: int) -> None:
+    over = _is_over(client, TIMEOUT)
+    seen = STATES.get(client.get_state(), "?") if over else "no end"
+    text = client.get_goal_status_text()
+    context.require(
+        assertion,
+        holds=over and client.get_state() == state,
+        expected=STATES[state],
+        actual=f"{seen}: {text}" if text else seen,
+        hints=WRONG_STATE,
+    )
+
+
+def _is_over(client: actionlib.SimpleActionClient, timeout: float) -> bool:
+    """Return whether the goal ends within `timeout` s.
+
+    The client's method wait_for_result() does not notice a goal that ends before send_goal() returns.
+    """
+    handle = client.gh
+    assert handle is not None
+    return bool(wait_until(lambda: handle.get_comm_state() == CommState.DONE, timeout))
+
+
+def _counts(feedback: Subscription) -> list[int]:
+    return [arrival.fields["feedback"]["fetched"] for arrival in feedback.arrivals]
+
+
+def _last(feedback: Subscription) -> int:
+    """Return the last count of the feedback, after 0.3 s for late messages."""
+    feedback.during(0.3)
+    return _counts(feedback)[-1]

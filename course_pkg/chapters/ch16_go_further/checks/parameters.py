@@ -1,0 +1,117 @@
+"""16.3: a parameter, with a default in place of missing and invalid values."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import rospy
+
+from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking.assertions import same
+from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.result import Result
+from course_pkg.waiting import wait_until
+
+SETTLING = 1.0  # s for a new value to reach a node that reads its parameters from a cache
+NAME = "The name of the parameter has to contain the name of the robot: f'/{robot}/speed'."
+CHANGED = (
+    "The parameter was changed, but the function returned the old value: read the parameter in each call."
+)
+TEXT = "A parameter can also be a text. Check that the value is a number."
+LIST = "A parameter can also be a list. Check that the value is a number, instead of excluding single types."
+TRUTH = "In Python, True is an int with the value 1. Check for bool separately."
+NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default."
+ZERO = "The value was 0, but a speed has to be above 0. Return the default."
+
+
+@part(
+    "16.3",
+    points=2,
+    goal=(
+        "Return a robot's speed from its parameter, or the default if the parameter is "
+        "missing or is not a number above 0."
+    ),
+    needs=["speed_of"],
+    deadline=20.0,
+)
+def speed_parameter(context: CheckContext) -> None:
+    """Set and change the parameter of a robot with a random name, to valid and invalid values."""
+    robot = context.random.word()
+    first, default = context.random.numbers(2, 1.0, 9.0)
+    (second,) = context.random.numbers(1, 0.1, 0.9)
+    no_number, not_positive = (
+        "the default, if the value is not a number",
+        "the default, if the value is not above 0",
+    )
+    cases: list[tuple[float | str | bool | list[float], str, float, str]] = [
+        (first, "the parameter, if it is set", first, NAME),
+        (second, "the new value, after the parameter was changed", second, CHANGED),
+        (
+            2,
+            "the parameter, if it is a whole number",
+            2.0,
+            "The value was the int 2, which is also a valid speed. Return it.",
+        ),
+        ("fast", no_number, default, TEXT),
+        ([first, second], no_number, default, LIST),
+        (True, no_number, default, TRUTH),
+        (-first, not_positive, default, NEGATIVE),
+        (0, not_positive, default, ZERO),
+    ]
+    try:
+        missing = "The parameter is not set: return the argument `default`."
+        _returns(context, robot, default, "the default, if the parameter is not set", default, missing)
+        context.require(
+            "the default, if the parameter is not set",
+            holds=not rospy.has_param(f"/{robot}/speed"),
+            expected="no parameter, as before the call",
+            actual="a parameter that the function has set",
+            hints="The function has set the parameter. Only read the parameter, and return the default.",
+        )
+        for value, assertion, expected, hint in cases:
+            rospy.set_param(f"/{robot}/speed", value)
+            _returns(context, robot, default, assertion, expected, hint)
+    finally:
+        with suppress(KeyError):
+            rospy.delete_param(f"/{robot}")
+
+
+def _returns(
+    context: CheckContext, robot: str, default: float, assertion: str, expected: float, hint: str
+) -> None:
+    def right() -> bool:
+        return same(expected, _speed(context, robot, default).returned(), 1e-6)
+
+    wait_until(right, SETTLING, 0.1)
+    context.expect(
+        assertion,
+        expected=expected,
+        actual=_speed(context, robot, default).returned(),
+        near=1e-6,
+        hints=[(None, NO_RETURN), (ANYTHING, hint)],
+    )
+
+
+def _speed(context: CheckContext, robot: str, default: float) -> Result:
+    return context.run(
+        "speed_of",
+        robot,
+        default,
+        hints=[
+            (
+                matches("^KeyError"),
+                "get_param raises a KeyError if the parameter is not set. Pass a second "
+                "argument, the default.",
+            ),
+            (
+                matches("^TypeError"),
+                "Python cannot compare a text or a list with a number. First check that the "
+                "value is a number.",
+            ),
+            (
+                matches("^ValueError"),
+                "float() raises a ValueError for a text that is not a number. Catch this error, "
+                "and return the default.",
+            ),
+        ],
+    )

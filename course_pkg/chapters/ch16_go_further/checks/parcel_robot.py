@@ -1,0 +1,306 @@
+"""16.4: a whole node with a topic, a service, an action and a parameter; the student chooses the kinds."""
+
+from __future__ import annotations
+
+import itertools
+import statistics
+import time
+
+import actionlib
+import rospy
+from actionlib import CommState
+from actionlib_msgs.msg import GoalStatus
+
+from course_pkg.chapters.ch16_go_further.checks.action_server import STATES
+from course_pkg.chapters.ch16_go_further.checks.robot_program import (
+    FILE,
+    Robot,
+    offers_what_fits,
+    started,
+)
+from course_pkg.checking import ANYTHING, CheckContext, part
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.msg import FetchAction, FetchGoal
+from course_pkg.waiting import wait_until
+
+USUAL = 5  # parcels, the capacity without an argument
+FEW = 4  # parcels, the capacity of the first robot: less than the default capacity
+PARCELS = 3  # of a delivery: fewer than any capacity
+EACH = 0.2  # s for one parcel
+PERIOD = 0.2  # s between two values of the battery
+ENDING = 4.0  # s for a goal to end
+SETTLING = 1.0  # s for the battery to show a delivery
+NOT_AT_ONCE = 0.9  # a goal was not aborted immediately if it took this part of its full time
+
+START = f"""%%writefile {FILE}
+#!/usr/bin/env python3
+# A robot that delivers parcels: battery, door, deliver and capacity.
+import rospy
+
+
+if __name__ == "__main__":
+    rospy.init_node("parcel_robot")
+    # Write your node: imports above, functions or a class above this block, the rest here.
+"""
+
+
+@part(
+    "16.4",
+    points=4,
+    goal=(
+        "Write a node with battery, door, deliver and capacity; use the kind of interface that fits for each."
+    ),
+    needs=[f"file:{FILE}"],
+    deadline=60.0,
+    start=START,
+)
+def parcel_robot(context: CheckContext) -> None:
+    """Start two robots, one of them with a capacity; read the battery, move the door, deliver, cancel."""
+    folder = context.folder(files=[FILE])
+    with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
+        battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
+        offers_what_fits(context, first)
+        _starts_with_a_full_battery(context, battery)
+        feedback = context.subscribe(first.name("deliver/feedback"), "course_pkg/FetchActionFeedback")
+        client = _client(first)
+        feedback.published()
+        _delivers(context, client, feedback, battery)
+        charge = _cancels(context, client, feedback, battery)
+        _refuses_too_many(context, client, FEW)
+        _delivers_nothing_impossible(context, battery, charge - FEW)
+        offers_what_fits(context, second)
+        _refuses_too_many(context, _client(second), USUAL)
+        _moves_the_door(context, first)
+
+
+def _client(robot: Robot) -> actionlib.SimpleActionClient:
+    client = actionlib.SimpleActionClient(robot.name("deliver"), FetchAction)
+    client.wait_for_server(rospy.Duration(ENDING))
+    return client
+
+
+def _starts_with_a_full_battery(context: CheckContext, battery: Subscription) -> None:
+    battery.published()
+    arrivals = battery.wait(4, within=3.0)
+    gaps = [after.at - before.at for before, after in itertools.pairwise(arrivals)]
+    period = statistics.median(gaps) if gaps else 0.0
+    context.require(
+        "battery has five values per second",
+        holds=0.5 * PERIOD < period < 1.7 * PERIOD,
+        expected=f"a value every {PERIOD:g} s",
+        actual=f"a value every {period:.2f} s" if gaps else "hardly any value",
+        hints="Publish in a loop that calls sleep() of a rospy.Rate(5) once in each round.",
+    )
+    context.expect(
+        "the battery starts with 100",
+        expected=100.0,
+        actual=arrivals[0].fields["data"],
+        hints="Publish the charge in percent; before the first delivery, the charge has to be 100.",
+    )
+
+
+def _moves_the_door(context: CheckContext, robot: Robot) -> None:
+    door = context.service(robot.name("door"), "std_srvs/SetBool")
+    for wanted, position in ((True, "open"), (False, "closed"), (True, "open")):
+        response = door(data=wanted)
+        context.expect(
+            "the door reports its new position",
+            expected=position,
+            actual=response.message,
+            hints=(
+                'The field `message` has to be "open" after a request with True, and "closed" '
+                "after a request with False."
+            ),
+        )
+        context.expect(
+            "the door reports success",
+            expected=True,
+            actual=response.success,
+            hints=(
+                "The field `success` has to be True after every request, because the robot "
+                "has moved the door."
+            ),
+        )
+
+
+def _delivers(
+    context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription, battery: Subscription
+) -> None:
+    before = battery.count
+    client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
+    _ends_as(
+        context,
+        client,
+        "a delivery succeeds",
+        GoalStatus.SUCCEEDED,
+        "Call set_succeeded at the end of the delivery.",
+    )
+    meanwhile = battery.count - before
+    feedback.wait(PARCELS, SETTLING)
+    context.expect(
+        "feedback comes after each parcel",
+        expected=[1, 2, 3],
+        actual=_counts(feedback),
+        hints="Publish the number of delivered parcels after each parcel: 1, 2, 3.",
+    )
+    context.expect(
+        "the result is the number of delivered parcels",
+        expected=PARCELS,
+        actual=client.get_result().fetched,
+        hints="Pass FetchResult(fetched=…) with the number of parcels to set_succeeded.",
+    )
+    context.require(
+        "battery continues during a delivery",
+        holds=meanwhile >= 2,
+        expected=f"some {PARCELS * EACH / PERIOD:.0f} values",
+        actual=meanwhile,
+        hints=(
+            "The battery values stopped during the delivery. The action has its own thread: "
+            "deliver in the action's function, and publish in another thread."
+        ),
+    )
+    charge = 100.0 - PARCELS
+    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
+    context.expect(
+        "each delivered parcel costs 1 percent",
+        expected=charge,
+        actual=battery.arrivals[-1].fields["data"],
+        hints=[
+            (100.0, "The charge did not change. Subtract 1 from the charge after each delivered parcel."),
+            (99.0, "The charge changed only once for the whole delivery. Subtract 1 for each parcel."),
+        ],
+    )
+
+
+def _counts(feedback: Subscription) -> list[int]:
+    return [arrival.fields["feedback"]["fetched"] for arrival in feedback.arrivals]
+
+
+def _cancels(
+    context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription, battery: Subscription
+) -> float:
+    """Cancel a delivery after its first parcel; return the charge after it."""
+    before = feedback.count
+    client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
+    feedback.wait(before + 1, ENDING)
+    client.cancel_goal()
+    _ends_as(
+        context,
+        client,
+        "a delivery can be cancelled",
+        GoalStatus.PREEMPTED,
+        "Check is_preempt_requested() before each parcel, and end the goal with set_preempted.",
+    )
+    feedback.until(lambda _: _counts(feedback)[-1] == client.get_result().fetched, SETTLING)
+    context.expect(
+        "a cancelled delivery returns the number of delivered parcels",
+        expected=_counts(feedback)[-1],
+        actual=client.get_result().fetched,
+        hints="Pass FetchResult(fetched=…) with the number of parcels delivered so far to set_preempted.",
+    )
+    before_it = 100.0 - PARCELS
+    charge = before_it - int(client.get_result().fetched)
+    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
+    context.expect(
+        "each delivered parcel costs 1 percent",
+        expected=charge,
+        actual=battery.arrivals[-1].fields["data"],
+        hints=[
+            (
+                lambda actual: actual > before_it,
+                "A new delivery set the charge to 100 again. Set the charge to 100 only once, "
+                "when the robot starts.",
+            ),
+            (
+                before_it,
+                "The parcels of a cancelled delivery did not reduce the charge. Subtract 1 as "
+                "soon as a parcel is delivered.",
+            ),
+            (
+                ANYTHING,
+                "The charge became smaller for parcels that were not delivered. Subtract 1 only "
+                "after each delivered parcel.",
+            ),
+        ],
+    )
+    return charge
+
+
+def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
+    """Assert that the impossible goal before the last goal did not reduce the charge."""
+    battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
+    battery.during(3 * PERIOD)  # the charge may reach this value only for a moment
+    context.expect(
+        "an impossible delivery delivers nothing",
+        expected=f"a charge of {charge:g}",
+        actual=f"a charge of {battery.arrivals[-1].fields['data']:g}",
+        hints=(
+            "The function continued to deliver after set_aborted, because set_aborted does "
+            "not end the function. Return after this call."
+        ),
+    )
+
+
+def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClient, capacity: int) -> None:
+    """Send a goal with one parcel too many, and a goal with as many parcels as the robot can carry."""
+    began = time.monotonic()
+    client.send_goal(FetchGoal(things=capacity + 1, seconds=EACH))
+    _ends_as(
+        context,
+        client,
+        "a delivery of more parcels than the capacity is aborted",
+        GoalStatus.ABORTED,
+        "Compare goal.things with the parameter ~capacity, whose default is 5, and call set_aborted.",
+    )
+    context.require(
+        "an impossible delivery ends immediately",
+        holds=time.monotonic() - began < NOT_AT_ONCE * EACH * capacity,
+        expected="an end before the first parcel",
+        actual=f"an end after {time.monotonic() - began:.1f} s",
+        hints="Compare goal.things with the capacity before the loop.",
+    )
+    context.expect(
+        "an impossible delivery delivers nothing",
+        expected=0,
+        actual=client.get_result().fetched,
+        hints=[
+            (
+                ANYTHING,
+                "No parcel was delivered, so the result has to be 0: pass "
+                "FetchResult(fetched=0) to set_aborted.",
+            )
+        ],
+    )
+    time.sleep(2 * EACH)  # in this time, a function that continues after set_aborted delivers a parcel
+    client.send_goal(FetchGoal(things=capacity, seconds=0.0))
+    _ends_as(
+        context,
+        client,
+        "a delivery of as many parcels as the capacity succeeds",
+        GoalStatus.SUCCEEDED,
+        "The robot can carry as many parcels as its capacity: abort only a goal with more parcels.",
+    )
+
+
+def _ends_as(
+    context: CheckContext, client: actionlib.SimpleActionClient, assertion: str, state: int, hint: str
+) -> None:
+    """Assert that the goal ends in `state`; an exception of the student's function is shown first."""
+    handle = client.gh
+    assert handle is not None
+    over = wait_until(lambda: handle.get_comm_state() == CommState.DONE, ENDING)
+    text = client.get_goal_status_text()
+    seen = STATES.get(client.get_state(), "?") if over else "no end"
+    context.require(
+        assertion,
+        holds=over and client.get_state() == state,
+        expected=STATES[state],
+        actual=f"{seen}: {text}" if text else seen,
+        hints=[
+            (
+                (lambda _: "Exception" in text),
+                "The function that delivers raised an exception. Its message is above: correct this error.",
+            ),
+            (ANYTHING, hint),
+        ],
+    )

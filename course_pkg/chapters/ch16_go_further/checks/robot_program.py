@@ -1,0 +1,127 @@
+"""Functions that start the student's parcel robot, and find the kind of interface of each name."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from course_pkg.checking import CheckContext
+from course_pkg.checking.commands.folder import Folder, Running, telling_line
+from course_pkg.ros.protocol.snapshot import Snapshot
+from course_pkg.waiting import at_this_load
+
+FILE = "parcel_robot.py"
+STARTING = 8.0  # s for the program to register something; it takes 1 s on an idle machine
+REGISTERING = 1.5  # s in which it then has to register all other interfaces
+POLL = 0.05  # s between two snapshots of the graph
+FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
+CAPACITY = (
+    '"capacity" is a setting that the user chooses at the start: read a private '
+    "parameter, and do not offer an interface for it."
+)
+UNFIT = {
+    "battery": "Several programs need each new value, without a request for each value.",
+    "door": "The move is short, and the client must not continue before it knows that the move is done.",
+    "deliver": (
+        "The client wants to get progress reports and to cancel the job. Only one kind "
+        "of interface offers both."
+    ),
+}
+MISSING = 'The node offers nothing with this name. The three names are "battery", "door" and "deliver".'
+ABSOLUTE = (
+    "This name is not in the namespace in which the robot was started: remove the "
+    '"/" or "~" at the beginning of the name.'
+)
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A running copy of the student's program, in a separate namespace."""
+
+    running: Running
+    space: str  # such as "/abcdef"
+    node: str
+
+    def __enter__(self) -> Robot:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.running.__exit__(None, None, None)
+
+    def name(self, name: str) -> str:
+        """Return the full name of a relative name of the robot."""
+        return f"{self.space}/{name}"
+
+
+def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
+    """Start the student's program with `arguments`, a random namespace and a random node name."""
+    space, node = f"/{context.random.word()}", context.random.word()
+    line = ["python", FILE, f"__ns:={space}", f"__name:={node}", *arguments]
+    return Robot(folder.start(*line, worded=f"python3 {FILE}"), space, f"{space}/{node}")
+
+
+def offers_what_fits(context: CheckContext, robot: Robot) -> None:
+    """Wait until the robot offers its three names; assert that each has the kind of interface that fits."""
+    deadline = time.monotonic() + at_this_load(STARTING)
+    found: dict[str, str] = {}
+    while time.monotonic() < deadline:
+        if robot.running.status is not None:
+            _has_ended(context, robot)
+        now = {name: kind_of(context.look(), robot, name) for name in FITTING}
+        if now == FITTING:
+            break
+        if any(now.values()) and not any(found.values()):
+            deadline = min(deadline, time.monotonic() + at_this_load(REGISTERING))
+        found = now
+        time.sleep(POLL)
+    seen = context.look()
+    for name, kind in FITTING.items():
+        actual = kind_of(seen, robot, name)
+        context.require(
+            f"{name} has the kind of interface that fits",
+            holds=actual == kind,
+            expected="an interface that fits",
+            actual=f"{'an' if actual == 'action' else 'a'} {actual}" if actual else "nothing with this name",
+            hints=UNFIT[name] if actual else ABSOLUTE if _elsewhere(seen, robot, name) else MISSING,
+        )
+    other = kind_of(seen, robot, "capacity")
+    context.require(
+        '"capacity" is a setting, not an interface for clients',
+        holds=not other,
+        expected="a parameter",
+        actual=f"a {other}",
+        hints=CAPACITY,
+    )
+
+
+def kind_of(seen: Snapshot, robot: Robot, name: str) -> str:
+    """Return "topic", "service" or "action", or "" if the robot offers nothing of this name."""
+    return _kind(seen, robot, robot.name(name))
+
+
+def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
+    service = seen.service(full)
+    if service is not None and service.node == robot.node:
+        return "service"
+    uses = {topic.name: robot.node in (*topic.publishers, *topic.subscribers) for topic in seen.topics}
+    if uses.get(f"{full}/goal"):
+        return "action"
+    return "topic" if uses.get(full) else ""
+
+
+def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
+    """Return whether the robot offers an absolute or a private name instead of the relative name."""
+    return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
+
+
+def _has_ended(context: CheckContext, robot: Robot) -> None:
+    printed = robot.running.stop().out
+    context.fail(
+        f"{FILE} continues to run",
+        expected="a node",
+        actual=f"a program that has ended, with the output: {telling_line(printed)}",
+        hint=(
+            "The program has ended. Correct the error if there is one, and let the program "
+            "wait at its end, for example with rospy.spin()."
+        ),
+    )

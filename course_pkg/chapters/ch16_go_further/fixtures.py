@@ -1,0 +1,13 @@
+"""Code that runs before and after an answer of chapter 16 is tested alone; see checking/fixtures.py."""
+
+# %% before
+import threading
+import time
+
+import actionlib
+import rospy
+
+from course_pkg import join
+from course_pkg.msg import FetchAction, FetchFeedback, FetchGoal, FetchResult
+
+node = join("chapter_16")

@@ -1,0 +1,41 @@
+"""The node `fetcher`: a robot that fetches things one after the other, with the action `fetch`.
+
+A goal contains the number of `things`, and the `seconds` for each thing. Feedback is published after each
+thing. The result contains the number of fetched things, even if the goal was cancelled.
+"""
+
+from __future__ import annotations
+
+import actionlib
+import rospy
+
+from course_pkg.msg import FetchAction, FetchFeedback, FetchGoal, FetchResult
+from course_pkg.ros.node.program import start_node, undisturbed
+
+LONGEST = 60.0  # s for a single thing
+
+
+def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
+    """Execute `goal`; stop between two things if the goal is cancelled, and abort an impossible goal."""
+    if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
+        server.set_aborted(FetchResult(), f"no robot fetches {goal.things} things in {goal.seconds:g} s each")
+        return
+    for fetched in range(goal.things):
+        if server.is_preempt_requested():
+            server.set_preempted(FetchResult(fetched))
+            return
+        rospy.sleep(goal.seconds)
+        server.publish_feedback(FetchFeedback(fetched + 1))
+    server.set_succeeded(FetchResult(goal.things))
+
+
+def main() -> None:
+    """Execute goals until the node is shut down."""
+    if not start_node("fetcher"):
+        return
+    with undisturbed():
+        server: actionlib.SimpleActionServer = actionlib.SimpleActionServer(
+            "fetch", FetchAction, lambda goal: fetch(goal, server), auto_start=False
+        )
+        server.start()
+    rospy.spin()

@@ -1,0 +1,41 @@
+"""The checks: each check is a node of its own that examines a student's work from outside.
+
+A notebook calls `check("05.1")`. An author declares a check with `part`, and works
+with the `CheckContext` that is passed to it. `matches` makes a pattern for its hints, and `ANYTHING` matches
+every value.
+"""
+
+from typing import TYPE_CHECKING
+
+from course_pkg.lazy import lazily
+
+if TYPE_CHECKING:
+    from course_pkg.checking.assertions import ANYTHING, matches
+    from course_pkg.checking.client import check
+    from course_pkg.checking.context import CheckContext, Its
+    from course_pkg.checking.parts import part
+    from course_pkg.checking.peers.scripted_server import HangUp, Late, Refuse, Silence
+
+__all__ = [
+    "ANYTHING",
+    "CheckContext",
+    "HangUp",
+    "Its",
+    "Late",
+    "Refuse",
+    "Silence",
+    "check",
+    "matches",
+    "part",
+]
+
+__getattr__ = lazily(
+    __name__,
+    {
+        "client": "check",
+        "context": "CheckContext Its",
+        "assertions": "ANYTHING matches",
+        "parts": "part",
+        "peers.scripted_server": "HangUp Late Refuse Silence",
+    },
+)

@@ -1,0 +1,103 @@
+"""The assertions of a check, and the hints for assertions that do not hold."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from typing import Any, NoReturn, TypeAlias
+
+from course_pkg.checking.plain_values import plain
+from course_pkg.checking.report import Assertion
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.types import Plain
+
+# A wrong value, a pattern made by `matches`, or a function that returns whether the actual value matches. The
+# function may expect any kind of value: if it raises an exception, the value does not match.
+Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
+ANYTHING: Condition = re.compile("")  # matches every value; for the last hint of a list
+# One hint for every wrong value, or pairs: the first condition that matches selects the hint.
+Hints: TypeAlias = "str | Sequence[tuple[Condition, str]]"
+
+
+class AssertionFailed(Exception):
+    """An assertion does not hold: the check is over."""
+
+
+def matches(pattern: str) -> re.Pattern[str]:
+    """Return a condition for `hints`: it matches a value whose text contains `pattern`; case is ignored."""
+    return re.compile(pattern, re.IGNORECASE | re.DOTALL)
+
+
+def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
+    """Return whether plain values are equal.
+
+    Numbers may differ by `near`, relative or absolute. True is never 1.
+    """
+    if isinstance(expected, dict) and isinstance(actual, dict):
+        return expected.keys() == actual.keys() and all(
+            same(expected[key], actual[key], near) for key in expected
+        )
+    if isinstance(expected, list) and isinstance(actual, list):
+        return len(expected) == len(actual) and all(map(lambda a, b: same(a, b, near), expected, actual))
+    if isinstance(expected, bool) or isinstance(actual, bool):
+        return expected is actual
+    if isinstance(expected, (int, float)) and isinstance(actual, (int, float)):
+        # an integer that is too large for a float is not near to any other number
+        with suppress(OverflowError):
+            return expected == actual or math.isclose(expected, actual, rel_tol=near, abs_tol=near)
+        return False
+    return type(expected) is type(actual) and bool(expected == actual)
+
+
+def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
+    """Return the first pair of different items, so that a report need not show whole lists.
+
+    Returns ({}, {}) if all pairs are the same.
+    """
+    pairs = zip(expected, actual, strict=False)
+    return next((pair for pair in pairs if not same(*pair, near)), ({}, {}))
+
+
+def hint_for(hints: Hints, actual: Json, near: float = 0.0) -> str:
+    """Return the hint of the first condition that matches `actual`, or an empty string."""
+    if isinstance(hints, str):
+        return hints
+    return next((hint for condition, hint in hints if _fits(condition, actual, near)), "")
+
+
+def _fits(condition: Condition, actual: Json, near: float) -> bool:
+    if isinstance(condition, re.Pattern):
+        return bool(condition.search(str(actual)))
+    if callable(condition):
+        try:
+            return bool(condition(actual))
+        # the condition expects another kind of value
+        except (TypeError, ValueError, LookupError, AttributeError):
+            return False
+    return same(plain(condition), actual, near)
+
+
+class Results:
+    """The assertions that were checked, and the last call of the check."""
+
+    def __init__(self) -> None:
+        # returns the text of the call, which is needed only when a check fails
+        self.asked: Callable[[], str] = str
+        self._assertions: dict[str, Assertion] = {}
+
+    @property
+    def assertions(self) -> tuple[Assertion, ...]:
+        """The assertions, in the order in which they were first checked."""
+        return tuple(self._assertions.values())
+
+    def passes(self, assertion: str) -> None:
+        """Record that `assertion` holds; it may still fail when it is checked again."""
+        self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
+
+    def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
+        """Record that `assertion` does not hold, and end the check by raising AssertionFailed."""
+        self._assertions.pop(assertion, None)
+        self._assertions[assertion] = Assertion(assertion, False, self.asked(), expected, actual, hint)
+        raise AssertionFailed(assertion)

@@ -1,0 +1,98 @@
+"""The connection between the check client in a kernel, which is not trusted, and the check runner.
+
+Both use a stream socket with one JSON object in each line of at most `LIMIT` bytes. The runner never
+unpickles or evaluates the received data: they are plain data.
+
+    client -> runner   {"protocol": 3, "check": "05.1"}            once, first
+    runner -> client   {"ask": 1, "do": "look", "name": "measure"}
+    client -> runner   {"answer": 1, "kind": "function"}           or {"answer": 1, "wrong": "..."}
+    ...                                                            as often as the check needs
+    runner -> client   {"report": {...}}                           once, last
+
+The requests, their arguments, and the fields of the replies:
+
+    look     name                         kind (function, class, value, blank, missing), alike, older
+    served   name                         older (what to do if the handler of a service is an earlier version)
+    traceback                             text (of the last exception of a handler in the kernel's process)
+    read     name                         value
+    source   name                         text
+    prepare  code, within                 error (the check's own code: it makes arguments for calls)
+    place    name, port, key, item        (a proxy for an object of the runner's: see placed/host.py)
+    call     name, args, kwargs, within   value or error, printed, took
+    folder   files, texts                 folder (its number: copies of files, over them the check's texts)
+    run      argv, folder, within         status, out, err, took
+    start    argv, folder                 process (its number)
+    poll     process                      status, null while it runs
+    stop     process                      as run; status is null if it was still running
+
+A line that is too long, that is no JSON object, or that replies to another request breaks the connection. The
+runner counts that as a failure, never as a pass.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Mapping
+
+from course_pkg.errors import ChannelBroken, ChannelClosed, CheckError
+from course_pkg.ros.protocol.json_channel import Json, JsonChannel
+from course_pkg.types import Plain
+
+PROTOCOL = 3
+LIMIT = 1 << 20  # maximum bytes of a line
+LONGEST = 400  # maximum characters of a received message in a report
+
+
+class Channel(JsonChannel):
+    """One end of the connection."""
+
+    def __init__(self, sock: socket.socket) -> None:
+        super().__init__(sock, LIMIT)
+        self._asked = 0
+
+    def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
+        """Send the request `do` to the check client, and return its reply, within `timeout` s.
+
+        Raises ChannelBroken if the reply belongs to another request, and the exceptions of JsonChannel.
+        """
+        self._asked += 1
+        self.send({"ask": self._asked, "do": do, **arguments}, timeout)
+        reply = self.receive(timeout)
+        if type(reply.get("answer")) is not int or reply["answer"] != self._asked:
+            raise ChannelBroken(f"an answer to another request: {str(reply)[:80]}")
+        if "wrong" in reply:
+            raise ChannelBroken(f"the kernel could not answer the request {do!r}: {reply['wrong']}")
+        return reply
+
+
+def require_current(reply: Mapping[str, Json]) -> None:
+    """Raise CheckError if the kernel replies that the examined code is an earlier version."""
+    if older := str(reply.get("older") or "")[:LONGEST]:
+        raise CheckError(older)
+
+
+def connect(address: str) -> Channel:
+    """Connect to a check runner that waits at `address`, which is the path of a Unix socket, or host:port.
+
+    Raises ChannelClosed if no runner accepts the connection.
+    """
+    host, _, port = address.rpartition(":")
+    try:
+        if host and port.isdigit() and os.sep not in host:
+            sock = socket.create_connection((host, int(port)), timeout=5.0)
+            sock.settimeout(None)
+            return Channel(sock)
+        return Channel(_unix_socket(address))
+    except OSError as error:
+        raise ChannelClosed(f"no check runner waits at {address}: {error}") from error
+
+
+def _unix_socket(path: str) -> socket.socket:
+    sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        sock.connect(path)
+    except OSError:
+        sock.close()
+        raise
+    return sock

@@ -1,0 +1,107 @@
+"""A check's own folder on the kernel's computer, and the commands that the kernel runs in it."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from types import TracebackType
+
+from course_pkg.checking.channel import Channel
+from course_pkg.checking.result import Finished
+from course_pkg.errors import ChannelError, CheckError, GraphError
+from course_pkg.ros.protocol.snapshot import Snapshot, look
+from course_pkg.waiting import at_this_load, wait_until
+
+SLACK = 3.0  # s for the kernel to reply, in addition to the time limit of the command itself
+ENDING = 5.0  # s for a command to end after SIGINT, or after it is killed
+LOOK = 0.1  # s between two snapshots of a graph
+COLOUR = re.compile(r"\x1b\[\d*m")
+
+
+class Folder:
+    """Contains copies of the student's files, and files of the check's own; it is removed after the check.
+
+    `doing` is called with each command when it begins.
+    """
+
+    def __init__(
+        self, channel: Channel, files: Sequence[str], texts: Mapping[str, str], doing: Callable[[str], None]
+    ) -> None:
+        self._channel = channel
+        self._doing = doing
+        reply = channel.ask("folder", timeout=SLACK, files=files, texts=texts)
+        self._number = reply.get("folder")
+
+    def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
+        """Run a command here, for at most `within` s, or longer on a busy machine.
+
+        "python" stands for the kernel's own interpreter.
+
+        The environment is that of the course, without the student's sourced packages. A report shows the
+        command, or `worded` if it is given. Raises ChannelError if the kernel does not reply.
+        """
+        self._doing(worded or " ".join(argv))
+        limit = at_this_load(within)
+        timeout = limit + at_this_load(SLACK)
+        reply = self._channel.ask("run", timeout=timeout, argv=argv, folder=self._number, within=limit)
+        return Finished(reply)
+
+    def start(self, *argv: str, worded: str = "") -> Running:
+        """Start a command here that runs until it is stopped; a context manager."""
+        self._doing(worded or " ".join(argv))
+        reply = self._channel.ask("start", timeout=at_this_load(SLACK), argv=argv, folder=self._number)
+        number = reply.get("process")
+        if not isinstance(number, int):
+            raise CheckError("The kernel did not start a command of the check: restart the kernel.")
+        return Running(self._channel, number, lambda: self._doing(worded or " ".join(argv)))
+
+
+class Running:
+    """A command, such as a node, that runs until it is stopped."""
+
+    def __init__(self, channel: Channel, number: int, show: Callable[[], None]) -> None:
+        self._channel = channel
+        self._number = number
+        self.show = show  # Report this command as the last one that was run in all assertions that follow.
+
+    @property
+    def status(self) -> int | None:
+        """The exit status, or None while it runs."""
+        status = self._channel.ask("poll", timeout=SLACK, process=self._number).get("status")
+        return status if isinstance(status, int) else None
+
+    def stop(self) -> Finished:
+        """End the command. The status is None if it was still running; `out` contains both output streams."""
+        return Finished(self._channel.ask("stop", timeout=ENDING, process=self._number))
+
+    def __enter__(self) -> Running:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with suppress(ChannelError):  # the command ended when the kernel ended
+            self.stop()
+
+
+def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
+    """Return whether `condition` holds for the graph of the master at `uri` within `within` s.
+
+    Returns as soon as it holds. The master may not have started yet.
+    """
+
+    def holds() -> bool:
+        with suppress(GraphError):  # the master has not started yet
+            return bool(condition(look(uri)))
+        return False
+
+    return wait_until(holds, within, LOOK)
+
+
+def telling_line(printed: str) -> str:
+    """Return the last line that reports an error, or else the last line; without colours and this folder."""
+    lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
+    telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
+    return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")

@@ -1,0 +1,184 @@
+"""A check's folders on the kernel's computer, and the commands that run in them.
+
+A check never works on the student's own files: it works on copies, together with its own files. The commands
+get the course's environment, not the kernel's. So packages that a student has built and sourced cannot
+replace the packages that the check builds.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import IO
+
+from course_pkg.checking.plain_values import Reply
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.setup import Places, environment
+
+PRINTED = 65536  # maximum characters of output that are kept
+GRACE = 2.0  # time limit in s for a node to end and unregister after SIGINT; rospy takes 0.6 s
+
+
+class CommandFolders:
+    """Folders and running commands, which have numbers; close() ends and removes all of them."""
+
+    def __init__(self, find: Callable[[str], Path]) -> None:
+        self._find = find  # returns the path of a student's file
+        self._open = ExitStack()
+        self._folders: list[Path] = []
+        self._running: list[_Running] = []
+
+    def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
+        """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
+        folder = Path(self._open.enter_context(tempfile.TemporaryDirectory(prefix="course-run-")))
+        for name in files:
+            _copy(self._find(name), folder / _place(name))
+        for name, text in texts.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, "utf-8")
+        self._folders.append(folder)
+        return {"folder": len(self._folders) - 1}
+
+    def run(self, argv: Sequence[str], folder: int, within: float) -> Reply:
+        """Run a command to its end, but for at most `within` s."""
+        return _finished(_command(argv), self._folders[folder], within)
+
+    def start(self, argv: Sequence[str], folder: int) -> Reply:
+        """Start a command that continues to run."""
+        self._running.append(_Running(_command(argv), self._folders[folder]))
+        self._open.callback(self._running[-1].stop)
+        return {"process": len(self._running) - 1}
+
+    def poll(self, process: int) -> Reply:
+        """Return the exit status of a command that was started, or None while it runs."""
+        return {"status": self._running[process].status}
+
+    def stop(self, process: int) -> Reply:
+        """End a command as Ctrl-C does; return its result, with a null status if it was still running."""
+        return self._running[process].stop()
+
+    def close(self) -> None:
+        """End the running commands, and remove the folders."""
+        self._open.close()
+
+
+class _Running:
+    """A command that continues to run; it ends when the kernel ends, or before."""
+
+    def __init__(self, command: Sequence[str], folder: Path) -> None:
+        self._started = time.monotonic()
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it stays open as long as this object
+        in_folder = ["sh", "-c", 'cd "$0" && exec "$@"', str(folder), *command]
+        self._process = SupervisedProcess(in_folder, output=self._output, env=_environment(folder))
+        self._end: Reply | None = None
+
+    @property
+    def status(self) -> int | None:
+        """The exit status, None while it runs."""
+        return self._process.returncode
+
+    def stop(self) -> Reply:
+        """End the command as Ctrl-C does, and by force if necessary.
+
+        Return its status, None if it was still running.
+        """
+        if self._end is None:
+            status = self.status
+            self._process.end(GRACE)
+            took = time.monotonic() - self._started
+            self._end = {"status": status, "out": _text(self._output), "err": "", "took": took}
+            self._output.close()
+        return self._end
+
+
+def _place(name: str) -> str:
+    """Return the path of a copy: a relative path stays the same.
+
+    Of an absolute path, only the last part is used.
+    """
+    path = Path(os.path.normpath(name))
+    return path.name if path.is_absolute() or ".." in path.parts else str(path)
+
+
+def _copy(source: Path, target: Path) -> None:
+    """Copy a file or a folder; keep permissions and links."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if source.is_dir():
+        shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)
+    else:
+        shutil.copy(source, target)
+
+
+def _command(argv: Sequence[str]) -> list[str]:
+    return [sys.executable if argv[0] == "python" else argv[0], *argv[1:]]
+
+
+def _environment(folder: Path) -> dict[str, str]:
+    """Return the course's environment; catkin_make uses PWD instead of the working directory."""
+    try:
+        known = environment.merged(Places.of(), os.environ)
+    except (OSError, ValueError):  # the course was installed without its own set-up
+        known = dict(os.environ)
+    return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
+
+
+def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
+    started = time.monotonic()
+    with (
+        tempfile.TemporaryFile() as out,
+        tempfile.TemporaryFile() as err,
+        subprocess.Popen(
+            command,
+            cwd=folder,
+            env=_environment(folder),
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            start_new_session=True,
+        ) as process,
+    ):
+        times: Reply = {}
+        try:
+            status: int | None = process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            status = None
+            times = _scheduled(process.pid)
+        finally:
+            _end_group(process.pid)
+        took = time.monotonic() - started
+        return {"status": status, "out": _text(out), "err": _text(err), "took": took, **times}
+
+
+def _scheduled(pid: int) -> Reply:
+    """Return how long (s) the main thread of a process has used a processor, and has waited for one.
+
+    Linux writes both into /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). The reply is
+    empty on systems without this file.
+    """
+    try:
+        ran, queued, _ = Path(f"/proc/{pid}/schedstat").read_text().split()
+    except (OSError, ValueError):
+        return {}
+    return {"ran": int(ran) / 1e9, "queued": int(queued) / 1e9}
+
+
+def _end_group(leader: int) -> None:
+    """End the processes that the command left in its own session."""
+    try:
+        os.killpg(leader, signal.SIGKILL)
+    except ProcessLookupError:
+        return
+
+
+def _text(stream: IO[bytes]) -> str:
+    stream.seek(0)
+    return stream.read(PRINTED).decode("utf-8", errors="replace")

@@ -1,0 +1,338 @@
+"""The object that a check works with: the student's servers, topics, functions and values, and assertions."""
+
+from __future__ import annotations
+
+import difflib
+import signal
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from types import TracebackType
+from typing import NoReturn, overload
+
+from course_pkg.checking.assertions import AssertionFailed, Hints, Results, hint_for, same
+from course_pkg.checking.channel import Channel, require_current
+from course_pkg.checking.commands.folder import SLACK, Folder
+from course_pkg.checking.formatting import shown
+from course_pkg.checking.peers.faulty_server import FaultyServer, Work
+from course_pkg.checking.peers.node import FakeNode, Node, held_back
+from course_pkg.checking.peers.publisher import Publisher
+from course_pkg.checking.peers.scripted_server import Absent, Script, ScriptedServer
+from course_pkg.checking.peers.service_calls import TIMEOUT, Service
+from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.placed.host import PlacedObjects
+from course_pkg.checking.plain_values import Item, ServiceClass, Value, of_kind, plain
+from course_pkg.checking.random_inputs import RandomInputs
+from course_pkg.checking.report import Assertion
+from course_pkg.checking.result import Finished, Result
+from course_pkg.errors import ChannelError, CheckError, GraphError
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.ros.protocol.probe import header_fields
+from course_pkg.ros.protocol.snapshot import Snapshot, look
+from course_pkg.types import message_type, service_type
+
+# these exceptions may end a check; any other exception is a bug in the check
+KNOWN = (AssertionFailed, ChannelError, CheckError)
+
+
+class CheckContext:
+    """One run of a check.
+
+    The first assertion that fails ends it; then everything that it opened is closed.
+    """
+
+    def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
+        self.random = RandomInputs(f"{seed}:{check}")
+        self.doing = ""  # what the check waits for; used in the report of a check that is too slow
+        self._channel = channel
+        self._node = node
+        self._results = Results()
+        self._open = ExitStack()
+        self._placed: PlacedObjects | None = None
+
+    @property
+    def assertions(self) -> tuple[Assertion, ...]:
+        """The assertions that were checked."""
+        return self._results.assertions
+
+    # -- assertions
+
+    def expect(
+        self, assertion: str, *, expected: Value, actual: Value, near: float = 0.0, hints: Hints = ()
+    ) -> None:
+        """Assert that `actual` equals `expected`; numbers may differ by `near`, absolute or relative.
+
+        `assertion` is the line of the report. `hints` say what to do about a wrong value: one hint for any
+        value, or a list of pairs (condition, hint). The first condition that matches `actual` selects the
+        hint. A condition is a wrong value, a pattern made by `matches`, or a function of the actual value.
+        Raises AssertionFailed, which a check does not catch.
+        """
+        wanted, found = plain(expected), plain(actual)
+        if not same(wanted, found, near):
+            hint = hint_for(hints, found, near)
+            self._results.fails(assertion, expected=shown(wanted), actual=shown(found), hint=hint)
+        self._results.passes(assertion)
+
+    def require(
+        self, assertion: str, *, holds: bool, expected: str = "", actual: Value = "", hints: Hints = ()
+    ) -> None:
+        """Assert that `holds` is true; a report shows the text `expected` and the value `actual`.
+
+        `hints` are as for `expect`. Raises AssertionFailed, which a check does not catch.
+        """
+        if not holds:
+            found = plain(actual)
+            text = found if isinstance(found, str) else shown(found)
+            self._results.fails(assertion, expected=expected, actual=text, hint=hint_for(hints, found))
+        self._results.passes(assertion)
+
+    def fail(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
+        """Record that `assertion` does not hold, and end the check by raising AssertionFailed."""
+        self._results.fails(assertion, expected=expected, actual=actual, hint=hint)
+
+    # -- the student's servers
+
+    def service(
+        self, name: str, kind: str | ServiceClass, *, hints: Hints = (), timeout: float = TIMEOUT
+    ) -> Service:
+        """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
+
+        `kind` is a type's name, or a class. Asserts that a server of that type is registered and answers.
+        `hints` are for the error message of a failed call; messages of ROS itself are explained without
+        hints.
+        """
+        self.doing = f"waiting for {name}"
+        label = "the service" if self.random.made(name) else name
+        cls = self.service_class(kind) if isinstance(kind, str) else kind
+        assertion = f"{label} is served as {cls._type}"
+        actual = self._type_of(name, assertion)
+        if actual != cls._type:
+            hint = f"Serve it with the type in the exercise: {cls._type}."
+            self._results.fails(assertion, expected=cls._type, actual=actual, hint=hint)
+        self._results.passes(assertion)
+        require_current(self._channel.ask("served", timeout=SLACK, name=name))
+        return Service(self._results, name, cls, label, hints, timeout, self._handlers_traceback)
+
+    def _handlers_traceback(self) -> str:
+        return str(self._channel.ask("traceback", timeout=SLACK).get("text") or "")
+
+    def _type_of(self, name: str, assertion: str) -> str:
+        probe = self._node.probe(name)
+        if probe is None:
+            alike = difflib.get_close_matches(name, self._node.services(), n=1)
+            hint = (
+                "Run the cell that serves it. Do this after each restart of the kernel, too. The cell has to "
+                "create a "
+                "rospy.Service, and to end without an exception."
+            )
+            hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
+            actual = "nobody who serves it"
+            self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
+        if not probe.answered:
+            hint = "The master lists a server that has ended or stopped. Run the cell that serves it again."
+            actual = f"a server that is {probe.reach.value}"
+            self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
+        return header_fields(probe.answer).get("type", "no type")
+
+    def service_class(self, kind: str) -> ServiceClass:
+        """Return the class of the service type `kind`, such as "course_pkg/geometry"."""
+        return service_type(kind).cls
+
+    def look(self) -> Snapshot:
+        """Return a snapshot of the graph: its nodes, topics and services."""
+        return look()
+
+    # -- servers and topics for the student's client
+
+    def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
+        """Serve `name` with `script` (peers/scripted_server.py) until the check is over or leave() is called.
+
+        `kind` is a type's name, or a class. After the check, the former server is registered again.
+        """
+        cls = self.service_class(kind) if isinstance(kind, str) else kind
+        return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
+
+    def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
+        """Serve `name` with `work`, and with the faults that are put into `plan` (peers/faulty_server.py)."""
+        server = FaultyServer(self._node, name, self.service_class(kind), work)
+        self._open.enter_context(server)
+        return server
+
+    def absent(self, name: str, *, stale: bool = False) -> Absent:
+        """Unregister the server of `name` until the check ends.
+
+        With `stale`, register a closed port instead.
+        """
+        return self._open.enter_context(Absent(self._node, name, stale=stale))
+
+    def publish(
+        self,
+        topic: str,
+        kind: str,
+        messages: Iterable[Mapping[str, Value]],
+        *,
+        every: float = 0.05,
+        once: bool = False,
+    ) -> Publisher:
+        """Publish `messages` (fields by name) of the type `kind` in turn, one per `every` s, again and again.
+
+        With `once`, publish each message only once, and begin as soon as there is a subscriber.
+        """
+        return self._open.enter_context(
+            Publisher(
+                self._results,
+                topic,
+                message_type(kind).cls,
+                messages,
+                every=every,
+                once=once,
+                label=self._label(topic),
+            )
+        )
+
+    def fake_node(self, name: str, topic: str, kind: str, *, alive: bool = True) -> FakeNode:
+        """Register the node `name` as a publisher of `topic`, alive or killed; see peers/node.py."""
+        return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive))
+
+    # -- the student's topics
+
+    def subscribe(self, topic: str, kind: str) -> Subscription:
+        """Subscribe to `topic` until the check is over; see peers/subscription.py.
+
+        Subscribe before the student's function publishes: a late subscriber misses messages.
+        """
+        cls, label = message_type(kind).cls, self._label(topic)
+        return self._open.enter_context(Subscription(self._results, self._node, topic, cls, label))
+
+    def _label(self, topic: str) -> str:
+        """Return the topic as assertions show it.
+
+        It is the same in every run, although random names differ.
+        """
+        return "the topic" if self.random.made(topic) else topic
+
+    # -- what the student wrote, in the kernel
+
+    def run(
+        self,
+        function: str,
+        *args: Value,
+        within: float = 5.0,
+        hints: Hints = (),
+        worded: str = "",
+        **kwargs: Value,
+    ) -> Result:
+        """Call the student's `function` in the kernel, and interrupt it after `within` s.
+
+        A report shows the call, or `worded` instead, if `function` is a helper of the check's own.
+        """
+        label = worded or f"{function}()"
+        self.doing = f"waiting for {label}"
+        call = worded or _as_call(function, args, kwargs)
+        self._results.asked = lambda: call
+        values = [_sent(value) for value in args]
+        named = {key: _sent(value) for key, value in kwargs.items()}
+        started = time.monotonic()
+        reply = self._channel.ask(
+            "call", timeout=within + SLACK, name=function, args=values, kwargs=named, within=within
+        )
+        took = time.monotonic() - started  # measured with this clock, because the kernel is not trusted
+        return Result(self._results, label, reply, took, hints)
+
+    def prepare(self, code: str, within: float = 5.0) -> None:
+        """Run `code` of the check's own in the kernel, separately from the student's names.
+
+        The names that it defines can be arguments of the student's function: `context.run("close",
+        Its("service"))`. The student's code can change what these objects record, so a record belongs into
+        an object of `place`. Raises CheckError if the code fails.
+        """
+        error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
+        if error:
+            text = error.get("text") if isinstance(error, dict) else error
+            raise CheckError(f"The check could not prepare the kernel ({text}): restart the kernel.")
+
+    def place(self, name: str, item: object) -> None:
+        """Define `name` in the kernel as a proxy for `item`, which stays here; see checking/placed.
+
+        The proxy has the methods and attributes that the class of `item` marks by `@remote`. It can be an
+        argument of the student's function, `context.run("move", Its("shelf"))`, and code of `prepare` can
+        use it. What the check has to believe belongs into `item`, and not into code of `prepare`.
+        """
+        if self._placed is None:
+            self._placed = self._open.enter_context(PlacedObjects())
+        self._channel.ask("place", timeout=SLACK, name=name, **self._placed.place(item))
+
+    def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
+        """Run a command next to the kernel, in a new folder with copies of the student's `files`.
+
+        "python" stands for the kernel's own interpreter. The command is ended after `within` s.
+        """
+        return self.folder(files=files).command(*argv, within=within)
+
+    def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
+        """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
+
+        `texts` are files of the check's own, by path; they replace copies.
+        """
+        return Folder(self._channel, files, texts or {}, self._under_way)
+
+    def _under_way(self, command: str) -> None:
+        self.doing = f"waiting for {command}"
+        self._results.asked = lambda: command
+
+    def has(self, name: str) -> bool:
+        """Return whether the student has defined `name`."""
+        return self._channel.ask("look", timeout=SLACK, name=name).get("kind") != "missing"
+
+    @overload
+    def read(self, name: str) -> Json: ...
+    @overload
+    def read(self, name: str, kind: type[Item]) -> Item: ...
+    def read(self, name: str, kind: type[Item] | None = None) -> Json | Item:
+        """Return the value of the student's variable `name`, as plain data.
+
+        For a variable of the check's own, pass the `kind` of its value. CheckError is raised for another
+        kind.
+        """
+        value = self._channel.ask("read", timeout=SLACK, name=name).get("value")
+        return value if kind is None else of_kind(kind, value, name)
+
+    def source(self, name: str) -> str:
+        """Return the source of the student's function or class `name`, or of "file:PATH"."""
+        return str(self._channel.ask("source", timeout=SLACK, name=name).get("text", ""))
+
+    # -- closing
+
+    def __enter__(self) -> CheckContext:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with held_back(signal.SIGTERM):
+            self._open.close()
+            with suppress(GraphError):  # if the master has ended, there are no registrations
+                self._node.forget_topics(self.random.made)
+        if isinstance(error, Exception) and not isinstance(error, KNOWN):
+            text = f"{type(error).__name__}: {error}"
+            raise CheckError(f"This check itself is broken ({text}); it is not your mistake.") from error
+
+
+@dataclass(frozen=True)
+class Its:
+    """An argument for `CheckContext.run`: the value that `name` has in the kernel."""
+
+    name: str
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+def _sent(value: Value) -> Json:
+    return {"its": value.name} if isinstance(value, Its) else plain(value)
+
+
+def _as_call(function: str, args: tuple[Value, ...], kwargs: dict[str, Value]) -> str:
+    values = [repr(value) for value in args] + [f"{key}={value!r}" for key, value in kwargs.items()]
+    return f"{function}({', '.join(values)})"

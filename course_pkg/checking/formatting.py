@@ -1,0 +1,44 @@
+"""The texts in a report about calls, values and errors."""
+
+from __future__ import annotations
+
+from course_pkg.checking.plain_values import Message, ServiceClass, fields_of
+from course_pkg.ros.explain import known
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.types import rosservice_line, service_type
+
+
+def command_line(name: str, kind: ServiceClass, request: Message) -> str:
+    """Return the `rosservice call` command that makes the same call."""
+    return rosservice_line(name, service_type(kind), fields_of(request))
+
+
+def explained(error: str) -> str:
+    """Return the meaning of an error message of ROS and the remedy.
+
+    An empty string for an unknown message.
+    """
+    if error.startswith("TimesUp"):
+        return (
+            "The call has not returned: the handler waits for something that does not happen, or never "
+            "returns. rospy has no time limit for a call."
+        )
+    explanation = known(error)
+    return f"{explanation.cause} {explanation.remedy}" if explanation else ""
+
+
+def shown(value: Json) -> str:
+    """Return plain data as a student would write it; numbers have at most seven digits, like a float32."""
+    if isinstance(value, float):
+        return f"{value:.7g}"
+    if isinstance(value, dict) and value.keys() == {"object"}:
+        return f"an object of the class {value['object']}"
+    if isinstance(value, dict):
+        return ", ".join(f"{key}={shown(item)}" for key, item in value.items()) or "nothing"
+    if isinstance(value, list):
+        return (
+            "["
+            + ", ".join(f"({shown(item)})" if isinstance(item, dict) else shown(item) for item in value)
+            + "]"
+        )
+    return repr(value)

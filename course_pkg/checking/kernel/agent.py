@@ -1,0 +1,270 @@
+"""The kernel agent: it reads and runs the student's code when the check runner requests it.
+
+It decides nothing. The check runner does not trust its replies if it cannot observe their effects.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import inspect
+import io
+import logging
+import textwrap
+import time
+import traceback
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from pathlib import Path
+from types import CodeType, FunctionType
+
+from course_pkg.checking.commands.workbench import PRINTED, CommandFolders
+from course_pkg.checking.kernel.handler_errors import HandlerErrors
+from course_pkg.checking.kernel.object_proxy import ObjectProxies
+from course_pkg.checking.kernel.older_code import LaterRun, OlderCode
+from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
+from course_pkg.checking.plain_values import Reply, Value, plain
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.workspace import own_workspace
+
+
+class PrintedText(io.TextIOBase):
+    """Replaces stdout and stderr, and stores the beginning of the printed text."""
+
+    def __init__(self) -> None:
+        self.text = ""
+
+    def writable(self) -> bool:
+        """Return True, as print() requires."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Store `text`, up to the limit."""
+        self.text += text[: max(PRINTED - len(self.text), 0)]
+        return len(text)
+
+
+class KernelAgent:
+    """Replies to the check runner's requests about the names in `namespace` and the files in `folder`."""
+
+    def __init__(
+        self,
+        namespace: Mapping[str, Value],
+        folder: Path | None = None,
+        later_run: LaterRun = lambda _source: None,
+    ) -> None:
+        self._namespace = namespace
+        self._older = OlderCode(namespace, later_run)
+        self._folder = folder or Path.cwd()
+        self._commands = CommandFolders(self._file)
+        self._handler_errors = HandlerErrors()
+        self._handler_errors.open()
+        # `prepare` and `place` define these names, separately from the student's names
+        self._prepared: dict[str, Value] = {}
+        self._proxies: ObjectProxies | None = None
+        self._handlers: dict[str, Callable[..., Reply]] = {
+            "look": self._look,
+            "served": self._served,
+            "traceback": self._traceback,
+            "read": self._read,
+            "source": self._source,
+            "prepare": self._prepare,
+            "place": self._place,
+            "call": self._call,
+            "folder": self._commands.folder,
+            "run": self._commands.run,
+            "start": self._commands.start,
+            "poll": self._commands.poll,
+            "stop": self._commands.stop,
+        }
+
+    def reply(self, request: Mapping[str, Json]) -> Reply:
+        """Return the reply to one request of the protocol (see channel.py)."""
+        arguments = {key: value for key, value in request.items() if key not in ("ask", "do")}
+        try:
+            reply = self._handlers[str(request["do"])](**arguments)
+        except (LookupError, AttributeError, TypeError, ValueError, OSError) as error:
+            reply = {"wrong": f"{type(error).__name__}: {error}"}
+        return {"answer": request.get("ask"), **reply}
+
+    def close(self) -> None:
+        """End the commands that the check started here, remove its folders, and end its proxies."""
+        self._handler_errors.close()
+        if self._proxies is not None:
+            self._proxies.close()
+        self._commands.close()
+
+    def _file(self, name: str) -> Path:
+        """Return the path of a student's file: in the notebook's folder, or else in the workspace."""
+        here, there = self._folder / name, own_workspace() / name
+        return there if there.exists() and not here.exists() else here
+
+    def _find(self, name: str) -> Value:
+        """Return the value of `name`, which may contain dots."""
+        first, *rest = name.split(".")
+        value = self._namespace[first] if first in self._namespace else self._prepared[first]
+        for attribute in rest:
+            value = getattr(value, attribute)
+        return value
+
+    def _look(self, name: str) -> Reply:
+        if name.startswith("file:"):
+            return _look_at_file(self._file(name.removeprefix("file:")))
+        if name not in self._namespace:
+            own = [known for known, value in self._namespace.items() if _defined_here(known, value)]
+            return {"kind": "missing", "alike": [*difflib.get_close_matches(name, own, n=2)]}
+        value = self._namespace[name]
+        if is_blank(value):
+            return {"kind": "blank", "alike": []}
+        kinds = {FunctionType: "function", type: "class"}
+        kind = kinds.get(type(value), "value")
+        return {"kind": kind, "alike": [], "older": self._older.of_value(name, value)}
+
+    def _served(self, name: str) -> Reply:
+        return {"older": self._older.of_service(name)}
+
+    def _traceback(self) -> Reply:
+        return {"text": self._handler_errors.take()}
+
+    def _read(self, name: str) -> Reply:
+        return {"value": plain(self._find(name))}
+
+    def _source(self, name: str) -> Reply:
+        if name.startswith("file:"):
+            return {"text": self._file(name.removeprefix("file:")).read_bytes().decode("utf-8", "replace")}
+        return {"text": inspect.getsource(self._find(name))}
+
+    def _call(self, name: str, args: list[Json], kwargs: dict[str, Json], within: float) -> Reply:
+        printed = PrintedText()
+        started = time.monotonic()
+        values = [self._argument(value) for value in args]
+        named = {key: self._argument(value) for key, value in kwargs.items()}
+        with redirect_stdout(printed), redirect_stderr(printed), _ros_console(printed):
+            result = _result(lambda: self._find(name)(*values, **named), within)
+        return {**result, "printed": printed.text, "took": time.monotonic() - started}
+
+    def _argument(self, value: Json) -> Value:
+        return self._find(str(value["its"])) if isinstance(value, dict) and value.keys() == {"its"} else value
+
+    def _prepare(self, code: str, within: float) -> Reply:
+        """Run the check's own `code`; the names that it defines can be arguments of later calls."""
+        result = _result(lambda: exec(code, self._prepared), within)  # noqa: S102 -- the course wrote it
+        return {"error": result.get("error")}
+
+    def _place(self, name: str, port: int, key: str, item: dict[str, Json]) -> Reply:
+        """Define `name` as a proxy for an object of the check runner, as a name that `prepare` defines."""
+        if self._proxies is None:
+            self._proxies = ObjectProxies(port, key)
+        self._prepared[name] = self._proxies.proxy(item)
+        return {}
+
+
+@contextmanager
+def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
+    """Let rospy's log print to `stream`: its handler keeps the streams that existed when it was created."""
+    handlers = [
+        handler
+        for handler in logging.getLogger("rosout").handlers
+        if hasattr(handler, "_stdout") and hasattr(handler, "_stderr")
+    ]
+    kept = [(handler._stdout, handler._stderr) for handler in handlers]
+    for handler in handlers:
+        handler._stdout = handler._stderr = stream
+    try:
+        yield
+    finally:
+        for handler, (out, err) in zip(handlers, kept, strict=True):
+            handler._stdout, handler._stderr = out, err
+
+
+def _result(function: Callable[[], Value], timeout: float) -> Reply:
+    """Call a function, interrupt it after `timeout` s, and return {"value": …} or {"error": …}.
+
+    The call runs in the main thread, where an alarm can interrupt it. A thread could not be interrupted, so
+    it would still use the graph during the next check.
+    """
+    try:
+        return {"value": TimeLimit(timeout).call(lambda: plain(function()))}
+    except TimesUp:
+        return {"error": {"type": "TimesUp", "bases": [], "text": f"it did not end within {timeout:g} s"}}
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 -- sys.exit() in an exercise is a result like any other
+        return {"error": _described(error)}
+
+
+def _described(error: BaseException) -> Json:
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__)]
+    return {
+        "type": type(error).__name__,
+        "bases": [base.__name__ for base in type(error).__mro__[1:]],
+        "text": str(error)[:4000],
+        "line": lines[-1] if lines else None,
+    }
+
+
+def _defined_here(name: str, value: Value) -> bool:
+    """Return whether the student may have defined a name: it is not imported, and not one of IPython's."""
+    return not name.startswith("_") and (
+        not isinstance(value, FunctionType | type) or value.__module__ == "__main__"
+    )
+
+
+def is_blank(value: Value) -> bool:
+    """Return whether an exercise is unchanged: `...`, or a function or class with this body."""
+    if isinstance(value, type):
+        # The methods are examined separately: `inspect` finds no source of a class that a notebook defines.
+        methods = [inspect.unwrap(method) for method in _methods(value)]
+        return bool(methods) and all(is_blank(method) for method in methods)
+    if isinstance(value, FunctionType):
+        return _is_blank_function(value)
+    return value is ...
+
+
+def _methods(cls: type) -> list[FunctionType]:
+    wrapped = (getattr(value, "__func__", getattr(value, "fget", value)) for value in vars(cls).values())
+    return [value for value in wrapped if isinstance(value, FunctionType)]
+
+
+def _is_blank_function(function: FunctionType) -> bool:
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(inspect.unwrap(function))))
+    except (OSError, TypeError, SyntaxError):
+        return _does_nothing(function.__code__)
+    definition = tree.body[0] if tree.body else None
+    if not isinstance(definition, ast.FunctionDef | ast.AsyncFunctionDef):
+        return False  # a lambda
+    return all(_is_placeholder(line) for line in definition.body)
+
+
+def _is_placeholder(line: ast.stmt) -> bool:
+    return (
+        isinstance(line, ast.Expr)
+        and isinstance(line.value, ast.Constant)
+        and (line.value.value is ... or isinstance(line.value.value, str))
+    )
+
+
+def _does_nothing(code: CodeType) -> bool:
+    """Return whether the compiled code does nothing, for a function whose source is not available."""
+    blank = _nothing.__code__
+    return code.co_code == blank.co_code and not code.co_names
+
+
+def _nothing() -> None: ...
+
+
+def _look_at_file(path: Path) -> Reply:
+    """Return the kind of a file; if it is missing, also the files in its folder with similar names."""
+    kind = _kind_of_file(path)
+    beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
+    return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}
+
+
+def _kind_of_file(path: Path) -> str:
+    if not path.is_file():
+        return "missing"
+    text = path.read_text("utf-8", errors="replace")
+    comments = ("#", "<!--", "//")
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return "blank" if [line for line in lines if not line.startswith(comments)] == ["..."] else "file"

@@ -1,0 +1,49 @@
+"""The exceptions that rospy catches in handlers: a check shows the student's own lines of the last one."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+
+from course_pkg.ros.notebook.tracebacks import readable_traceback, students_frames
+
+LOGGER = "rosout"
+ABOUT = "Error processing request"  # rospy's message about such an exception begins like this
+HEADER = "Traceback of the handler (most recent call last):"
+
+
+class HandlerErrors(logging.Handler):
+    """Stores the last exception of a handler in this process, from open() to close()."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.ERROR)
+        self._last = ""
+
+    def open(self) -> None:
+        """Begin to store exceptions."""
+        logging.getLogger(LOGGER).addHandler(self)
+
+    def close(self) -> None:
+        """Stop storing exceptions."""
+        logging.getLogger(LOGGER).removeHandler(self)
+        super().close()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Store the exception that the thread of `record` is handling, if the record is about it."""
+        error = sys.exc_info()[1]
+        if error is None or not record.getMessage().startswith(ABOUT):
+            return
+        began = any(students_frames(error.__traceback__))  # not after a call with a wrong number of arguments
+        self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
+
+    def take(self) -> str:
+        """Return the traceback of the last exception, and delete it; empty if there was none."""
+        last, self._last = self._last, ""
+        return last
+
+
+def _place(filename: str) -> str:
+    """Return the name of a file; the code of a cell has none."""
+    path = Path(filename)
+    return path.name if path.is_file() else "Your cell"

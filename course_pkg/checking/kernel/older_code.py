@@ -1,0 +1,106 @@
+"""Finds code of the student that is older than the last run of its cell, so that the cell shows other code.
+
+A function is older, for example, after a syntax error in its cell, or if its cell ran again but the cell that
+creates the service did not. A check would then examine code that the student no longer sees.
+"""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from functools import partial
+from types import FunctionType, MethodType
+
+from course_pkg.checking.plain_values import Value
+from course_pkg.ros.notebook.cells import CellRun
+
+LaterRun = Callable[[str], CellRun | None]
+
+
+class OlderCode:
+    """Compares the code that is in use with the last runs of the cells; `later_run` is a method of Cells."""
+
+    def __init__(self, namespace: Mapping[str, Value], later_run: LaterRun) -> None:
+        self._namespace = namespace
+        self._later_run = later_run
+
+    def of_value(self, name: str, value: Value) -> str:
+        """Return what to do first if the function or class `value` is older than the last run of its cell."""
+        run = self._run_after(value)
+        if run is None:
+            return ""
+        if run.error:
+            return f"{name} is {_older(run)}. {_correct()}"
+        return f"{name} is {_older(run)}, which does not define it. Run the cell that does, then this one."
+
+    def of_service(self, service: str) -> str:
+        """Return what to do first if the handler of `service` in this process is older than its cell."""
+        handler = _handler_of(service)
+        run = self._run_after(handler)
+        if run is None:
+            return ""
+        name = getattr(_function_of(handler), "__name__", "handler")
+        answers = f"{service} is answered by a version of {name} that is {_older(run)}"
+        if run.error:
+            return f"{answers}. {_correct()}"
+        return f"{answers}. Run the cell that creates the service, then this one."
+
+    def _run_after(self, value: Value) -> CellRun | None:
+        """Return the last run of the cell of `value`, if its code has changed since `value` was defined."""
+        for function in _functions_of(value):
+            run = self._later_run(function.__code__.co_filename)
+            if run is not None and not self._defined_again(function):
+                return run
+        return None
+
+    def _defined_again(self, function: FunctionType) -> bool:
+        """Return whether the same code was defined again, because another part of the cell changed."""
+        first, *rest = function.__qualname__.split(".")
+        current = self._namespace.get(first)
+        for attribute in rest:
+            current = getattr(current, attribute, None)
+        if not isinstance(current, FunctionType) or current.__code__ is function.__code__:
+            return False
+        with suppress(OSError, TypeError):
+            return inspect.getsource(current) == inspect.getsource(function)
+        return False
+
+
+def _older(run: CellRun) -> str:
+    return "older than the last run of its cell" + (f", which ended with {run.error}" if run.error else "")
+
+
+def _correct() -> str:
+    return "Correct that cell and run it, then this one."
+
+
+def _handler_of(service: str) -> Value:
+    """Return the function that handles calls to `service` in this process, or None."""
+    if "rospy" not in sys.modules:
+        return None
+    from rospy.impl.registration import get_service_manager
+
+    from course_pkg.ros.node.service import Service
+
+    handler = getattr(get_service_manager().get_service(service), "handler", None)
+    owner = getattr(handler, "__self__", None)
+    return owner.handler if isinstance(owner, Service) else handler
+
+
+def _functions_of(value: Value) -> list[FunctionType]:
+    """Return the functions in `value`: `value` itself, or the methods of a class."""
+    found = vars(value).values() if isinstance(value, type) else [_function_of(value)]
+    return [each for each in found if isinstance(each, FunctionType)]
+
+
+def _function_of(value: Value) -> Value:
+    """Return the function inside a bound method, a partial, a wrapper or a callable object."""
+    while isinstance(value, partial):
+        value = value.func
+    if isinstance(value, MethodType):
+        value = value.__func__
+    if not isinstance(value, FunctionType | type) and callable(value):
+        value = inspect.getattr_static(type(value), "__call__", value)
+    return inspect.unwrap(value) if isinstance(value, FunctionType) else value

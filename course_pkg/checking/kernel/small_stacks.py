@@ -1,0 +1,22 @@
+"""Code for the kernel: threads with small stacks, for checks that run many handlers at the same time.
+
+Fifty handlers at the same time need fifty threads. A sandbox does not have enough memory for so many stacks
+of 8 MB, but a handler needs only a small stack.
+"""
+
+from __future__ import annotations
+
+SMALL_STACKS = """
+import threading
+
+
+class SmallStacks:
+    def begin(self):
+        self.before = threading.stack_size(512 * 1024)
+
+    def end(self):
+        threading.stack_size(self.before)
+
+
+small_stacks = SmallStacks()
+"""

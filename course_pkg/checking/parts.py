@@ -1,0 +1,194 @@
+"""A graded part of a chapter, and the functions that find parts."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import pkgutil
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from course_pkg.errors import CheckError, UnknownCheck
+
+if TYPE_CHECKING:
+    from course_pkg.checking.context import CheckContext
+
+CHAPTERS = "course_pkg.chapters"
+PRIVATE = "private_"  # the modules of an instructor's own parts have this prefix
+PUBLIC = ("__init__.py", "programs")  # the files of a chapter that student code may read
+FOLDER = re.compile(r"ch(\d\d)_\w+")
+IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
+PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")  # a file of a package in a workspace
+
+
+@dataclass(frozen=True)
+class Part:
+    """One graded part of a chapter; calling it examines the student's work.
+
+    `needs` are the names that the student defines. While one of them is missing or still `...`, the part
+    counts as not attempted. If names are joined with `|`, one of them is enough: a handler may have another
+    name than in the exercise if its service exists. `deadline` (s) limits the whole check. If the exercise is
+    to repair a file, `start` is the whole `%%writefile` cell that the student gets. Otherwise `start` is
+    empty, and the student gets the solution's cell without its answer.
+    """
+
+    check: str
+    points: int
+    goal: str
+    needs: tuple[str, ...]
+    deadline: float
+    examine: Callable[[CheckContext], None]
+    start: str = ""
+
+    @property
+    def package_files(self) -> dict[str, list[str]]:
+        """The files that the part needs from catkin packages: their paths, by the name of the package."""
+        found: dict[str, list[str]] = {}
+        for name in self.needs:
+            if packaged := PACKAGED.fullmatch(name):
+                found.setdefault(packaged["package"], []).append(packaged["path"])
+        return found
+
+    def __call__(self, context: CheckContext) -> None:
+        """Examine the student's work."""
+        self.examine(context)
+
+
+def part(
+    check: str,
+    *,
+    points: int,
+    goal: str,
+    needs: Sequence[str] = (),
+    deadline: float = 10.0,
+    start: str = "",
+) -> Callable[[Callable[[CheckContext], None]], Part]:
+    """Return a decorator that declares the check of the part with the id `check`, such as "05.1"."""
+
+    def declare(examine: Callable[[CheckContext], None]) -> Part:
+        return Part(check, points, goal, tuple(needs), deadline, examine, start)
+
+    return declare
+
+
+def exercise_of(check: str) -> str:
+    """Return the id of the exercise that a part examines: "05.1" for "05.1" and for "05.1.1"."""
+    return ".".join(check.split(".")[:2])
+
+
+def add_private(folder: str) -> None:
+    """Add the parts of the modules private_NN.py in `folder`; a part "05.1.1" belongs to exercise 05.1."""
+    importlib.import_module(CHAPTERS).__path__.append(folder)
+
+
+def chapters() -> list[str]:
+    """Return the numbers of the chapters, such as ["00", "05"]."""
+    return sorted(_modules())
+
+
+def folder_of(chapter: str) -> Path:
+    """Return the folder of a chapter, such as "05"; raise UnknownCheck if there is none."""
+    return Path(str(importlib.import_module(_module_of(chapter)).__file__)).parent
+
+
+def folders_for(chapter: str) -> list[Path]:
+    """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
+
+    Imports are followed through other chapters. The list is empty if there is no such chapter.
+    """
+    modules, found, new = _modules(), set[str](), {chapter}
+    while new := (new & modules.keys()) - found:
+        found |= new
+        new = {number for each in new for number in _imported(folder_of(each))}
+    return sorted(map(folder_of, found))
+
+
+def _imported(folder: Path) -> set[str]:
+    """Return the numbers of the chapters from which the modules in `folder` import."""
+    texts = (path.read_text("utf-8") for path in folder.rglob("*.py"))
+    return {number for text in texts for number in IMPORTED.findall(text)}
+
+
+def notebook_of(chapter: str) -> str:
+    """Return the file name of a chapter's notebook, such as "05_write_a_server.ipynb"."""
+    return f"{_module_of(chapter).rpartition('.ch')[2]}.ipynb"
+
+
+def title_of(chapter: str) -> str:
+    """Return the title of a chapter, such as "Write a server"."""
+    return str(importlib.import_module(_module_of(chapter)).TITLE)
+
+
+def parts_of(chapter: str) -> list[Part]:
+    """Return the parts of a chapter, such as "05", in the order of their ids.
+
+    Raises UnknownCheck for a chapter that has no checks, CheckError if two parts have the same id.
+    """
+    modules = [importlib.import_module(f"{_module_of(chapter)}.checks")]
+    package = importlib.import_module(CHAPTERS)
+    if any(found.name == PRIVATE + chapter for found in pkgutil.iter_modules(package.__path__)):
+        modules.append(importlib.import_module(f"{CHAPTERS}.{PRIVATE}{chapter}"))
+    found = [value for module in modules for value in vars(module).values() if isinstance(value, Part)]
+    _refuse_doubles(found, modules[0].__name__)
+    return sorted(found, key=lambda item: [int(number) for number in item.check.split(".")])
+
+
+def secret_paths() -> list[Path]:
+    """Return the paths that student code may not read: the chapters' checks, fixtures and answers."""
+    package = importlib.import_module(CHAPTERS)
+    folders = [
+        folder for root in package.__path__ for folder in Path(root).glob("ch[0-9]*") if folder.is_dir()
+    ]
+    return [path for folder in folders for path in folder.iterdir() if path.name not in PUBLIC]
+
+
+def _modules() -> dict[str, str]:
+    """Return the module of each chapter, by its number."""
+    names = [module.name for module in pkgutil.iter_modules(importlib.import_module(CHAPTERS).__path__)]
+    return {found[1]: f"{CHAPTERS}.{found[0]}" for name in names if (found := FOLDER.fullmatch(name))}
+
+
+def _module_of(chapter: str) -> str:
+    modules = _modules()
+    if chapter not in modules:
+        raise UnknownCheck(
+            f"chapter {chapter!r} has no checks; the chapters with checks are {', '.join(modules) or 'none'}"
+        )
+    return modules[chapter]
+
+
+def every_part() -> Iterator[Part]:
+    """Yield the parts of all chapters."""
+    for chapter in chapters():
+        yield from parts_of(chapter)
+
+
+def start_of(check: str) -> str:
+    """Return the cell to repair in the part `check`, or an empty string if there is none."""
+    chapter = check.partition(".")[0]
+    parts = parts_of(chapter) if chapter in chapters() else []
+    return next((candidate.start for candidate in parts if candidate.check == check), "")
+
+
+def find(check: str) -> Part:
+    """Return the part with the id `check`; only its own chapter is imported.
+
+    Raises UnknownCheck, with similar ids, if there is no such part.
+    """
+    chapter = str(check).partition(".")[0]
+    if chapter in chapters():
+        for candidate in parts_of(chapter):
+            if candidate.check == check:
+                return candidate
+    known = [candidate.check for candidate in every_part()]
+    near = difflib.get_close_matches(str(check), known, n=3, cutoff=0.4) or known[:3]
+    raise UnknownCheck(f"There is no check {check!r}. Did you mean {' or '.join(map(repr, near))}?")
+
+
+def _refuse_doubles(found: list[Part], module: str) -> None:
+    ids = [item.check for item in found]
+    if doubles := sorted({check for check in ids if ids.count(check) > 1}):
+        raise CheckError(f"{module} declares {', '.join(doubles)} more than once: give each part its own id")

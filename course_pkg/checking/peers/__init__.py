@@ -1,0 +1,1 @@
+"""The check's own part of the graph: its node, servers, publishers and subscriptions."""

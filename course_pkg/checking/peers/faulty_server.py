@@ -1,0 +1,135 @@
+"""A server of the check that fails as planned, one fault after another, and recovers.
+
+For a client, a planned fault looks like a real one. A stopped process accepts connections but does not
+answer. A killed process leaves a registration with a closed port. A restarted process has a new address.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import cast
+
+from course_pkg.checking.peers.node import Node
+from course_pkg.checking.peers.scripted_server import Act, Late, ScriptedServer, send_error
+from course_pkg.checking.plain_values import Message, ServiceClass, Value
+from course_pkg.errors import GraphError
+
+Work = Callable[[Message], Mapping[str, Value]]  # maps a request to the fields of its response
+
+
+@dataclass(frozen=True)
+class Stumble:
+    """Answer with the error message that rospy sends when a handler raises an unexpected exception."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Frozen:
+    """Accept the connection, but do not answer, like a process that is stopped by SIGSTOP."""
+
+
+@dataclass(frozen=True)
+class Crash:
+    """End without an answer, and serve again at another address after `back` s.
+
+    A killed process leaves its registration. With `unregisters`, the process ends properly and unregisters.
+    """
+
+    back: float
+    unregisters: bool = False
+
+
+@dataclass(frozen=True)
+class Fault:
+    """The fault of one call; with `worked`, the server does the work before the fault."""
+
+    what: Act | Stumble | Frozen | Crash
+    worked: bool = False
+
+
+class FaultyServer(ScriptedServer):
+    """Does its `work` for each request; each call uses up one fault in `plan`, and fails with it."""
+
+    def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
+        super().__init__(node, name, kind, self._scripted)
+        self.plan: deque[Fault] = deque()
+        self.arrivals: list[float] = []  # times of requests and of frozen connections; s of time.monotonic()
+        self._work = work
+        self._plan_lock = threading.Lock()
+        self._registering = threading.RLock()  # locked while an address is registered or unregistered
+        self._restarts: list[threading.Timer] = []
+
+    def leave(self) -> None:
+        """Stop serving, and cancel a restart."""
+        with self._registering:
+            for timer in self._restarts:
+                timer.cancel()
+            super().leave()
+
+    def _scripted(self, request: Message) -> Act:
+        fault = self._arrived()
+        response = self._work(request) if fault is None or fault.worked else {}
+        if fault is None:
+            return response
+        if isinstance(fault.what, Late):
+            return Late(fault.what.delay, response)
+        return cast(Act, fault.what)  # _act handles the other faults
+
+    def _arrived(self, *, frozen: bool = False) -> Fault | None:
+        """Take the next fault and record the time.
+
+        With `frozen`, take only a fault that comes before a request.
+        """
+        with self._plan_lock:
+            due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
+            if due or not frozen:
+                self.arrivals.append(time.monotonic())
+            return self.plan.popleft() if due else None
+
+    def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
+        """Answer the handshake, unless the next fault is Frozen; a probe uses no fault up."""
+        if header.get("probe") == "1":
+            with self._plan_lock:
+                frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)
+            return not frozen and super()._greet(sock, header)
+        if self._arrived(frozen=True) is None:
+            return super()._greet(sock, header)
+        self._over.wait()
+        return False
+
+    def _act(self, sock: socket.socket, act: Act) -> bool:
+        if isinstance(act, Stumble):
+            send_error(sock, f"error processing request: {act.reason}")
+            return True
+        if isinstance(act, Crash):
+            self._crash(act)
+            return False
+        return super()._act(sock, act)
+
+    def _crash(self, crash: Crash) -> None:
+        with self._registering, suppress(GraphError):
+            if self._over.is_set():
+                return
+            self._close_port()
+            if crash.unregisters:
+                self._node.master.unregister_service(self._node.name, self._name, self._uri)
+            self._restarts.append(threading.Timer(crash.back, self._restart))
+            self._restarts[-1].daemon = True
+            self._restarts[-1].start()
+
+    def _restart(self) -> None:
+        """Serve again at another address, as a restarted program does."""
+        with self._registering, suppress(GraphError):
+            if self._over.is_set():
+                return
+            self._listener = socket.create_server(("127.0.0.1", 0))
+            self._uri = f"rosrpc://localhost:{self._listener.getsockname()[1]}"
+            threading.Thread(target=self._accept, daemon=True).start()
+            self._node.register(self._name, self._uri)

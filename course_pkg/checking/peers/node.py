@@ -1,0 +1,143 @@
+"""The node of a check: it reads the graph, and registers services and topics."""
+
+from __future__ import annotations
+
+import secrets
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+
+import rospy
+
+from course_pkg.errors import GraphError
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.protocol.probe import Probe, ask_all, service_probe
+from course_pkg.ros.protocol.registrations import registrations, withdraw, withdraw_node
+
+PROBE = 2.0  # time limit in s for a server to reply with its type
+
+
+@dataclass(frozen=True)
+class Registration:
+    """The master's entry of a service: its provider, and the addresses of the service and of the provider."""
+
+    node: str
+    uri: str
+    node_uri: str
+
+
+@dataclass(frozen=True)
+class Node:
+    """The check's own node, with methods to read the graph."""
+
+    name: str
+    uri: str
+    master: MasterClient
+
+    def services(self) -> list[str]:
+        """Return the names of all services, without the two logger services that every node has."""
+        names = self.master.system_state().services
+        return [name for name in names if not name.endswith(("/get_loggers", "/set_logger_level"))]
+
+    def registration(self, service: str) -> Registration | None:
+        """Return the registration of `service`, or None."""
+        providers = self.master.system_state().services.get(service, ())
+        uri = self.master.lookup_service(service)
+        node_uri = self.master.lookup_node(providers[0]) if providers else None
+        return Registration(providers[0], uri, node_uri) if uri and node_uri else None
+
+    def register(self, service: str, uri: str) -> None:
+        """Register this node as the provider of `service`, at the address `uri`."""
+        self.master.register_service(self.name, service, uri, self.uri)
+
+    def restore(self, service: str, former: Registration | None) -> None:
+        """Register the `former` provider of `service` again, with its own node name.
+
+        The master stores one provider for each service, and does not notify the former provider that it was
+        replaced.
+        """
+        if former:
+            self.master.register_service(former.node, service, former.uri, former.node_uri)
+
+    def forget_topics(self, made: Callable[[str], bool]) -> None:
+        """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
+
+        A student's function may forget to unregister them, and then the topic would stay on the graph.
+        """
+        entries = registrations(self.master)
+        withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
+
+    def probe(self, service: str) -> Probe | None:
+        """Ask the server of `service` for its type; return None if no server is registered."""
+        if not (uri := self.master.lookup_service(service)):
+            return None
+        probe = service_probe(service, uri)
+        ask_all([probe], PROBE)
+        return probe
+
+
+@contextmanager
+def on_the_graph(check: str) -> Iterator[Node]:
+    """Join the graph with a name such as /check_runner_05_1_a1b2c3d4, and unregister everything at the end.
+
+    Raises GraphError if the master does not answer.
+    """
+    name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
+    master = MasterClient(master_uri(), caller=f"/{name}")
+    master.pid()  # init_node would wait for ever if the master does not answer
+    # Without this, each check would write a log file into the student's log folder.
+    rospy.core.configure_logging = lambda *_: None
+    with held_back(signal.SIGTERM) as came:
+        rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
+    node = Node(rospy.get_name(), rospy.get_node_uri(), master)
+    try:
+        if came:
+            signal.raise_signal(signal.SIGTERM)
+        yield node
+    finally:
+        # If the master has ended, there are no registrations. A SIGTERM that arrives now waits until the end.
+        with suppress(GraphError), held_back(signal.SIGTERM):
+            withdraw_node(master, node.name, node.uri)  # rospy.signal_shutdown would sleep for 0.6 s
+
+
+@contextmanager
+def held_back(number: int) -> Iterator[list[int]]:
+    """Delay a signal until the end of this block, so that it does not interrupt the block.
+
+    Record its arrival.
+    """
+    came: list[int] = []
+    before = signal.signal(number, lambda *_: came.append(number))
+    try:
+        yield came
+    finally:
+        signal.signal(number, before)
+
+
+class FakeNode:
+    """Is registered as a publisher of `topic`, with any name, during the block. It never publishes.
+
+    With `alive`, it answers a ping, because it has the address of the check's own node. Without `alive`, it
+    is like a killed node: its registration contains the address of a closed port.
+    """
+
+    def __init__(self, node: Node, name: str, topic: str, kind: str, *, alive: bool) -> None:
+        self.name = name
+        self._node, self._topic, self._kind = node, topic, kind
+        self._uri = node.uri if alive else f"http://localhost:{closed_port()}/"
+
+    def __enter__(self) -> FakeNode:
+        self._node.master.register_publisher(self.name, self._topic, self._kind, self._uri)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._node.master.unregister_publisher(self.name, self._topic, self._uri)
+
+
+def closed_port() -> int:
+    """Return a port of this computer on which no program listens."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port: int = listener.getsockname()[1]
+        return port

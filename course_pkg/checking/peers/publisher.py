@@ -1,0 +1,93 @@
+"""A publisher that sends messages to the student's subscriber."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Iterable, Mapping
+
+import genpy
+import rospy
+
+from course_pkg.checking.assertions import Hints, Results, hint_for
+from course_pkg.checking.plain_values import Message, ServiceClass, Value
+from course_pkg.waiting import wait_until
+
+
+class Publisher:
+    """Publishes one message after the other on `topic`, every `every` s, and begins again after the last one.
+
+    With `once`, it begins as soon as there is a subscriber, and ends after the last message. `sent` contains
+    the times at which messages were published, in s of time.monotonic().
+    """
+
+    def __init__(
+        self,
+        results: Results,
+        topic: str,
+        kind: ServiceClass,
+        messages: Iterable[Mapping[str, Value]],
+        *,
+        every: float,
+        once: bool,
+        label: str,
+    ) -> None:
+        self.sent: list[float] = []
+        self._results, self._type = results, str(kind._type)
+        self._label = label  # the topic as assertions show it
+        self._messages = [_made(kind, fields) for fields in messages]
+        self._every = every
+        self._once = once
+        self._over = threading.Event()
+        self._done = threading.Event()
+        self._publisher = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
+
+    def has_subscriber(self, within: float = 2.0) -> bool:
+        """Return whether there is a subscriber; wait for one for at most `within` s."""
+        return bool(wait_until(self._publisher.get_num_connections, within, stopped=self._over))
+
+    def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
+        """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
+
+        `hints` are for the value "nobody". A subscriber of another type leads to this value, too.
+        """
+        assertion = f"somebody listens to {self._label}"
+        if not self.has_subscriber(within):
+            hint = hint_for(hints, "nobody") or f"Make a rospy.Subscriber for it, of type {self._type}."
+            self._results.fails(assertion, expected="a subscriber", actual="nobody", hint=hint)
+        self._results.passes(assertion)
+
+    def finish(self, within: float = 10.0) -> bool:
+        """With `once`, wait at most `within` s for the last message; return whether it was published."""
+        return self._done.wait(within)
+
+    def stop(self) -> None:
+        """Stop publishing, but stay registered as a publisher."""
+        self._over.set()
+
+    def __enter__(self) -> Publisher:
+        threading.Thread(target=self._publish, daemon=True).start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+        self._publisher.unregister()
+
+    def _publish(self) -> None:
+        if self._once:
+            while not self._over.is_set() and not self.has_subscriber(1.0):
+                pass
+        for message in self._messages if self._once else itertools.cycle(self._messages):
+            if self._over.wait(self._every):
+                return
+            self.sent.append(time.monotonic())
+            self._publisher.publish(message)
+        self._done.set()
+
+
+def _made(kind: ServiceClass, fields: Mapping[str, Value]) -> Message:
+    """Return a message with these fields; a nested message is also given as a dict."""
+    message = kind()
+    genpy.message.fill_message_args(message, [dict(fields)])
+    return message

@@ -1,0 +1,217 @@
+"""A server for the student's client. Its script is a part of the check, and can contain wrong behaviour.
+
+It implements TCPROS itself (wiki.ros.org/ROS/TCPROS, "Service Client" and "Service"), because rospy's own
+server cannot close a connection, leave a request unanswered, or serve another definition.
+"""
+
+from __future__ import annotations
+
+import io
+import socket
+import struct
+import threading
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import genpy
+from rosgraph.network import ROSHandshakeException, read_ros_handshake_header, write_ros_handshake_header
+
+from course_pkg.checking.peers.node import Node, Registration, closed_port
+from course_pkg.checking.plain_values import Fields, ServiceClass, Value, fields_of
+
+
+@dataclass(frozen=True)
+class Refuse:
+    """Answer with an error message like that of rospy after a handler has raised a ServiceException."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class HangUp:
+    """Close the connection without an answer, as a server does that ends unexpectedly."""
+
+
+@dataclass(frozen=True)
+class Silence:
+    """Read the request, but never answer."""
+
+
+@dataclass(frozen=True)
+class Late:
+    """Answer with `values` after `delay` s."""
+
+    delay: float
+    values: Mapping[str, Value]
+
+
+Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late
+Script = Callable[..., Act]  # maps a request to the next action
+
+
+@dataclass
+class Received:
+    """The requests to a scripted server as plain data, in the order of their arrival."""
+
+    requests: list[Fields] = field(default_factory=list)
+    headers: list[dict[str, str]] = field(default_factory=list)  # the number of calls, without probes
+    probes: int = 0  # connections without a request, which wait_for_service makes
+
+
+class ScriptedServer:
+    """Serves `name` during the block; after the block, the former server is registered again."""
+
+    def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
+        self.received = Received()
+        self.problem: Exception | None = None
+        self._node, self._name, self._kind, self._script = node, name, kind, script
+        self._over = threading.Event()
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self._uri = f"rosrpc://localhost:{self._listener.getsockname()[1]}"
+        self._former: Registration | None = None
+        self._connections: set[socket.socket] = set()
+
+    @property
+    def requests(self) -> list[Fields]:
+        """The requests that have arrived, as plain data."""
+        return list(self.received.requests)
+
+    @property
+    def uri(self) -> str:
+        """The address of the service, as the master returns it."""
+        return self._uri
+
+    def __enter__(self) -> ScriptedServer:
+        self._former = self._node.registration(self._name)
+        threading.Thread(target=self._accept, daemon=True).start()
+        self._node.register(self._name, self._uri)
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        self.leave()
+        if self.problem and error is None:
+            raise self.problem
+
+    def leave(self) -> None:
+        """Stop serving, as a server does that is shut down; the connections are closed."""
+        self._over.set()
+        self._close_port()
+        for connection in self._connections.copy():
+            with suppress(OSError):  # it is already closed
+                connection.shutdown(socket.SHUT_RDWR)
+        self._node.master.unregister_service(self._node.name, self._name, self._uri)
+        self._node.restore(self._name, self._former)
+        self._former = None
+
+    def _close_port(self) -> None:
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
+
+    def _accept(self) -> None:
+        with suppress(OSError):  # leave() has closed the listening socket
+            while True:
+                sock, _ = self._listener.accept()
+                threading.Thread(target=self._serve_connection, args=(sock,), daemon=True).start()
+
+    def _serve_connection(self, sock: socket.socket) -> None:
+        """Serve one connection until the client, the script or leave() closes it."""
+        self._connections.add(sock)
+        try:
+            self._serve(sock)
+        finally:
+            self._connections.discard(sock)
+
+    def _serve(self, sock: socket.socket) -> None:
+        with sock, suppress(OSError, ROSHandshakeException):
+            header = read_ros_handshake_header(sock, io.BytesIO(), 4096)
+            if not self._greet(sock, header):
+                return
+            self.received.headers.append(dict(header))
+            while self._serve_one(sock) and header.get("persistent") in ("1", "true"):
+                pass
+
+    def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
+        """Answer the handshake; return whether a request follows."""
+        md5, theirs = self._kind._md5sum, header.get("md5sum")
+        if theirs not in (md5, "*"):
+            problem = f"request from [{header.get('callerid')}]: md5sums do not match: [{theirs}] vs. [{md5}]"
+            write_ros_handshake_header(sock, {"error": problem})
+            return False
+        answer = {
+            "callerid": self._node.name,
+            "md5sum": md5,
+            "type": self._kind._type,
+            "service": self._name,
+        }
+        answer["request_type"] = self._kind._request_class._type
+        answer["response_type"] = self._kind._response_class._type
+        write_ros_handshake_header(sock, answer)
+        self.received.probes += (probe := header.get("probe") == "1")
+        return not probe
+
+    def _serve_one(self, sock: socket.socket) -> bool:
+        """Read one request and do what the script returns; return whether the connection stays open."""
+        request = self._kind._request_class()
+        request.deserialize(_exactly(sock, struct.unpack("<I", _exactly(sock, 4))[0]))
+        self.received.requests.append(fields_of(request))
+        try:
+            return self._act(sock, self._script(request))
+        except (TypeError, ValueError, LookupError, AttributeError, genpy.SerializationError) as error:
+            self.problem = error
+            return False
+
+    def _act(self, sock: socket.socket, act: Act) -> bool:
+        if isinstance(act, Late):
+            self._over.wait(act.delay)
+            return self._act(sock, act.values)
+        if isinstance(act, Silence):
+            self._over.wait()
+        if isinstance(act, (Silence, HangUp)):
+            return False
+        if isinstance(act, Refuse):
+            send_error(sock, f"service cannot process request: {act.reason}")
+            return True
+        response = act if isinstance(act, genpy.Message) else self._kind._response_class(**act)
+        body = io.BytesIO()
+        response.serialize(body)
+        sock.sendall(b"\x01" + struct.pack("<I", len(body.getvalue())) + body.getvalue())
+        return True
+
+
+class Absent:
+    """Unregisters the server of `name` during the block; with `stale`, registers a closed port instead."""
+
+    def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:
+        self._node, self._name, self._stale = node, name, stale
+        self._former: Registration | None = None
+        self._uri = ""
+
+    def __enter__(self) -> Absent:
+        self._former = self._node.registration(self._name)
+        if self._former:
+            self._node.master.unregister_service(self._former.node, self._name, self._former.uri)
+        if self._stale:
+            self._uri = f"rosrpc://localhost:{closed_port()}"
+            self._node.register(self._name, self._uri)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._uri:
+            self._node.master.unregister_service(self._node.name, self._name, self._uri)
+        self._node.restore(self._name, self._former)
+
+
+def send_error(sock: socket.socket, text: str) -> None:
+    """Answer a request with an error: a byte 0, the length as uint32, and the text (TCPROS, "Service")."""
+    sock.sendall(b"\x00" + struct.pack("<I", len(text.encode())) + text.encode())
+
+
+def _exactly(sock: socket.socket, count: int) -> bytes:
+    data = b""
+    while len(data) < count:
+        if not (chunk := sock.recv(count - len(data))):
+            raise ConnectionResetError("the client closed the connection")
+        data += chunk
+    return data

@@ -1,0 +1,151 @@
+"""A check's subscription to a student's topic: each message with the time of its arrival.
+
+It accepts any type (`rospy.AnyMsg`): a subscriber receives nothing from a publisher of another type, but a
+check has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of the connection header.
+"""
+
+from __future__ import annotations
+
+import difflib
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import genpy
+import rospy
+
+from course_pkg.checking.assertions import Hints, Results, hint_for
+from course_pkg.checking.peers.node import Node
+from course_pkg.checking.plain_values import Fields, Message, ServiceClass, Value, fields_of
+from course_pkg.waiting import wait_until
+
+KEPT = 20_000  # limit of stored messages: a student's loop may lack its sleep
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """One message: its `fields` as plain data, and the time `at` which it arrived, by time.monotonic()."""
+
+    fields: Fields
+    at: float  # s
+    by: str  # the node that published it
+    latched: bool  # whether its publisher keeps the last message for later subscribers
+
+
+class Subscription:
+    """A subscription of the check, until the check is over or `leave()` is called."""
+
+    def __init__(self, results: Results, node: Node, topic: str, kind: ServiceClass, label: str) -> None:
+        self.name = topic
+        self.kind = str(kind._type)
+        self.count = 0  # the number of all messages of the type, including those after the first KEPT
+        self._results, self._node = results, node
+        self._label = label  # the topic as assertions show it
+        self._cls = kind
+        self._arrivals: list[Arrival] = []
+        self._others: deque[str] = deque(maxlen=1)  # the wrong type that arrived
+        self._arrived = threading.Condition()
+
+    @property
+    def arrivals(self) -> tuple[Arrival, ...]:
+        """The messages that have arrived, oldest first."""
+        return tuple(self._arrivals)
+
+    def wait(self, count: int = 1, within: float = 5.0) -> list[Arrival]:
+        """Return the first `count` messages as soon as they have arrived, or fewer after `within` s."""
+        self.until(lambda arrivals: len(arrivals) >= count, within)
+        return self._arrivals[:count]
+
+    def until(self, condition: Callable[[Sequence[Arrival]], bool], within: float = 5.0) -> bool:
+        """Wait until `condition` holds for the messages, at most `within` s; return whether it holds."""
+        with self._arrived:
+            return self._arrived.wait_for(lambda: condition(self._arrivals), within)
+
+    def during(self, seconds: float) -> list[Arrival]:
+        """Wait for `seconds`, and return the messages that arrived in that time."""
+        with self._arrived:
+            before = len(self._arrivals)
+            self._arrived.wait_for(lambda: False, seconds)
+            return self._arrivals[before:]
+
+    def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
+        """Assert that the topic is published with its type; return when the publisher is connected.
+
+        `hints` are for a wrong value: "nobody who publishes it", or another type.
+        """
+        assertion = f"{self._label} is published as {self.kind}"
+        found = wait_until(self._found, within)
+        if found != self.kind:
+            actual = found or "nobody who publishes it"
+            hint = hint_for(hints, actual) or self._what_to_do(found)
+            self._results.fails(assertion, expected="a publisher", actual=actual, hint=hint)
+        self._results.passes(assertion)
+
+    def publishers(self) -> tuple[str, ...]:
+        """Return the nodes that the master lists as publishers of the topic."""
+        return self._node.master.system_state().publishers.get(self.name, ())
+
+    def leave(self) -> None:
+        """Unsubscribe; the messages that have arrived are kept."""
+        self._subscriber.unregister()
+
+    def __enter__(self) -> Subscription:
+        self._subscriber = rospy.Subscriber(self.name, rospy.AnyMsg, self._receive, tcp_nodelay=True)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.leave()
+
+    def _receive(self, raw: Message) -> None:
+        at, header = time.monotonic(), raw._connection_header
+        if header.get("md5sum") != self._cls._md5sum:
+            self._others.append(_type_in(header, self._cls))
+            return
+        try:
+            fields = fields_of(self._cls().deserialize(raw._buff))
+        except genpy.DeserializationError:
+            return
+        arrival = Arrival(fields, at, header.get("callerid", ""), header.get("latching") == "1")
+        with self._arrived:
+            self.count += 1
+            if len(self._arrivals) < KEPT:
+                self._arrivals.append(arrival)
+            self._arrived.notify_all()
+
+    def _found(self) -> str:
+        """Return the type with which the topic is published, or "" while no publisher is connected."""
+        if self._arrivals:
+            return self.kind
+        headers = map(_header_of, self._subscriber.impl.connections)
+        kinds = [_type_in(header, self._cls) for header in headers]
+        return next((kind for kind in kinds if kind), "") or next(iter(self._others), "")
+
+    def _what_to_do(self, found: str) -> str:
+        if found:
+            return f"Publish it with the type in the exercise: {self.kind}."
+        others = [name for name in self._node.master.system_state().publishers if name != "/rosout"]
+        if alike := difflib.get_close_matches(self.name, others, n=1):
+            return f"There is {alike[0]}: compare the names letter by letter."
+        return "Run the cell that publishes it. Do this after each restart of the kernel, too."
+
+
+def rate(arrivals: Sequence[Arrival]) -> float:
+    """Return how many messages arrived per second; 0.0 for fewer than two."""
+    if len(arrivals) < 2 or arrivals[-1].at <= arrivals[0].at:
+        return 0.0
+    return (len(arrivals) - 1) / (arrivals[-1].at - arrivals[0].at)
+
+
+def _header_of(connection: Value) -> dict[str, str]:
+    """Return the header of a publisher's connection; empty while the handshake is not finished."""
+    md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute last
+    return {"type": connection.type, "md5sum": md5sum} if md5sum else {}
+
+
+def _type_in(header: Mapping[str, str], kind: ServiceClass) -> str:
+    """Return the type in a connection header; "" for an empty header."""
+    name = str(header.get("type") or "")
+    another = name == kind._type and header.get("md5sum") != kind._md5sum
+    return f"{name} with another definition" if another else name

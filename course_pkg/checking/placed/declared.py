@@ -1,0 +1,56 @@
+"""Which methods and attributes of an object the student's kernel may use: those that are marked `@remote`."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import FunctionType
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+MARK = "__remote__"
+
+
+def remote(function: Function) -> Function:
+    """Declare that the kernel may call this method, or read or write the attribute of this property.
+
+    Arguments and results are plain values. A result may also be an object with remote methods of its own.
+
+        @remote
+        def read(self) -> int: ...
+
+        @property
+        @remote
+        def count(self) -> int: ...
+    """
+    setattr(function, MARK, True)
+    return function
+
+
+@dataclass(frozen=True)
+class Interface:
+    """The remote names of a class."""
+
+    methods: frozenset[str]
+    readable: frozenset[str]
+    writable: frozenset[str]
+
+    def __bool__(self) -> bool:
+        """Return whether it has any remote name."""
+        return bool(self.methods or self.readable or self.writable)
+
+
+def interface_of(kind: type) -> Interface:
+    """Return the names of the class `kind` that are marked by `remote`."""
+    members = {name: inspect.getattr_static(kind, name) for name in dir(kind)}
+    properties = {name: value for name, value in members.items() if isinstance(value, property)}
+    return Interface(
+        frozenset(name for name, value in members.items() if _is_remote(value)),
+        frozenset(name for name, value in properties.items() if _is_remote(value.fget)),
+        frozenset(name for name, value in properties.items() if _is_remote(value.fset)),
+    )
+
+
+def _is_remote(value: object) -> bool:
+    return isinstance(value, FunctionType) and hasattr(value, MARK)

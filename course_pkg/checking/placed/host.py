@@ -1,0 +1,181 @@
+"""The check runner's side of proxies: it answers what the student's kernel does with them.
+
+Each thread of the kernel has a connection of its own, and each connection has a thread here. So many calls
+can wait in the check runner at the same time, and an object can tell the kernel's threads apart by
+`threading.get_ident()`. A connection carries one JSON object a line:
+
+    kernel -> runner   {"key": "…"}                                              once, first
+    kernel -> runner   {"object": 0, "do": "call", "name": "read", "args": [], "kwargs": {}}
+    kernel -> runner   {"object": 0, "do": "get", "name": "count"}
+    kernel -> runner   {"object": 0, "do": "set", "name": "count", "args": [3]}
+    runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
+
+The listener is on the loopback interface, which a sandboxed kernel shares with its check runner. The key is
+in the request `place` of the channel; no other user of the computer knows it.
+"""
+
+from __future__ import annotations
+
+import hmac
+import secrets
+import socket
+import threading
+from collections.abc import Mapping
+from contextlib import suppress
+from types import TracebackType
+
+from course_pkg.checking.placed.declared import Interface, interface_of
+from course_pkg.checking.plain_values import plain
+from course_pkg.errors import ChannelBroken, ChannelError
+from course_pkg.ros.protocol.json_channel import Json, JsonChannel
+from course_pkg.waiting import Deadline
+
+LIMIT = 1 << 16  # bytes of a line
+CONNECTIONS = 128  # at the same time; a sandboxed kernel may have 200 threads
+CALLS = 200_000  # of one check; a loop that tries to get a lock makes some 10,000 a second
+KEY_TIMEOUT = 5.0  # s for the first line of a connection
+SEND_TIMEOUT = 5.0  # s for the kernel to read an answer
+END_TIMEOUT = 1.0  # s for all threads to end
+STACK = 512 * 1024  # bytes of a thread's stack; the memory of a check runner in a sandbox is limited
+LONGEST = 4000  # characters of an error
+
+
+class PlacedObjects:
+    """Objects with remote methods, and the connections of the kernel to them; a context manager.
+
+    At its end, every connection is closed, and a call that still waits ends with an error in the kernel. An
+    object whose calls wait should end them when its method `close` is called.
+    """
+
+    def __init__(self) -> None:
+        self._key = secrets.token_hex(16)
+        self._objects: list[object] = []
+        self._interfaces: dict[type, Interface] = {}
+        self._listener = socket.create_server(("127.0.0.1", 0), backlog=CONNECTIONS)
+        self._open: dict[threading.Thread, socket.socket] = {}
+        self._calls = 0
+        self._closed = False
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> PlacedObjects:
+        self._accepting = threading.Thread(target=self._accept, daemon=True)
+        self._accepting.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with self._lock:
+            self._closed = True
+            left = dict(self._open)
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)  # this ends accept()
+        self._listener.close()
+        for each in self._objects:
+            if callable(close := getattr(each, "close", None)):
+                close()
+        for sock in left.values():
+            with suppress(OSError):
+                sock.shutdown(socket.SHUT_RDWR)
+        deadline = Deadline(END_TIMEOUT)
+        for thread in (self._accepting, *left):
+            thread.join(deadline.left)
+
+    def place(self, item: object) -> dict[str, Json]:
+        """Return the arguments of the request `place` for `item`: where it is, and which names it has."""
+        port: int = self._listener.getsockname()[1]
+        return {"port": port, "key": self._key, "item": self._described(item)}
+
+    def _described(self, item: object) -> dict[str, Json]:
+        with self._lock:
+            known = next((number for number, each in enumerate(self._objects) if each is item), None)
+            number = len(self._objects) if known is None else known
+            if known is None:
+                self._objects.append(item)
+        names = self._interface(item)
+        return {
+            "number": number,
+            "kind": type(item).__name__,
+            "methods": [*sorted(names.methods)],
+            "readable": [*sorted(names.readable)],
+            "writable": [*sorted(names.writable)],
+        }
+
+    def _interface(self, item: object) -> Interface:
+        kind = type(item)
+        if kind not in self._interfaces:
+            self._interfaces[kind] = interface_of(kind)
+        return self._interfaces[kind]
+
+    def _accept(self) -> None:
+        while True:
+            try:
+                sock, _ = self._listener.accept()
+            except OSError:  # the listener was closed
+                return
+            with self._lock:
+                if self._closed or len(self._open) >= CONNECTIONS:
+                    sock.close()
+                    continue
+                self._begin(sock)
+
+    def _begin(self, sock: socket.socket) -> None:
+        thread = threading.Thread(target=self._serve, args=(sock,), daemon=True)
+        before = threading.stack_size(STACK)
+        try:
+            thread.start()
+            self._open[thread] = sock
+        except RuntimeError:  # there is no memory for another thread
+            sock.close()
+        finally:
+            threading.stack_size(before)
+
+    def _serve(self, sock: socket.socket) -> None:
+        """Answer the calls of one connection until it ends, or breaks the protocol."""
+        channel = JsonChannel(sock, LIMIT)
+        try:
+            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            key = str(channel.receive(KEY_TIMEOUT).get("key")).encode("utf-8", "replace")
+            while hmac.compare_digest(key, self._key.encode()):
+                channel.send(self._reply(channel.receive()), SEND_TIMEOUT)
+        except (ChannelError, OSError):
+            pass  # the kernel sees that the connection is closed
+        finally:
+            channel.close()
+            with self._lock:
+                self._open.pop(threading.current_thread(), None)
+
+    def _reply(self, request: Mapping[str, Json]) -> dict[str, Json]:
+        """Return the answer to one line; raise ChannelBroken for one that no proxy sends."""
+        number, do, name = request.get("object"), request.get("do"), request.get("name")
+        args, kwargs = request.get("args", []), request.get("kwargs", {})
+        with self._lock:
+            self._calls += 1
+            if self._calls > CALLS or type(number) is not int or not 0 <= number < len(self._objects):
+                raise ChannelBroken("too many calls, or an object that was not placed")
+            item = self._objects[number]
+        if not isinstance(name, str) or not isinstance(args, list) or not isinstance(kwargs, dict):
+            raise ChannelBroken("a line that no proxy sends")
+        try:
+            result = _done(item, self._interface(item), str(do), name, args, kwargs)
+        except ChannelBroken:
+            raise
+        except Exception as error:  # noqa: BLE001 -- the caller in the kernel gets it
+            return {"error": {"type": type(error).__name__, "text": str(error)[:LONGEST]}}
+        if self._interface(result):
+            return {"placed": self._described(result)}
+        return {"value": plain(result)}
+
+
+def _done(
+    item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
+) -> object:
+    """Do what the kernel asks for, if the name is one of the remote `names`."""
+    if do == "call" and name in names.methods:
+        return getattr(item, name)(*args, **kwargs)
+    if do == "get" and name in names.readable:
+        return getattr(item, name)
+    if do == "set" and name in names.writable and len(args) == 1:
+        setattr(item, name, args[0])
+        return None
+    raise ChannelBroken(f"{type(item).__name__} has no remote {name[:40]!r}")

@@ -1,0 +1,81 @@
+"""The values that a student's code made, as plain data. The channel transports only plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeAlias, TypeVar
+
+from course_pkg.errors import CheckError
+from course_pkg.ros.protocol.json_channel import Json
+
+Reply: TypeAlias = dict[str, Json]  # the fields of a reply on the channel
+Value: TypeAlias = Any  # any value that a student's code made
+Message: TypeAlias = Any  # a message, request or response that genpy generated; it has no types
+# the fields of a message as plain data; its definition contains their types
+Fields: TypeAlias = dict[str, Any]
+ServiceClass: TypeAlias = Any  # a class that genpy generated, for a service or a message
+Item = TypeVar("Item")
+
+DEPTH = 12
+ITEMS = 10_000
+
+
+def of_kind(kind: type[Item], value: Json, name: str) -> Item:
+    """Return `value`, which the check's own code made in the kernel; it is an instance of `kind`.
+
+    Raises CheckError for a value of another type, because then the student's code has changed the check's
+    code.
+    """
+    if not isinstance(value, kind):
+        raise CheckError(
+            f"{name} is not a {kind.__name__} any more: restart the kernel, and run the cells again."
+        )
+    return value
+
+
+def plain(value: Value, depth: int = DEPTH) -> Json:
+    """Return `value` as None, bool, int, float, str, list and dict.
+
+    A ROS message becomes a dict of its fields, bytes become a list of integers, and a NumPy scalar a number.
+    A value without a plain form becomes {"object": name of its type}, which no check expects.
+    """
+    kind = type(value)
+    if value is None or (isinstance(value, (bool, int, float)) and kind in (bool, int, float)):
+        return value
+    if isinstance(value, str) and kind is str:
+        return value[:ITEMS]
+    if depth == 0:
+        return {"object": f"{kind.__name__}, nested too deeply"}
+    if kind in (bytes, bytearray):
+        return list(value[:ITEMS])
+    return _compound(value, depth - 1)
+
+
+def fields_of(message: Message) -> Fields:
+    """Return the fields of a message, request or response as plain data, by name."""
+    return {name: plain(getattr(message, name)) for name in message.__slots__}
+
+
+def _compound(value: Value, depth: int) -> Json:
+    if isinstance(value, Mapping):
+        return {str(key): plain(item, depth) for key, item in list(value.items())[:ITEMS]}
+    if isinstance(value, (list, tuple)):
+        return [plain(item, depth) for item in value[:ITEMS]]
+    if hasattr(value, "secs") and hasattr(value, "nsecs"):  # a time or a duration of genpy
+        return {"secs": value.secs, "nsecs": value.nsecs}
+    if hasattr(value, "_slot_types"):  # a message of genpy
+        return {name: plain(getattr(value, name), depth) for name in value.__slots__}
+    if hasattr(value, "tolist"):  # an array, or a number of NumPy
+        return plain(value.tolist(), depth)
+    return _exact(value)
+
+
+def _exact(value: Value) -> Json:
+    """Return a number or a string of a subclass, such as IntEnum, as a value of the base class."""
+    if isinstance(value, int):
+        return int(int.__int__(value))
+    if isinstance(value, float):
+        return float(float.__float__(value))
+    if isinstance(value, str):
+        return str.__str__(value)[:ITEMS]
+    return {"object": type(value).__name__}

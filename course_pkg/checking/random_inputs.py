@@ -1,0 +1,56 @@
+"""Random inputs for a check: different ones each time, but the same ones for the same seed."""
+
+from __future__ import annotations
+
+import random
+import string
+from collections.abc import Sequence
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+
+class RandomInputs:
+    """A source of random inputs. A check uses no other source, so the seed is enough to repeat its inputs."""
+
+    def __init__(self, seed: str) -> None:
+        self._random = random.Random(seed)  # noqa: S311 -- inputs to try, not secrets
+        self._words: list[str] = []
+
+    def number(self, low: float, high: float, *, digits: int = 2) -> float:
+        """Return a number between `low` and `high` with at most `digits` digits after the point."""
+        return round(self._random.uniform(low, high), digits)
+
+    def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
+        """Return `count` different numbers, so that no wrong answer is right by accident."""
+        found: list[float] = []
+        while len(found) < count:
+            number = self.number(low, high, digits=digits)
+            if number not in found:
+                found.append(number)
+        return found
+
+    def integer(self, low: int, high: int) -> int:
+        """Return an integer from `low` to `high`, both included."""
+        return self._random.randint(low, high)
+
+    def integers(self, count: int, low: int, high: int) -> list[int]:
+        """Return `count` different integers from `low` to `high`, both included."""
+        return self._random.sample(range(low, high + 1), count)
+
+    def choice(self, items: Sequence[Item]) -> Item:
+        """Return one of `items`."""
+        return self._random.choice(items)
+
+    def shuffled(self, items: Sequence[Item]) -> list[Item]:
+        """Return `items` in a random order."""
+        return self._random.sample(items, len(items))
+
+    def word(self, length: int = 6) -> str:
+        """Return a word of lower-case letters."""
+        self._words.append("".join(self._random.choices(string.ascii_lowercase, k=length)))
+        return self._words[-1]
+
+    def made(self, text: str) -> bool:
+        """Return whether `text` contains a random word. An assertion must not show it, because it changes."""
+        return any(word in text for word in self._words)

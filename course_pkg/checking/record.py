@@ -1,0 +1,136 @@
+"""The student's own record: one file for each part, with its last result and its first pass.
+
+The record shows a student the progress in the course. It is in the student's own folder, and the student can
+change or forge it. So only the student's own overview reads it, and it is never used for a grade. Grades come
+from check runners that `course grade` starts. These store nothing here: a contract of import-linter in
+pyproject.toml forbids grading and sandbox to import this module.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.state import locked, now, state_folder, write_json
+
+FOLDER = "results-2"  # `results` belongs to the first edition, where these numbers belong to other chapters
+PASSED = "passed"
+
+
+@dataclass(frozen=True)
+class PartRecord:
+    """The results of the checks of one part. Times are ISO 8601 in UTC, or "" if there is none yet."""
+
+    check: str
+    verdict: str  # of the last check
+    checked: str  # the time of the last check
+    passed: str  # when the part was first passed
+    checks: int
+
+
+class DamagedRecord(Exception):
+    """A file of the record cannot be read, or does not contain a record."""
+
+
+class StudentRecord:
+    """The results of the checks that this student ran, in a folder of the course's state."""
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = folder or state_folder() / FOLDER
+
+    def store(self, check: str, result: Mapping[str, Json]) -> str:
+        """Store the result of a check, and return a message about a problem; "" if there was none.
+
+        A damaged file is kept next to the new one. If nothing can be written, the file does not change. No
+        error is raised: the report of a check does not depend on its record.
+        """
+        path = self._path(check)
+        try:
+            with locked(self.folder):
+                before, message = self._before(check)
+                first = (before and before.passed) or (now() if result.get("verdict") == PASSED else "")
+                kept = {"checked": now(), "passed": first, "checks": (before.checks if before else 0) + 1}
+                write_json(path, {**result, **kept})
+        except (OSError, ValueError) as error:
+            return (
+                f"Your progress does not contain this result, because {path} cannot be written "
+                f"({getattr(error, 'strerror', None) or error}). Solve that problem, and run this cell again."
+            )
+        return message
+
+    def read(self, checks: Iterable[str]) -> tuple[dict[str, PartRecord], str]:
+        """Return the records of these parts by id, and a message about damaged records, or ""."""
+        found: dict[str, PartRecord] = {}
+        damaged: dict[str, list[str]] = {}
+        for check in checks:
+            try:
+                if record := self._read(check):
+                    found[check] = record
+            except DamagedRecord as error:
+                damaged.setdefault(str(error), []).append(check)
+        reasons = "; ".join(f"{_listed(parts)}: {reason}" for reason, parts in damaged.items())
+        message = (
+            f"Some results in {self.folder} cannot be read ({reasons}). Run the checks of these parts again: "
+            "the course then stores new results, and keeps the old files next to them."
+        )
+        return found, message if damaged else ""
+
+    def _path(self, check: str) -> Path:
+        return self.folder / f"{check}.json"
+
+    def _before(self, check: str) -> tuple[PartRecord | None, str]:
+        """Return the existing record of a part, and a message; rename the file if it is damaged."""
+        try:
+            return self._read(check), ""
+        except DamagedRecord as error:
+            path = self._path(check)
+            names = (path.with_name(f"{check}.damaged-{number}.json") for number in count(1))
+            aside = next(name for name in names if not name.exists())
+            path.rename(aside)
+            return None, (
+                f"The earlier result of this part could not be read ({error}). Its file is now {aside}, and "
+                "the result above is stored."
+            )
+
+    def _read(self, check: str) -> PartRecord | None:
+        """Return the record of a part, or None if there is none. Raises DamagedRecord."""
+        try:
+            data = json.loads(self._path(check).read_text("utf-8"))
+        except FileNotFoundError:
+            return None
+        except (OSError, ValueError, RecursionError) as error:
+            raise DamagedRecord(_reason(error)) from error
+        record = _record(check, data)
+        if record is None:
+            raise DamagedRecord("it does not contain a record")
+        return record
+
+
+def _record(check: str, data: object) -> PartRecord | None:
+    """Return the record of a part in `data`, or None if the data do not have the form that `store` writes."""
+    if not isinstance(data, dict):
+        return None
+    texts = [data.get(name) for name in ("verdict", "checked", "passed")]
+    checks = data.get("checks")
+    if data.get("check") != check or type(checks) is not int:
+        return None
+    if not all(isinstance(text, str) for text in texts):
+        return None
+    verdict, checked, passed = map(str, texts)
+    return PartRecord(check, verdict, checked, passed, checks)
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    return "it is not valid JSON"
+
+
+def _listed(parts: list[str], most: int = 5) -> str:
+    """Return the ids of parts as a text; if there are many, only the first ones."""
+    more = f" and {len(parts) - most} more" if len(parts) > most else ""
+    return ", ".join(parts[:most]) + more

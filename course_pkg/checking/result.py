@@ -1,0 +1,97 @@
+"""The results of the student's code that a check ran: a function in the kernel, or a command."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import overload
+
+from course_pkg.checking.assertions import Hints, Results, hint_for, matches
+from course_pkg.checking.formatting import explained, shown
+from course_pkg.checking.plain_values import Item, of_kind
+from course_pkg.ros.protocol.json_channel import Json
+
+
+class Result:
+    """The result of one call of a student's function: either a value or an error, never both."""
+
+    def __init__(
+        self, results: Results, label: str, reply: Mapping[str, Json], took: float, hints: Hints
+    ) -> None:
+        self.printed = str(reply.get("printed", ""))
+        self.took = took  # duration in s, measured by the check runner
+        self._value = reply.get("value")
+        error = reply.get("error")
+        self._error = error if isinstance(error, dict) else None
+        self._results = results
+        self._label = label  # the call as assertions show it: "measure()"
+        self._hints = hints
+
+    @property
+    def error(self) -> str:
+        """The error as ROS and Python print it, `TypeName: message`; an empty string if there was none."""
+        if self._error is None:
+            return ""
+        return f"{self._error.get('type')}: {self._error.get('text')}"
+
+    @property
+    def value(self) -> Json:
+        """What the function returned, as plain data; None after an error. It asserts nothing."""
+        return self._value
+
+    @overload
+    def returned(self) -> Json: ...
+    @overload
+    def returned(self, kind: type[Item]) -> Item: ...
+    def returned(self, kind: type[Item] | None = None) -> Json | Item:
+        """Assert that the function returned, and return its value as plain data.
+
+        For a function of the check's own, pass the `kind` of the value. CheckError is raised for a value of
+        another kind.
+        """
+        assertion = f"{self._label} returns"
+        if self.error:
+            hint = hint_for(self._hints, self.error) or self._explained()
+            self._results.fails(assertion, expected="a value", actual=self.error, hint=hint)
+        self._results.passes(assertion)
+        return self._value if kind is None else of_kind(kind, self._value, self._label)
+
+    def raised(self, assertion: str, kind: str, *, saying: str = "", hints: Hints = ()) -> str:
+        """Assert that the call raised an error of the type `kind` (or derived from it); return its text.
+
+        `saying` is a pattern that the text has to match.
+        """
+        actual = self.error or f"the value {shown(self._value)}"
+        if not self._is(kind) or not matches(saying).search(self.error):
+            expected = f"{kind} whose message matches {saying!r}" if saying else kind
+            hint = hint_for(hints, self.error or self._value) or hint_for(self._hints, self.error)
+            self._results.fails(assertion, expected=expected, actual=actual, hint=hint or self._explained())
+        self._results.passes(assertion)
+        return self.error
+
+    def _is(self, kind: str) -> bool:
+        error = self._error or {}
+        bases = error.get("bases")
+        return kind == error.get("type") or (isinstance(bases, list) and kind in bases)
+
+    def _explained(self) -> str:
+        if self.error.startswith("TimesUp"):
+            return f"{self._label} waits for something that does not happen: give the wait a time limit."
+        where = (self._error or {}).get("line")
+        return explained(self.error) or (f"The error came from line {where} of the cell." if where else "")
+
+
+class Finished:
+    """The result of a student's command."""
+
+    def __init__(self, reply: Mapping[str, Json]) -> None:
+        status, took = reply.get("status"), reply.get("took")
+        self.status = status if isinstance(status, int) else None  # None: it was still running
+        self.out = str(reply.get("out", ""))
+        self.err = str(reply.get("err", ""))
+        self.took = took if isinstance(took, float) else 0.0  # s
+        # For a command that was still running: how long (s) it used a processor, and how long it waited for
+        # one.
+        ran, queued = reply.get("ran"), reply.get("queued")
+        self.ran = ran if isinstance(ran, float) else 0.0
+        self.queued = queued if isinstance(queued, float) else math.inf  # infinity if the time is not known

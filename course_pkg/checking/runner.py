@@ -1,0 +1,134 @@
+"""The check runner: runs one check as a node of its own, and sends the report."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from importlib.metadata import PackageNotFoundError, version
+from typing import TypeAlias
+
+from course_pkg.checking.assertions import AssertionFailed
+from course_pkg.checking.channel import PROTOCOL, Channel, require_current
+from course_pkg.checking.context import CheckContext
+from course_pkg.checking.parts import Part, find
+from course_pkg.checking.peers.node import on_the_graph
+from course_pkg.checking.report import Assertion, Report, Verdict
+from course_pkg.errors import ChannelError, CourseError, ToolMissing
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import at_this_load, interrupt_after
+
+FIRST_MESSAGE = 10.0  # time limit in s for the client's first message
+LOOK = 5.0  # time limit in s for the client to describe a name
+Store: TypeAlias = "Callable[[str, Mapping[str, Json]], str]"
+
+
+class DeadlinePassed(BaseException):
+    """The time of the check is over. This is not an Exception, so `except Exception` does not catch it."""
+
+
+def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
+    """Run the check that the client requests, `store` its result, and send and return its report.
+
+    `store` gets the id of the check and its result, and returns a message for the report, or "". Without
+    `store`, nothing is stored. With `only`, no other check is run. Raises ChannelError if the client does not
+    request a check.
+    """
+    seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
+    hello = channel.receive(FIRST_MESSAGE)
+    check = str(hello.get("check"))
+    try:
+        if hello.get("protocol") != PROTOCOL:
+            raise CourseError("The kernel runs another release of the course: restart the kernel.")
+        if only and check != only:
+            raise CourseError(f"The kernel requested the check {check[:20]!r} instead of {only!r}.")
+        report = _run(find(check), channel, seed)
+        message = store(check, record(report, seed)) if store else ""
+        report = replace(report, note=" ".join(filter(None, (report.note, message))))
+    except CourseError as error:
+        report = Report(check, Verdict.UNDECIDED, note=str(error))
+    with suppress(ChannelError):
+        channel.send({"report": report.as_dict()})
+    return report
+
+
+def record(report: Report, seed: int) -> dict[str, Json]:
+    """Return the result that is stored: enough for grading, and for a repetition with COURSE_SEED."""
+    return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
+
+
+def _run(part: Part, channel: Channel, seed: int) -> Report:
+    if note := _not_attempted(part, channel):
+        return _report(part, Verdict.NOT_ATTEMPTED, note=note)
+    with on_the_graph(part.check) as node:
+        return _reported(part, CheckContext(part.check, channel, node, seed))
+
+
+def _reported(part: Part, context: CheckContext) -> Report:
+    try:
+        with context, interrupt_after(at_this_load(part.deadline), DeadlinePassed):
+            part(context)
+    except AssertionFailed:
+        return _report(part, Verdict.FAILED, context.assertions)
+    except ToolMissing as error:
+        return _report(part, Verdict.NOT_ATTEMPTED, note=str(error))
+    except DeadlinePassed:
+        return _report(part, Verdict.FAILED, (*context.assertions, _too_slow(part, context)))
+    except ChannelError as error:
+        note = f"The answer of the kernel is not valid: {error}."
+        return _report(part, Verdict.FAILED, context.assertions, note)
+    return _report(part, Verdict.PASSED, context.assertions)
+
+
+def _not_attempted(part: Part, channel: Channel) -> str:
+    """Return what to do first if a name that the check needs is missing or blank; else an empty string."""
+    for need in part.needs:
+        replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
+        blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
+        if blank:
+            return f"Replace the ... in {blank.removeprefix('file:')}, run that cell, then this one."
+        there = [reply for reply in replies.values() if reply.get("kind") != "missing"]
+        if not there:
+            name, reply = next(iter(replies.items()))
+            shown = name.removeprefix("file:")
+            alike = reply.get("alike")
+            names = " and ".join(map(str, alike)) if isinstance(alike, list) else ""
+            found = f" There is {names}: is it spelt as in the exercise?" if names else ""
+            return f"{shown} is not defined: run the cell above first.{found}"
+        for reply in there:
+            require_current(reply)
+    return _unchanged(part, channel)
+
+
+def _unchanged(part: Part, channel: Channel) -> str:
+    """Return what to do if a file that has to be repaired was not changed; else an empty string."""
+    first, _, text = part.start.partition("\n")
+    path = first.removeprefix("%%writefile").strip()
+    now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None
+    if now is None or str(now).strip() != text.strip():
+        return ""
+    return f"{path} is unchanged. Repair it in the cell above, run that cell, then this one."
+
+
+def _too_slow(part: Part, context: CheckContext) -> Assertion:
+    return Assertion(
+        f"it ends within {part.deadline:g} s",
+        holds=False,
+        actual=f"still {context.doing}" if context.doing else "",
+        hint="Something waits without end: look for a loop that never ends, or a wait without a time limit.",
+    )
+
+
+def _report(part: Part, verdict: Verdict, assertions: tuple[Assertion, ...] = (), note: str = "") -> Report:
+    earned = part.points if verdict is Verdict.PASSED else 0
+    return Report(part.check, verdict, part.goal, earned, part.points, assertions, note)
+
+
+def _course_version() -> str:
+    try:
+        return version("course_pkg")
+    except PackageNotFoundError:
+        return "unknown"

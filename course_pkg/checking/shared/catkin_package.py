@@ -1,0 +1,150 @@
+"""A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
+
+The copy is complete: the check adds its own version of each file that the student does not have yet. So it
+can examine one file before the others exist. This is also necessary in grading, where only the notebook's
+cell is known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.checking.context import CheckContext
+from course_pkg.checking.result import Finished
+from course_pkg.errors import CheckError
+from course_pkg.workspace import Fault, explain
+from course_pkg.workspace.fault import locate
+
+BUILDS = "catkin_make builds the package"
+# s of processor time, and KiB of a file; the sandbox has its own limits
+LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
+# time limit of the build in s; it takes 3 s of processor time, or 6 s at a load of 9 on two cores
+BUILD = 50.0
+OWN = "own"  # the folder of the check's own files; cp -n does not replace the student's files
+FILL = f"mkdir -p src {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
+SETUP = "devel/setup.bash"
+IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'  # this is enough for a package of scripts
+CATKIN_MAKE = "catkin_make -j2"  # without -j2, make waits while the machine is busy
+
+
+@dataclass(frozen=True)
+class Package:
+    """A package that exercises need: its name, and the check's own files by their paths in the package."""
+
+    name: str
+    files: Mapping[str, str]
+
+    @property
+    def folder(self) -> str:
+        """Return the path of the package's folder in the workspace."""
+        return f"src/{self.name}"
+
+    def path(self, file: str) -> str:
+        """Return the path of a file of the package in the workspace."""
+        return f"{self.folder}/{file}"
+
+
+class BuiltPackage:
+    """A copy of a package that was built in a workspace of the check's own."""
+
+    def __init__(self, folder: Folder, package: Package) -> None:
+        self.folder = folder
+        self.package = package
+
+    def run(self, line: str, *, within: float = 10.0, setup: str = SETUP) -> Finished:
+        """Run a line of bash after `source devel/setup.bash`, for at most `within` s; return its result."""
+        return self.folder.command("bash", "-c", f". {setup} && {line}", within=within, worded=line)
+
+    def start(self, line: str, *, worded: str = "", setup: str = SETUP) -> Running:
+        """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; a context manager.
+
+        A report shows the command, or `worded` if it is given.
+        """
+        return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
+
+    def md5(self, type_name: str) -> tuple[str, str]:
+        """Return the MD5 sum of a service type as Python finds it; or an empty text and the error output."""
+        name = self.package.name
+        line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
+        done = self.run(line)
+        return (done.out.strip(), "") if done.status == 0 else ("", (done.out + done.err).strip())
+
+
+def built(
+    context: CheckContext,
+    package: Package,
+    *,
+    examined: str,
+    alone: bool = False,
+    drawn: Mapping[str, str] | None = None,
+    within: float = BUILD,
+) -> BuiltPackage:
+    """Build a copy of the student's package, and assert that the build succeeds.
+
+    With `alone`, all other files are the check's own, because the student writes them later. The files
+    `drawn`, by their paths in the package, replace the student's files. Their content is random, so that no
+    CMakeLists.txt can contain it. Raises CheckError if the build takes more than `within` s; the build of C++
+    needs more than the usual time.
+    """
+    own = _own_files(package, examined)
+    replaced = {package.path(file): text for file, text in (drawn or {}).items()}
+    files = [package.path(examined) if alone else package.folder]
+    folder = context.folder(files=files, texts={**own, **replaced})
+    build = run_catkin_make(folder, f"{LIMITS}; {FILL} &&", "-DCATKIN_ENABLE_TESTING=OFF", within=within)
+    if build.status != 0:
+        _fails_to_build(context, package, f"{build.out}\n{build.err}", examined)
+    context.require(BUILDS, holds=True)
+    return BuiltPackage(folder, package)
+
+
+def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: float) -> Finished:
+    """Run catkin_make in `folder` after the commands `before` of bash, such as "ulimit -t 6;".
+
+    Raises CheckError if it has not finished after `within` s.
+    """
+    line = f"{before} exec {CATKIN_MAKE} {options}"
+    build = folder.command("bash", "-c", line, within=within, worded="catkin_make")
+    if build.status is None:
+        raise CheckError(
+            f"catkin_make had not finished after {build.took:.0f} s. The machine is busy, or a command in "
+            "CMakeLists.txt never ends. Run this cell again."
+        )
+    return build
+
+
+def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
+    """Copy a package that needs no build, because it contains only Python programs and launch files.
+
+    rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. With `alone`,
+    all files but `examined` are the check's own.
+    """
+    files = [package.path(examined) if alone else package.folder]
+    folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
+    folder.command("bash", "-c", f"chmod -R +x {OWN} && {FILL}")
+    return BuiltPackage(folder, package)
+
+
+def _own_files(package: Package, examined: str) -> dict[str, str]:
+    """Return the check's own files by their paths in the folder of a check.
+
+    The examined file is not among them: a CMakeLists.txt could use it instead of the student's file.
+    """
+    return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
+
+
+def _fails_to_build(context: CheckContext, package: Package, printed: str, examined: str) -> None:
+    fault = explain(printed) or _unexplained(printed)
+    if fault.file.endswith("package.xml") and examined == "package.xml":
+        fault = locate(fault, context.source(f"file:{package.path(examined)}"))
+    if not fault.file:
+        fault = replace(fault, file=f"{package.name}/{examined}")
+    context.fail(
+        BUILDS, expected="a build that succeeds", actual=f"{fault.place}: {fault.problem}", hint=fault.remedy
+    )
+
+
+def _unexplained(printed: str) -> Fault:
+    lines = [line.strip() for line in printed.strip().splitlines() if line.strip()]
+    return Fault("catkin_make failed", f"Read the end of its output: {' / '.join(lines[-3:])}.")

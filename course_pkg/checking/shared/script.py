@@ -1,0 +1,43 @@
+"""The first line of a student's script."""
+
+from __future__ import annotations
+
+from course_pkg.checking.context import CheckContext
+
+MARK = "\ufeff"  # the byte order mark, with which some editors of Windows begin a file
+
+
+def require_shebang(
+    context: CheckContext,
+    path: str,
+    *,
+    missing: str,
+    elsewhere: str = "",
+    another: str = "",
+    windows: str = "",
+    mark: str = "",
+    assertion: str = "its first line is #!/usr/bin/env python3",
+    program: str = "python3",
+) -> None:
+    """Assert that the first line of the student's file is a shebang that names `program`, and not Python 2.
+
+    The hints are for five cases: no shebang, a shebang in another line, another program, the line endings of
+    Windows, and a byte order mark. `missing` is used for a hint that is not given.
+    """
+    text = context.source(f"file:{path}")
+    first = text.partition("\n")[0]
+    if "\r" in first:
+        hint = windows
+    elif mark and first.startswith(MARK):
+        hint = mark
+    elif first.startswith("#!"):
+        hint = another
+    else:
+        hint = elsewhere if "\n#!" in text or first.lstrip().startswith("#!") else ""
+    context.require(
+        assertion,
+        holds=first.startswith("#!") and program in first and "\r" not in first and "python2" not in first,
+        expected="#!/usr/bin/env python3",
+        actual=first.replace("\r", "\\r") or "an empty line",
+        hints=hint or missing,
+    )

@@ -1,0 +1,71 @@
+"""The programs that several cases use: the server /door, and its client."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from course_pkg.faults.stage import Stage
+
+WELL = 'return SetBoolResponse(True, "open" if request.data else "shut")'
+
+VISITOR = """\
+import rospy
+from std_srvs.srv import SetBool
+
+rospy.init_node("visitor")
+move_door = rospy.ServiceProxy("/lab/door", SetBool)
+print(move_door(True))
+"""
+
+_KEEPER = """\
+import rospy
+from std_srvs.srv import SetBool, SetBoolResponse
+
+def handle(request):
+    {body}
+
+rospy.init_node("keeper")
+rospy.Service("/lab/door", SetBool, handle)
+rospy.spin()
+"""
+
+
+def keeper(body: str = WELL, **changes: str) -> str:
+    """Return the program that serves /door with this handler body; `changes` maps old text to new text."""
+    code = _KEEPER.format(body=body.replace("\n", "\n    "))
+    for old, new in changes.items():
+        code = code.replace(old, new)
+    return code
+
+
+def running(code: str) -> Callable[[Stage], None]:
+    """Return the cause of a fault in the program that serves /door."""
+
+    def play(stage: Stage) -> None:
+        stage.serve(code)
+
+    return play
+
+
+def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
+    """Return the cause of a fault in the handler."""
+    return running(imports + keeper(body))
+
+
+def nothing(_: Stage) -> None:
+    """Leave the graph as it is."""
+
+
+def kill_server(stage: Stage) -> None:
+    """Start a server, and kill it."""
+    stage.serve(keeper()).kill()
+
+
+def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
+    """Return a visitor that does something else once it is a node."""
+    return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
+
+
+def calling(call: str) -> str:
+    """Return a client that makes another call of /door."""
+    return VISITOR.replace("print(move_door(True))", call)

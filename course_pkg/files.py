@@ -1,0 +1,22 @@
+"""Writes files completely or not at all; imports nothing but the standard library."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+
+def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
+    """Write `content` to `path`, and create its folders: a reader sees the whole old or the whole new file.
+
+    Raises OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the
+    text. In both cases, the old file does not change.
+    """
+    data = content.encode(encoding) if isinstance(content, str) else content
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        draft.write_bytes(data)
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)

@@ -1,0 +1,113 @@
+"""The command-line arguments of `course grade` and `course grade-one`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+from course_pkg.setup.commands import UNSAFE, Command
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser
+
+NEEDS = frozenset({"course", "grade", "libraries"})
+
+
+def _grade(options: SimpleNamespace) -> int:
+    from course_pkg.grading.command import Options, grade
+
+    given = {name: value for name, value in vars(options).items() if name != "command"}
+    return grade(Options(**given))
+
+
+def _chapters(text: str) -> tuple[str, ...]:
+    return tuple(filter(None, text.split(",")))
+
+
+def _grade_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "source",
+        metavar="submissions",
+        type=Path,
+        help="a folder with STUDENT/NN_topic.ipynb, a zip of it, or a download from a learning platform",
+    )
+    parser.add_argument(
+        "--chapters", type=_chapters, default=(), metavar="05,06", help="grade only these chapters"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("grades"), help="the folder for the reports (default: grades)"
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=0,
+        help="the number of notebooks at the same time (default: two for each core)",
+    )
+    parser.add_argument(
+        "--scheduler", default="", metavar="tcp://…", help="a dask scheduler, to use several machines"
+    )
+    parser.add_argument(
+        "--late", type=Path, metavar="TABLE", help="a CSV file: student,days or student,chapter,days"
+    )
+    parser.add_argument(
+        "--late-per-day",
+        type=float,
+        metavar="PERCENT",
+        help="the percentage of the points that is taken off for each day late, such as 10",
+    )
+    parser.add_argument(
+        "--late-max-days",
+        type=float,
+        metavar="N",
+        help="the number of days late after which no points are left, such as 3",
+    )
+    parser.add_argument(
+        "--validate",
+        choices=("none", "missing", "all"),
+        default="missing",
+        help="students whose notebooks nbval runs for feedback: those with missing points "
+        "(default), all, none",
+    )
+    again = parser.add_mutually_exclusive_group()
+    again.add_argument(
+        "--resume", dest="fresh", action="store_false", help="continue where a run stopped (the default)"
+    )
+    again.add_argument("--fresh", action="store_true", help="delete the earlier grades first")
+    parser.set_defaults(fresh=False)  # the default, or the value of --resume, is used
+    _add_common(parser)
+
+
+def _grade_one(options: SimpleNamespace) -> int:
+    from course_pkg.grading.command import grade_one
+
+    return grade_one(options.notebook, options.out, sandboxed=options.sandboxed, private=options.private)
+
+
+def _grade_one_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("notebook", type=Path, help="the student's notebook")
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the JSON file for the grade")
+    _add_common(parser)
+
+
+def _add_common(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--private",
+        type=Path,
+        metavar="DIR",
+        help="a folder with private checks and other points, which students never see",
+    )
+    parser.add_argument(
+        UNSAFE, dest="sandboxed", action="store_false", help="run students' code without a sandbox"
+    )
+
+
+COMMANDS = {
+    "grade": Command("grade what students handed in, and write the reports", _grade, NEEDS, _grade_arguments),
+    "grade-one": Command(
+        "grade one notebook into one file, for a cluster's array of jobs",
+        _grade_one,
+        NEEDS,
+        _grade_one_arguments,
+    ),
+}

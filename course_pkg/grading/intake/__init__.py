@@ -1,0 +1,1 @@
+"""Reads what was handed in (archives, names, notebooks in any state), and returns submissions."""

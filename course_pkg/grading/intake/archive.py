@@ -1,0 +1,197 @@
+"""The files that were handed in, in a folder or a zip. They are listed, read one by one, never unpacked.
+
+Links are not followed, nothing outside is opened, and no file is read past its limit.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import time
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path, PurePosixPath
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+
+LARGEST = 20 << 20  # bytes of one notebook
+ALTOGETHER = 4 << 30  # bytes that all notebooks of a zip may unpack to
+RATIO = 400  # the usual notebook shrinks to a tenth, one that repeats itself to a hundredth
+SMALL = 1 << 20  # bytes; for smaller files, the ratio is not checked
+MEMBERS = 200_000
+DEPTH = 16  # folders within folders
+LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A file that was handed in; `read` returns its contents, or raises GradingError with the reason."""
+
+    path: str  # inside what was handed in, with / between the folders
+    modified: float  # s since 1970
+    read: Callable[[], bytes]
+    executable: bool = False  # whether its owner may execute it; False if an archive does not store this
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The folders and the file's name."""
+        return PurePosixPath(self.path).parts
+
+
+@contextmanager
+def opened(source: Path) -> Iterator[list[Entry]]:
+    """List the files in `source`, a folder or a zip; they can be read until the block ends."""
+    if source.is_dir():
+        yield sorted(_in_folder(source, "", DEPTH), key=lambda entry: entry.path)
+        return
+    try:
+        archive = zipfile.ZipFile(source)
+    except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError) as error:
+        raise GradingError(
+            f"{source} contains no submissions: {error}. Give a folder SUBMISSIONS/<student>/NN_topic.ipynb, "
+            "a zip of it, or the zip that Moodle, Canvas or Gradescope offers."
+        ) from error
+    with archive:
+        yield list(_Archive(archive).entries())
+
+
+def one_file(path: Path) -> Entry:
+    """Return a single file; raise GradingError when there is none."""
+    try:
+        return Entry(path.name, path.lstat().st_mtime, partial(_read_file, path))
+    except OSError as error:
+        raise GradingError(f"There is no {path}: {error.strerror}. Give the path of a notebook.") from error
+
+
+def is_litter(parts: tuple[str, ...]) -> bool:
+    """Return whether a system or an editor created the file, so that no student handed it in."""
+    return any(part.lower() in LITTER or (part.startswith(".") and part not in ("..", ".")) for part in parts)
+
+
+def _in_folder(folder: Path, prefix: str, depth: int) -> Iterator[Entry]:
+    try:
+        found = list(os.scandir(folder))
+    except OSError as error:
+        yield _refused(
+            prefix.rstrip("/"), f"the folder cannot be read ({error.strerror}); correct its permissions"
+        )
+        return
+    for item in found:
+        path = f"{prefix}{item.name}"
+        if is_litter((item.name,)):
+            continue
+        if item.is_dir(follow_symlinks=False):
+            if depth:
+                yield from _in_folder(Path(item.path), f"{path}/", depth - 1)
+            else:
+                yield _refused(path, f"it is more than {DEPTH} folders deep; move it up")
+        else:
+            status = item.stat(follow_symlinks=False)
+            read, executable = partial(_read_file, Path(item.path)), bool(status.st_mode & stat.S_IXUSR)
+            yield Entry(path, status.st_mtime, read, executable)
+
+
+def _read_file(path: Path) -> bytes:
+    """Read a regular file; never open a link, a pipe or a device."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError as error:
+        if path.is_symlink():
+            raise GradingError(
+                "it is a link, and links are not followed; replace it by the file itself"
+            ) from error
+        raise GradingError(f"it cannot be read ({error.strerror}); correct its permissions") from error
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        if not stat.S_ISREG(status.st_mode):
+            raise GradingError("it is not an ordinary file; replace it by the notebook itself")
+        return _bounded(file.read(LARGEST + 1))
+
+
+def _bounded(content: bytes) -> bytes:
+    _refuse_large(len(content))
+    return content
+
+
+def _refuse_large(size: int) -> None:
+    if size > LARGEST:
+        raise GradingError(
+            f"it is larger than {LARGEST >> 20} MiB; ask the student to clear its outputs (Edit, "
+            f"Clear Outputs of All Cells) and to hand it in again"
+        )
+
+
+class _Archive:
+    """A zip, with a limit for the total that is read from it."""
+
+    def __init__(self, archive: zipfile.ZipFile) -> None:
+        self._archive = archive
+        self._left = ALTOGETHER
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield the files in the order of their paths."""
+        members = [member for member in self._archive.infolist() if not member.is_dir()]
+        for member in sorted(members[:MEMBERS], key=lambda each: each.filename):
+            path = PurePosixPath(member.filename.replace("\\", "/"))
+            if not is_litter(path.parts):
+                executable = bool((member.external_attr >> 16) & stat.S_IXUSR)
+                yield Entry(str(path), _modified(member), partial(self._read, member), executable)
+        if len(members) > MEMBERS:
+            yield _refused("", f"the archive holds more than {MEMBERS} files; split it up")
+
+    def _read(self, member: zipfile.ZipInfo) -> bytes:
+        _refuse_suspicious(member)
+        if member.file_size > self._left:
+            raise GradingError(f"the archive unpacks to more than {ALTOGETHER >> 30} GiB; split it up")
+        try:
+            with self._archive.open(member) as file:
+                content = _bounded(file.read(LARGEST + 1))
+        except (OSError, RuntimeError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+            raise GradingError(
+                f"the archive is damaged there ({clean.line(error)}); create it again"
+            ) from error
+        self._left -= len(content)
+        return content
+
+
+def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
+    kind = stat.S_IFMT(member.external_attr >> 16)
+    if leads_out(member.filename):
+        raise GradingError(
+            "its path leads out of the archive, so it was not read; ask for the notebook itself"
+        )
+    if kind not in (0, stat.S_IFREG):
+        raise GradingError("it is a link or a device, so it was not read; ask for the notebook itself")
+    if member.flag_bits & 0x1:
+        raise GradingError("it is encrypted; ask for the notebook without a password")
+    _refuse_large(member.file_size)
+    if member.file_size > SMALL and member.file_size > RATIO * max(1, member.compress_size):
+        raise GradingError(
+            "it unpacks to more than a hundred times its size, which no notebook does; ask for it again"
+        )
+
+
+def leads_out(path: str) -> bool:
+    """Return whether a path in an archive leads out of the archive."""
+    parts = path.replace("\\", "/").split("/")
+    return not parts[0] or ".." in parts or re.match(r"[A-Za-z]:", path) is not None
+
+
+def _modified(member: zipfile.ZipInfo) -> float:
+    try:
+        return time.mktime((*member.date_time, 0, 1, -1))
+    except (ValueError, OverflowError):
+        return 0.0
+
+
+def _refused(path: str, why: str) -> Entry:
+    def read() -> bytes:
+        raise GradingError(why)
+
+    return Entry(path, 0.0, read)

@@ -1,0 +1,100 @@
+"""Notebooks of the first edition of the course, in which some chapters and exercises had other numbers."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from course_pkg.grading.intake.reading import StudentCell
+
+PART = re.compile(r"""(?:exercise|check)-(\d\d)-\d+|^check\(["'](\d\d)\.\d+["']\)""", re.MULTILINE)
+TITLE = re.compile(r"# (.+)")
+
+
+@dataclass(frozen=True)
+class RenumberedChapter:
+    """A chapter of the first edition, and the number that it has now."""
+
+    name: str  # of its file in the first edition, without the ending
+    title: str  # the number in the first edition
+    now: str
+    moved: str = ""  # a sentence about exercises that another chapter has now
+
+    @property
+    def number(self) -> str:
+        """The number in the first edition."""
+        return self.name[:2]
+
+    @property
+    def difference(self) -> str:
+        """What changed since the first edition, in sentences."""
+        if self.number == self.now:
+            return f"the exercises of this chapter had other numbers. {self.moved}".strip()
+        return f"this chapter had number {self.number}. It is chapter {self.now} now. {self.moved}".strip()
+
+
+RENUMBERED = (
+    RenumberedChapter("07_use_existing_services", "Use the services that already exist", "08"),
+    RenumberedChapter("08_drive_turtles", "Drive turtles", "09"),
+    RenumberedChapter("09_look_inside", "Look inside a call", "11"),
+    RenumberedChapter(
+        "10_survive_trouble",
+        "Survive trouble",
+        "12",
+        "Its exercises 10.1 and 10.2 are now exercises 10.4 and 10.5 of chapter 10.",
+    ),
+    RenumberedChapter("11_cpp", "Read and build the C++ side", "13"),
+    RenumberedChapter("12_robot_cashier", "Build the robot cashier", "15"),
+    RenumberedChapter("13_go_further", "Go further", "16"),
+)
+
+# a chapter that kept its number, but whose exercises have other numbers
+CHOOSE = RenumberedChapter(
+    "03_choose",
+    "Choose between a stream and a question",
+    "03",
+    "Exercise 03.3 is now exercise 10.2 of chapter 10, exercise 03.5 is now 03.4, and the old 03.4 was "
+    "removed.",
+)
+LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # only the first edition has this part
+
+
+def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> RenumberedChapter | None:
+    """Return the first edition's chapter of a notebook, or None for a notebook of this edition.
+
+    `name` is the name of its file, in small letters with underscores. `by_ids` is the chapter with which its
+    cells share the most ids. The number alone proves nothing, because another chapter has it now.
+    """
+    number = _number(cells)
+    if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):
+        return CHOOSE
+    if not number:
+        return next((each for each in RENUMBERED if each.name in name), None)
+    chapter = next((each for each in RENUMBERED if each.number == number), None)
+    if chapter and (chapter.name in name or chapter.title in _titles(cells) or chapter.now == by_ids):
+        return chapter
+    return None
+
+
+def _number(cells: Sequence[StudentCell]) -> str:
+    """Return the chapter's number in most of the ids of exercises and checks, "" if there is none."""
+    texts = [text for cell in cells for text in (cell.id, cell.source)]
+    found = [first or second for text in texts for first, second in PART.findall(text)]
+    found += [part[:2] for cell in cells for part in (cell.exercise, cell.check) if part]
+    return Counter(found).most_common(1)[0][0] if found else ""
+
+
+def _has_last_part(cells: Sequence[StudentCell]) -> bool:
+    """Return whether the notebook has the part 03.5."""
+    return any(
+        "03.5" in (cell.exercise, cell.check) or LAST_PART.search(f"{cell.id} {cell.source}")
+        for cell in cells
+        if cell.kind == "code"
+    )
+
+
+def _titles(cells: Sequence[StudentCell]) -> set[str]:
+    found = (TITLE.match(cell.source) for cell in cells if cell.kind == "markdown")
+    return {title[1].strip() for title in found if title}

@@ -1,0 +1,133 @@
+"""Find the student to whom a file belongs, from the path that an instructor or a platform gave it.
+
+SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
+Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
+lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE if so, -2: handed in three times
+assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
+submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
+
+A catkin package is a folder beside the notebooks: <student>/<package>/package.xml (see packages.py).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import yaml
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+
+MOODLE = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<rest>.*)")
+CANVAS = re.compile(
+    r"(?P<name>[^_]+(?:_[^_\d][^_]*)*?)(?P<late>_LATE)?_(?P<id>\d{1,19})_(?P<submission>\d{2,19})_(?P<rest>.+)"
+)
+GRADESCOPE = re.compile(r"submission_\d+")
+METADATA = "submission_metadata.yml"
+WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
+AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
+NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)  # some systems add an ending
+Submitters = Mapping[str, Sequence[str]]  # by the name of Gradescope's folder
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A file and its student, known from the path of the file."""
+
+    student: str  # empty where nothing tells
+    stem: str  # of the file, as the student named it; empty for what is no notebook
+    attempt: int = 0  # as the platform counts
+    marked_late: bool = False
+
+
+def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
+    """Return the students to whom the file belongs: one student, or the members of a group.
+
+    Only the name that a platform gave is read: the first folder, or the file if there is no folder. Students
+    choose the names below it, so they could use the name of another student.
+    """
+    *folders, name = parts
+    first = folders[0] if folders else name
+    if folders and GRADESCOPE.fullmatch(first):
+        return [_claim(student, name) for student in submitters.get(first, [first])]
+    if found := MOODLE.fullmatch(first):
+        return [_claim(f"{found['name']}_{found['id']}", name if folders else found["rest"])]
+    if not folders and (found := CANVAS.fullmatch(name)):
+        return [_claim(f"{found['name']}_{found['id']}", found["rest"], late=bool(found["late"]))]
+    return [_claim(first if folders else "", name)]
+
+
+def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
+    """Return the name and the number by which `platform` (MOODLE, CANVAS) knows a student, or empty texts.
+
+    The number is read only from the names that the platform made; a student whose name is `s_17` has no
+    number.
+    """
+    for origin in origins:
+        for part in origin.split("/"):
+            found = platform.fullmatch(part)
+            if found and clean.identity(f"{found['name']}_{found['id']}") == student:
+                return found["name"], found["id"]
+    return "", ""
+
+
+def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
+    """Return a path without the `outer` folders around all files, or a folder that a platform adds."""
+    inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
+    return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
+
+
+def _claim(student: str, name: str, *, late: bool = False) -> Claim:
+    found = NOTEBOOK.fullmatch(name)
+    if not found:
+        return Claim(clean.identity(student), "", marked_late=late)
+    again = AGAIN.search(found["stem"])
+    attempt = int((again["canvas"] or again["browser"])[:6]) if again else 0
+    return Claim(clean.identity(student), found["stem"] or "notebook", attempt, late)
+
+
+def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
+    """Return the number of folders around the students' own folders: 0, or 1 if one folder contains all.
+
+    `archive` is the name of the zip without its ending, and empty for a folder.
+    """
+    inside = [path for path in paths if path]
+    outer = {path[0] for path in inside if len(path) > 1 or NOTEBOOK.fullmatch(path[0])}
+    if len(outer) != 1 or any(len(path) == 1 and NOTEBOOK.fullmatch(path[0]) for path in inside):
+        return 0
+    name = outer.pop()
+    if WRAPPING.fullmatch(name) or (archive and name.lower() == archive.lower()):
+        return 1
+    packages = {path[1] for path in inside if len(path) == 3 and path[2] == "package.xml"}
+    below = {path[1] for path in inside if len(path) > 2} - packages
+    several = len(below) > 1 and not any(re.match(r"\d\d(\D|$)", each) for each in below)
+    platform = all(MOODLE.fullmatch(path[1]) or CANVAS.fullmatch(path[1]) for path in inside if len(path) > 1)
+    return int(platform or bool(archive and several))
+
+
+def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
+    """Return who handed in each folder of an export: student number, else address, else name.
+
+    The file is YAML with Ruby's symbols for keys. Every scalar is read as a text and no tag is followed.
+    """
+    loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+    try:
+        known = yaml.load(content, Loader=loader)  # noqa: S506 -- a base loader makes only strings, lists, dicts
+    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+        raise GradingError(
+            f"{METADATA} cannot be read ({clean.line(error, 120)}); export the submissions again"
+        ) from error
+    return {
+        str(folder): [_submitter(each) or str(folder) for each in record.get(":submitters") or [{}]]
+        for folder, record in (known.items() if isinstance(known, dict) else ())
+        if isinstance(record, dict) and isinstance(record.get(":submitters", []), list)
+    }
+
+
+def _submitter(record: object) -> str:
+    if not isinstance(record, dict):
+        return ""
+    values = [record.get(key) for key in (":sid", ":email", ":name")]
+    return next((value for value in values if isinstance(value, str) and value not in ("", "~", "null")), "")

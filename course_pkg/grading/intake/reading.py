@@ -1,0 +1,127 @@
+"""A student's notebook as it was handed in, of any version and in any state.
+
+The size of the input is limited.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from course_pkg.errors import GradingError
+from course_pkg.types.fields import Plain
+
+BRACKETS = 500_000  # lists and objects in the file: 20 MiB of them would take half a GB of memory
+CELLS = 50_000
+PREFIXES = {
+    b"<!doctype": "it is a web page that shows the notebook; download the notebook itself from that page",
+    b"<html": "it is a web page that shows the notebook; download the notebook itself from that page",
+    b"<<<<<<<": "it contains the conflict marks of a git merge; keep one of the two versions",
+    b"%pdf": "it is a PDF of the notebook; hand in the .ipynb itself",
+    b"pk\x03\x04": "it is a zip with the name of a notebook; hand in the .ipynb itself",
+}
+WRONG = (
+    KeyError,
+    AttributeError,
+    TypeError,
+    ValueError,
+    IndexError,
+    RecursionError,
+)  # of a broken old notebook
+
+
+@dataclass(frozen=True)
+class StudentCell:
+    """One cell, with only what grading needs."""
+
+    id: str
+    kind: str  # "code", "markdown", "raw"
+    source: str
+    exercise: str = ""  # the part that it answers, as its metadata say
+    check: str = ""  # the part that it checks
+    tags: tuple[str, ...] = ()
+
+
+def read_cells(content: bytes) -> list[StudentCell]:
+    """Return the cells of a notebook; raise GradingError with a short reason if it is not a notebook."""
+    cells = _all_cells(_parsed(content))
+    if not isinstance(cells, list):
+        raise GradingError(
+            "it is not a notebook, because it has no cells; hand in the .ipynb that you worked in"
+        )
+    if len(cells) > CELLS:
+        raise GradingError(f"it has more than {CELLS} cells; hand in the notebook that you worked in")
+    return list(_cells(cells))
+
+
+def slimmed(cells: Sequence[StudentCell]) -> bytes:
+    """Return a notebook with only what grading needs: the outputs of a whole class would fill the memory."""
+    kept = [
+        {
+            "id": cell.id,
+            "cell_type": cell.kind,
+            "source": cell.source,
+            "metadata": {"course": {"exercise": cell.exercise, "check": cell.check}, "tags": list(cell.tags)},
+        }
+        for cell in cells
+    ]
+    return json.dumps({"cells": kept, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}).encode()
+
+
+def _parsed(content: bytes) -> dict[str, Plain]:
+    start = content[:4096].removeprefix(b"\xef\xbb\xbf").lstrip()[:16].lower()
+    if not start:
+        raise GradingError("it is empty; save the notebook again, and hand it in again")
+    if content.count(b"{") + content.count(b"[") > BRACKETS:
+        raise GradingError(f"it contains more than {BRACKETS} lists and objects; clear its outputs")
+    try:
+        data = json.loads(content)
+    except (ValueError, RecursionError) as error:
+        why = next((words for prefix, words in PREFIXES.items() if start.startswith(prefix)), "")
+        raise GradingError(
+            why or "it is not a notebook, because it is not JSON; hand in the .ipynb that you worked in"
+        ) from error
+    if not isinstance(data, dict):
+        raise GradingError("it is JSON, but has no cells; hand in the .ipynb that you worked in")
+    return data
+
+
+def _all_cells(data: dict[str, Plain]) -> object:
+    """Return the cells of any format: up to version 3, worksheets contain them.
+
+    nbformat's own upgrade would first validate an old notebook. This takes seconds for a long notebook, and
+    it writes the contents to a log.
+    """
+    sheets = data.get("worksheets")
+    if "cells" in data or not isinstance(sheets, list):
+        return data.get("cells")
+    lists = [sheet.get("cells") for sheet in sheets if isinstance(sheet, dict)]
+    return [cell for cells in lists if isinstance(cells, list) for cell in cells]
+
+
+def _cells(cells: list[Plain]) -> Iterator[StudentCell]:
+    for cell in cells:
+        if isinstance(cell, dict):
+            metadata = cell.get("metadata")
+            metadata = metadata if isinstance(metadata, dict) else {}
+            course, tags = metadata.get("course"), metadata.get("tags")
+            course = course if isinstance(course, dict) else {}
+            yield StudentCell(
+                _text(cell.get("id")),
+                _text(cell.get("cell_type")),
+                _joined(cell.get("source", cell.get("input"))),
+                _text(course.get("exercise")),
+                _text(course.get("check")),
+                tuple(tag for tag in tags if isinstance(tag, str)) if isinstance(tags, list) else (),
+            )
+
+
+def _text(value: object) -> str:
+    return value if isinstance(value, str) else ""
+
+
+def _joined(source: object) -> str:
+    if isinstance(source, list):
+        return "".join(part for part in source if isinstance(part, str))
+    return _text(source)

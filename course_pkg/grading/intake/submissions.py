@@ -1,0 +1,249 @@
+"""The submissions: one for each chapter and student, and one for each unusable file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from itertools import groupby
+from pathlib import Path
+
+from course_pkg.authoring.notebook_store import NotebookStore
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.grade import Submission
+from course_pkg.grading.intake.archive import Entry, leads_out, one_file, opened
+from course_pkg.grading.intake.first_edition import RenumberedChapter, first_edition
+from course_pkg.grading.intake.naming import (
+    METADATA,
+    NOTEBOOK,
+    Claim,
+    claims,
+    gradescope_submitters,
+    unwrapped,
+    wrapping,
+)
+from course_pkg.grading.intake.packages import (
+    MANIFEST,
+    Found,
+    Member,
+    attached,
+    is_generated,
+    package_roots,
+    read_package,
+    root_of,
+)
+from course_pkg.grading.intake.reading import read_cells, slimmed
+from course_pkg.grading.intake.references import References, plain
+
+LATE = "Canvas marks it as late. Only the table of late days can contain the number of days."
+SHOWN = 3  # the most names of files that a sentence lists
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A submission, and the values that decide between two submissions for one chapter."""
+
+    submission: Submission
+    attempt: int
+    modified: float
+
+    @property
+    def rank(self) -> tuple[bool, int, float, str]:
+        return not self.submission.problem, self.attempt, self.modified, self.submission.origin
+
+
+def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = None) -> list[Submission]:
+    """Return what was handed in for `chapters`, or for all of them, in the order of students and chapters.
+
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, what a platform offers for download (see
+    naming.py), or one notebook; `root` is the checkout with the solutions. A file that cannot be used becomes
+    a submission with a `problem`; GradingError is raised only when `source` can be neither listed nor opened.
+    """
+    if source.is_file() and NOTEBOOK.fullmatch(source.name):
+        return [submission_of(source, root=root)]
+    NotebookStore(root).solutions(chapters)  # it knows no other chapters, so it can report one
+    references = References(root)
+    with opened(source) as entries:
+        files = list(_unwrapped(entries, "" if source.is_dir() else source.stem))
+        packages, others = _packages(files)
+        found = [each for file in others for each in _found(file, references)]
+    wanted = [each for each in found if not chapters or each.submission.chapter in ("", *chapters)]
+    decided = attached(list(_decided(wanted)), packages, chapters)
+    return sorted(decided, key=lambda each: (each.student, each.chapter, each.origin))
+
+
+def submission_of(path: Path, student: str = "", root: Path | None = None) -> Submission:
+    """Return the submission in one notebook and in the packages beside it.
+
+    The default for the student's name is the name of the notebook's folder.
+    """
+    entry, name = one_file(path), path.resolve().parent.name
+    claim = replace(claims([name, path.name], {})[0], student=clean.identity(student or name))
+    taken = _taken(entry, claim, References(root)).submission
+    packages = {taken.student: list(_beside(path))}
+    return next(iter(attached([taken], packages, [taken.chapter]))) if taken.chapter else taken
+
+
+def _beside(path: Path) -> Iterator[Found]:
+    """Yield the packages in the folder of a notebook; ignore all other files there."""
+    for folder in sorted(path.parent.iterdir()):
+        if (folder / MANIFEST).exists() and folder.is_dir() and not folder.is_symlink():
+            with opened(folder) as entries:
+                inside = [Member(each, (folder.name, *each.parts)) for each in entries]
+                yield read_package(
+                    (folder.name,), [each for each in inside if root_of(each.path, {(folder.name,)})]
+                )
+
+
+@dataclass(frozen=True)
+class _File:
+    """A file, its path without the folders around all students' folders, and its student."""
+
+    entry: Entry
+    path: tuple[str, ...]
+    owners: Sequence[Claim]
+
+
+def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
+    """Return the packages of each student, and all other files except those that catkin wrote."""
+    packages: dict[str, list[Found]] = {}
+    others: list[_File] = []
+    for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):
+        own = list(group)
+        roots = package_roots([each.path[1:] for each in own if len(each.path) > 1])
+        inside: dict[tuple[str, ...], list[_File]] = {}
+        for file in own:
+            root = root_of(file.path[1:], roots) if len(file.path) > 1 else None
+            if root is not None:
+                inside.setdefault(root, []).append(file)
+            elif not (roots and is_generated(file.path[1:-1])):
+                others.append(file)
+        for root, members in inside.items():
+            found = read_package(root, [Member(each.entry, each.path[1:]) for each in members])
+            for owner in members[0].owners:
+                packages.setdefault(owner.student, []).append(found)
+    return packages, others
+
+
+def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[_File]:
+    """Yield each file with its student, without the folders around all of them."""
+    outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
+    paths = [unwrapped(_inside(entry), outer) for entry in entries]
+    submitters: dict[str, list[str]] = {}
+    listed = [entry for entry, path in zip(entries, paths, strict=True) if path == (METADATA,)]
+    for entry in listed:  # not in a student's own folder
+        with suppress(GradingError):
+            submitters |= gradescope_submitters(entry.read())
+    for entry, path in zip(entries, paths, strict=True):
+        if entry not in listed or not submitters:
+            yield _File(entry, path, claims(path or ("?",), submitters))
+
+
+def _inside(entry: Entry) -> tuple[str, ...]:
+    """Return the folders and name of a file; for a path that leads out, only what may name its student."""
+    if not leads_out(entry.path):
+        return entry.parts
+    return tuple(part for part in entry.parts if part.strip("./\\") and ":" not in part)
+
+
+def _found(file: _File, references: References) -> Iterator[_Found]:
+    for owner in file.owners:
+        yield _taken(file.entry, owner, references)
+
+
+def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
+    """Read one file; its problem says what is wrong, where it is, and what to do."""
+    name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
+    blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
+    try:
+        made = _read(entry, owner, references, blank)
+    except GradingError as error:
+        chapter = references.by_name(owner.stem) if owner.stem else ""
+        chapter = chapter if owner.student and chapter in references.chapters else ""
+        made = replace(blank, chapter=chapter, problem=f"{name} was not graded: {error}.")
+    if not owner.student and not made.problem:
+        why = "its student is unknown; put it into a folder with the name of the student"
+        made = replace(made, chapter="", content=b"", problem=f"{name} was not graded: {why}.")
+    return _Found(made, owner.attempt, entry.modified)
+
+
+def _read(entry: Entry, owner: Claim, references: References, blank: Submission) -> Submission:
+    if not owner.stem:
+        _refuse_other(entry)
+    cells = read_cells(entry.read())
+    if found := first_edition(plain(owner.stem), cells, references.by_ids(cells)):
+        return _of_first_edition(found, references, blank)
+    named = references.by_name(owner.stem)
+    chapter = references.by_cells(cells, named) or named
+    if chapter not in references.chapters:
+        known = ", ".join(references.chapters)
+        raise GradingError(
+            f"there is no chapter {chapter}, only {known}; correct the number in the file's name"
+            if chapter
+            else "neither its name nor its cells show the chapter; give it a name such as NN_topic.ipynb"
+        )
+    notes = [LATE] if owner.marked_late else []
+    if named and named != chapter:
+        notes.append(
+            f"The file's name contains chapter {named}, but its cells are those of chapter {chapter}."
+        )
+    return replace(blank, chapter=chapter, content=slimmed(cells), notes=tuple(notes))
+
+
+def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
+    """Return a submission whose problem says what has changed and which notebook to hand in."""
+    name = clean.line(blank.origin.rpartition("/")[2], 120)
+    problem = (
+        f"{name} was not graded: it belongs to the first edition of the course, where {found.difference} "
+        f"Copy your answers into {references.name_of(found.now)}.ipynb and hand in that notebook."
+    )
+    return replace(blank, chapter=found.now, problem=problem)
+
+
+def _refuse_other(entry: Entry) -> None:
+    """Say what other kind of file it is; a path that leads out, and a link, have their own message."""
+    if entry.path.endswith(METADATA):
+        raise GradingError("it does not contain the names of the students; export it from Gradescope again")
+    ending = entry.path.rpartition(".")[2].lower()
+    if ending in ("zip", "gz", "7z", "rar", "tar", "tgz"):
+        raise GradingError("it is an archive inside the submissions; unpack it, and remove it")
+    if entry.parts[-1:] == (MANIFEST,):
+        raise GradingError("a package needs a folder of its own; put it into STUDENT/PACKAGE/package.xml")
+    raise GradingError(
+        "it is neither a notebook nor part of a package with a package.xml; if it contains answers, the "
+        ".ipynb "
+        "is needed"
+    )
+
+
+def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
+    """Yield the last submission for each chapter and student; its notes name the others."""
+
+    def key(each: _Found) -> tuple[str, str, bool]:
+        return each.submission.student, each.submission.chapter, bool(each.submission.chapter)
+
+    for (_, chapter, _), group in groupby(sorted(found, key=key), key):
+        ranked = sorted(group, key=lambda each: each.rank, reverse=True)
+        if not chapter:
+            yield from _without_chapter([each.submission for each in ranked])
+            continue
+        best, others = ranked[0].submission, [each.submission.origin for each in ranked[1:]]
+        if others:
+            note = f"Handed in {len(ranked)} times: {best.origin} was graded, not {_listed(others)}."
+            best = replace(best, notes=(*best.notes, note))
+        yield best
+
+
+def _without_chapter(given: Sequence[Submission]) -> Iterator[Submission]:
+    """Yield one submission for all unusable files of a student: a folder of them is one problem."""
+    first, *others = sorted(given, key=lambda each: each.origin)
+    if others:
+        names = _listed([each.origin for each in others])
+        first = replace(first, problem=f"{first.problem} Also not graded: {names}.")
+    yield first
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return ", ".join(names[:SHOWN]) + more

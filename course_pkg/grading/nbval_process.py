@@ -1,0 +1,168 @@
+"""Run nbval in the outer sandbox: pytest, master and check runner are trusted; the kernel has its own.
+
+It reads a notebook from stdin. Its argument is the time (s) that a cell may take. It writes the outcome of
+each cell to stdout, as one JSON object a line.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import socket
+import subprocess
+import sys
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from course_pkg.authoring.cells import Cell, check_of
+from course_pkg.authoring.validate import SANITIZE
+from course_pkg.checking.parts import secret_paths
+from course_pkg.grading.nbval_plugin import RECORD
+from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox.channel import descendants, end, fork
+from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
+
+TOGETHER = 2 * confinement.TOGETHER  # bytes, for pytest and all nodes of a chapter
+KERNEL = "sandboxed"
+OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was the first edition's
+OWN = "/student/.course"
+NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # side by side, as in a checkout
+ORPHANED = ("--unsetenv", "JPY_PARENT_PID")  # a kernel whose parent is process 1 would end as an orphan
+
+
+def main() -> None:
+    """Run the notebook of stdin."""
+    with tempfile.TemporaryDirectory(prefix="course-nbval-") as folder:
+        notebook = json.load(sys.stdin)
+        for cell in notebook["cells"]:
+            _remove_overview(cell)
+        path = Path(folder, "notebook.ipynb")
+        path.write_text(json.dumps(notebook), "utf-8")
+        record = Path(folder, "record")
+        record.touch()
+        with socket.create_server(("127.0.0.1", 0)) as listener:
+            _set_environment(Path(folder), record, listener.getsockname()[1])
+            helpers = [fork(lambda: run_master(MASTER_PORT)), fork(lambda: _run_checks(listener))]
+        try:
+            _run_within_memory(_command(path, sys.argv[1]))
+        finally:
+            end(helpers)
+        sys.stdout.write(record.read_text("utf-8"))
+
+
+def _run_within_memory(command: list[str]) -> None:
+    """Run `command`; kill it, and all below it, if it takes too much memory."""
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            if memory_below(process.pid) > TOGETHER:
+                end([*descendants(process.pid), process.pid])
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(MEMORY_INTERVAL)
+
+
+def _remove_overview(cell: Cell) -> None:
+    """Empty each cell that shows the student's progress: a graded run has no record of the progress."""
+    if cell["cell_type"] == "code" and OVERVIEW.search(cell["source"]) and not check_of(cell):
+        cell["source"] = ""
+        cell["outputs"] = []
+
+
+def _set_environment(folder: Path, record: Path, port: int) -> None:
+    os.environ.update(
+        {
+            RECORD: str(record),
+            "JUPYTER_PATH": str(folder / "jupyter"),
+            "JUPYTER_RUNTIME_DIR": str(folder / "runtime"),
+            "HOME": str(folder),
+            "COURSE_STATE": str(folder / "state"),
+            "COURSE_CHECK_RUNNER": f"127.0.0.1:{port}",
+            "ROS_MASTER_URI": f"http://localhost:{MASTER_PORT}",
+            "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
+        }
+    )
+    spec = folder / "jupyter" / "kernels" / KERNEL / "kernel.json"
+    spec.parent.mkdir(parents=True)
+    filter_file = folder / "calls.bpf"
+    confinement.write_filter(filter_file)
+    spec.write_text(
+        json.dumps(
+            {
+                "argv": _kernel_command(filter_file),
+                "display_name": KERNEL,
+                "language": "python",
+                "interrupt_mode": "message",
+            }
+        )
+    )
+
+
+def _kernel_command(filter_file: Path) -> list[str]:
+    """Return the command of a kernel that cannot see the reference, the checks or other processes."""
+    size, folders = str(confinement.DISK), (*confinement.MEMORY_FOLDERS, "/student")
+    memory = [option for each in folders for option in ("--size", size, "--tmpfs", each)]
+    shown = [option for each in confinement.shadowed_paths() for option in ("--ro-bind", each, each)]
+    covered = [option for path in secret_paths() for option in _cover(path)]
+    limits = [
+        f"--as={confinement.MEMORY}",
+        f"--nproc={confinement.PROCESSES}",
+        f"--fsize={confinement.FILE}",
+        "--core=0",
+    ]
+    unshared = ["--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"]
+    command = [
+        *("bwrap", *unshared, "--disable-userns", "--die-with-parent", "--new-session", "--cap-drop", "ALL"),
+        *("--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"),
+        *(*memory, *shown, *covered),
+        *("--ro-bind", "{connection_file}", "{connection_file}", "--setenv", "HOME", "/student"),
+        *("--setenv", "COURSE_STATE", OWN, "--setenv", "ROS_HOME", OWN, "--setenv", "ROS_LOG_DIR", OWN),
+        *("--setenv", "COURSE_WORKSPACE", WORKSPACE, "--unsetenv", RECORD, *ORPHANED),
+        *("--dir", NOTEBOOKS, "--chdir", NOTEBOOKS),
+        *("--seccomp", "9", "--", "prlimit", *limits, "--"),
+        *(sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"),
+    ]
+    return ["sh", "-c", 'exec 9<"$0"; exec "$@"', str(filter_file), *command]
+
+
+def _cover(path: Path) -> list[str]:
+    where = str(path)
+    return ["--tmpfs", where, "--remount-ro", where] if path.is_dir() else ["--ro-bind", "/dev/null", where]
+
+
+def _command(notebook: Path, cell: str) -> list[str]:
+    ours = ("course_pkg.authoring.nbval_figures", "course_pkg.grading.nbval_plugin")
+    plugins = ("nbval.plugin", *ours, "no:cacheprovider")
+    return [
+        *(sys.executable, "-m", "pytest", "-q", "--nbval", "--noconftest", "-c", os.devnull),
+        *(option for plugin in plugins for option in ("-p", plugin)),
+        *("--rootdir", str(notebook.parent), "--nbval-kernel-name", KERNEL),
+        *("--nbval-cell-timeout", cell, "--nbval-sanitize-with", str(SANITIZE), str(notebook)),
+    ]
+
+
+def _run_checks(listener: socket.socket) -> None:
+    """Fork a check runner for each check that the notebook asks for."""
+    from course_pkg.checking.parts import every_part
+
+    list(every_part())
+    while True:
+        sock, _ = listener.accept()
+        fork(lambda: _run_check(sock))  # noqa: B023 -- used only in the fork
+        sock.close()
+        with suppress(ChildProcessError):
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+
+
+def _run_check(sock: socket.socket) -> None:
+    from course_pkg.checking.channel import Channel
+    from course_pkg.checking.runner import run_check
+
+    # the submission decides how many bytes it sends to its check
+    namespaces.limit(AS=confinement.CHECK_RUNNER)
+    run_check(Channel(sock))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+"""Find the other cells that an answer needs, from the names in the cells.
+
+An answer is run with what its check needs (see checking/fixtures.py) and nothing else. But an answer may use
+more: an import of a cell above, or a function of an earlier answer. So the cells that define such names are
+run, too, and also the cells that these need.
+"""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+LONGEST = 20_000  # characters of a cell that is parsed: real cells are shorter, and parsing takes time
+MAGICAL = 300  # lines of a cell with magics: IPython's time grows with the square of their number
+KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """The names that a cell defines for later cells, and the names that it uses but does not define."""
+
+    gives: frozenset[str]
+    uses: frozenset[str]
+
+
+def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
+    """Return the sources in `above` that `answer` needs, in order; `before` is always run."""
+    given = KNOWN | _read(before).gives
+    cells = [_read(source) for source in above]
+    chosen: set[int] = set()
+    todo = [(_read(answer), len(above))]
+    while todo:
+        cell, end = todo.pop()
+        for name in cell.uses - given:
+            found = next((n for n in range(end - 1, -1, -1) if name in cells[n].gives), None)
+            if found is not None and found not in chosen:
+                chosen.add(found)
+                todo.append((cells[found], found))
+    return tuple(above[number] for number in sorted(chosen))
+
+
+def _read(source: str) -> _Cell:
+    tree = _tree(source)
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+    own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
+    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+    gives = _given(tree)
+    return _Cell(gives, frozenset(loaded - own - arguments) - gives)
+
+
+def _tree(source: str) -> ast.Module:
+    """Return the tree of a cell, as IPython reads it; an empty tree if the cell is not Python."""
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    empty = ast.Module(body=[], type_ignores=[])
+    if len(source) > LONGEST:
+        return empty
+    with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.parse(source)
+    if source.count("\n") > MAGICAL:
+        return empty
+    with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.parse(TransformerManager().transform_cell(source))
+    return empty
+
+
+def _given(tree: ast.Module) -> frozenset[str]:
+    """Return the names that are defined at the end of a cell, except those inside a function or class."""
+    names = set()
+    for statement in tree.body:
+        opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        for node in [statement] if opens else ast.walk(statement):
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                names.add(node.name)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                names.add(node.id)
+    return frozenset(names)

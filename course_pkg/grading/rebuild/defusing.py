@@ -1,0 +1,108 @@
+"""Remove from a student's source what changes how it is run: markers of nbval, and a magic above it.
+
+nbval obeys a comment such as `# NBVAL_SKIP` on any line, and IPython passes a whole cell to the magic on its
+first line. With either of them, an answer could avoid its check.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias, cast
+
+from IPython.core.inputtransformer2 import TransformerManager
+
+MARKERS = (  # nbval 0.11, plugin.py, comment_markers
+    "PYTEST_VALIDATE_IGNORE_OUTPUT",
+    "NBVAL_IGNORE_OUTPUT",
+    "NBVAL_CHECK_OUTPUT",
+    "NBVAL_RAISES_EXCEPTION",
+    "NBVAL_SKIP",
+)
+TAGS = (*(marker.lower().replace("_", "-") for marker in MARKERS), "raises-exception", "skip-execution")
+WRITES = re.compile(r"%%(?:writefile|file)\s+(?:-a\s+|--append\s+)?(?P<path>.*?)\s*")
+
+
+Transform: TypeAlias = Callable[[list[str]], list[str]]
+
+
+@dataclass(frozen=True)
+class Defused:
+    """A source that is safe to place, and notes for the student about the changes."""
+
+    source: str
+    notes: tuple[str, ...] = ()
+
+
+def defuse(source: str, first_line: str = "") -> Defused:
+    """Return the source of an answer below `first_line`, the magic that the reference has there, if any."""
+    kept, notes = _readable(source)
+    kept, about_magic = _with_magic(kept, first_line) if first_line else _without_magic(kept)
+    kept, about_markers = _without_markers(kept)
+    return Defused(kept, (*notes, *about_magic, *about_markers))
+
+
+def magic_of(source: str) -> str:
+    """Return the line of the magic to which IPython would pass the whole cell, or an empty string."""
+    return first[0].strip() if (first := _as_ipython_reads(source)) and first[0].startswith("%%") else ""
+
+
+def _readable(source: str) -> tuple[str, list[str]]:
+    """Return a text that Python and UTF-8 can hold."""
+    kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
+    kept = kept.encode("utf-8", "replace").decode("utf-8")  # half of a surrogate pair becomes a question mark
+    if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
+        return kept, ["Characters that a Python file cannot contain were removed from your cell."]
+    return kept, []
+
+
+def _as_ipython_reads(source: str) -> list[str]:
+    """Return the lines in which IPython looks for a magic: blank lines, indentation and prompts are gone."""
+    lines = (source.rstrip() + "\n").splitlines(keepends=True)
+    for transform in TransformerManager().cleanup_transforms:
+        lines = cast(Transform, transform)(lines)
+    return lines
+
+
+def _without_magic(source: str) -> tuple[str, list[str]]:
+    magic = magic_of(source)
+    if not magic:
+        return source, []
+    body = "".join(_as_ipython_reads(source)[1:])
+    shown = magic.split()[0][:40]
+    return f"# {shown} has no effect here\n{body}".rstrip("\n"), [
+        f"{shown} in the first line of your cell was removed: the cell has to be Python, as in the original "
+        f"notebook."
+    ]
+
+
+def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
+    """Return the source with `first_line` as its first line."""
+    magic = magic_of(source)
+    body = "".join(_as_ipython_reads(source)[1:]) if magic else source
+    kept = f"{first_line}\n{body.strip(chr(10))}"
+    if " ".join(magic.split()) == " ".join(first_line.split()):
+        return kept, []
+    return kept, [f"The first line of the cell was restored: it has to be {first_line}"]
+
+
+def _without_markers(source: str) -> tuple[str, list[str]]:
+    """Put each marker in brackets; the lines are those of str.splitlines, as in nbval."""
+    lines = source.splitlines(keepends=True)
+    found = [_marker(line) for line in lines]
+    if not any(found):
+        return source, []
+    kept = [
+        line.replace(mark, f"({mark})") if mark else line for line, mark in zip(lines, found, strict=True)
+    ]
+    names = ", ".join(sorted({mark for mark in found if mark}))
+    return "".join(kept), [f"{names} in a comment has no effect in grading."]
+
+
+def _marker(line: str) -> str:
+    """Return the marker that nbval would find in the line."""
+    if not (comment := line.strip()).startswith("#"):
+        return ""
+    word = comment.lstrip("#").strip()
+    return word if word in MARKERS else ""

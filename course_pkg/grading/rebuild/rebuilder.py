@@ -1,0 +1,112 @@
+"""Build the reference notebook with a student's answers, and nothing else from the student."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from course_pkg.authoring.cells import Notebook, exercise_of
+from course_pkg.errors import GradingError
+from course_pkg.grading.intake.reading import StudentCell, read_cells
+from course_pkg.grading.rebuild.defusing import defuse
+from course_pkg.grading.rebuild.matching import Match, Matching
+from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
+
+NOTES = 40  # the most notes: further ones would say nothing new
+
+
+@dataclass(frozen=True)
+class Rebuilt:
+    """The notebook that is graded; each part of the reference is in `answers` or in `missing`."""
+
+    notebook: Notebook  # it contains no output of an exercise's cell, so no such output is compared
+    answers: Mapping[str, str]  # by part; the source that is run, which may be the unchanged blank
+    missing: Mapping[str, str] = field(default_factory=dict)  # by part: why it has no answer, for the student
+    untouched: frozenset[str] = frozenset()  # parts in `answers` whose cell was not changed
+    notes: tuple[str, ...] = ()  # notes for the student about everything unusual
+    problem: str = ""  # why the notebook could not be used
+
+
+def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
+    """Return the notebook that is run and graded for a student who handed in `content`.
+
+    `reference` is a solution, as `authoring.shelf.read` reads it.
+    """
+    return Rebuilder(reference).rebuild(content)
+
+
+class Rebuilder:
+    """One reference, for as many students as there are.
+
+    If an answer is missing, its cell is the blank of the exercise, and never the solution. The rebuilt
+    notebook uses the same output objects as the reference for the given cells.
+    """
+
+    def __init__(self, reference: Notebook) -> None:
+        self._reference = reference
+        self._wanted = every_wanted(reference)
+        self._blanks = {each.part: each.blank for each in self._wanted}
+        self._given = {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
+
+    def rebuild(self, content: bytes) -> Rebuilt:
+        """Return the graded contents of the notebook `content`."""
+        try:
+            cells = read_cells(content)
+        except GradingError as error:
+            problem = f"The notebook could not be read: {error}."
+            missing = dict.fromkeys(self._blanks, problem)
+            return Rebuilt(_placed(self._reference, self._blanks), {}, missing, problem=problem)
+        matching = Matching(cells, self._wanted, self._given)
+        matches = {each.part: matching.match(each) for each in self._wanted}
+        return self._rebuilt(matches, _lent(cells, matching, matches))
+
+    def _rebuilt(self, matches: Mapping[str, Match], elsewhere: set[str]) -> Rebuilt:
+        answers, missing, untouched, notes = {}, {}, set(), []
+        for each in self._wanted:
+            match = matches[each.part]
+            about = list(match.notes)
+            if match.missing:
+                missing[each.part] = match.missing
+                about.append(match.missing)
+            elif each.is_blank(match.source):
+                answers[each.part] = each.blank
+                untouched.add(each.part)
+            else:
+                made = defuse(match.source, each.first_line)
+                answers[each.part] = made.source
+                about += [*made.notes, *_about_names(made.source, elsewhere)]
+            notes += [f"{each.part}: {note}" for note in about]
+        notebook = _placed(self._reference, {**self._blanks, **answers})
+        return Rebuilt(notebook, answers, missing, frozenset(untouched), tuple(notes[:NOTES]))
+
+
+def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
+    """Return the reference with these sources.
+
+    Nbval does not compare the outputs of a cell without a number.
+    """
+    notebook = copy.copy(reference)
+    notebook["cells"] = [copy.copy(cell) for cell in reference["cells"]]
+    for cell in notebook["cells"]:
+        if part := exercise_of(cell):
+            cell["source"], cell["outputs"], cell["execution_count"] = sources[part], [], None
+    return notebook
+
+
+def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
+    """Return the names that an answer may use from cells that are not graded."""
+    taken = frozenset(place for match in matches.values() for place in match.cells)
+    names = matching.lent(taken) if len(taken) < len(cells) else set()
+    for match in matches.values():
+        names -= defined(match.source)
+    return names
+
+
+def _about_names(source: str, elsewhere: set[str]) -> Iterator[str]:
+    if names := sorted(used(source) & elsewhere):
+        shown = ", ".join(name[:40] for name in names[:3])
+        yield (
+            f"It uses {shown}, which another cell of yours defines. Only the exercise's cell is graded, "
+            "so this cell has to contain everything that the answer needs."
+        )

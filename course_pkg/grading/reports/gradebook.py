@@ -1,0 +1,141 @@
+"""The grades of a class, in the order in which reports show them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.grading import clean
+from course_pkg.grading.grade import Grade
+
+WITHOUT_SANDBOX = (
+    "Run without a sandbox: this submission had access to the machine, its check and the other submissions, "
+    "so "
+    "its points may be wrong."
+)
+
+
+@dataclass(frozen=True)
+class Column:
+    """A part that was graded."""
+
+    check: str
+    chapter: str
+    goal: str
+    possible: int
+
+
+class Book:
+    """Grades by student, chapter and part; grades of a run without a sandbox say this in their notes."""
+
+    def __init__(self, grades: Sequence[Grade]) -> None:
+        marked = [_with_warning(grade) for grade in grades]
+        self.grades = tuple(sorted(marked, key=lambda grade: (grade.student, grade.chapter, grade.origin)))
+        self.students = tuple(sorted({grade.student for grade in self.grades}))
+        self.columns = tuple(_columns(self.grades))
+        self.chapters = tuple(sorted({column.chapter for column in self.columns}))
+        self.sandboxed = all(grade.sandboxed for grade in self.grades)
+        self._by_student: dict[str, list[Grade]] = {student: [] for student in self.students}
+        for grade in self.grades:
+            self._by_student[grade.student].append(grade)
+
+    def of(self, student: str) -> list[Grade]:
+        """Return the grades of a student, in the order of the chapters."""
+        return self._by_student[student]
+
+    def grade(self, student: str, chapter: str) -> Grade | None:
+        """Return a student's grade for a chapter, or None if nothing was handed in for it."""
+        return next((grade for grade in reversed(self.of(student)) if grade.chapter == chapter), None)
+
+    def columns_of(self, chapter: str) -> list[Column]:
+        """Return the parts of a chapter."""
+        return [column for column in self.columns if column.chapter == chapter]
+
+    def possible(self, chapter: str) -> int:
+        """Return the highest possible points of a chapter."""
+        return sum(column.possible for column in self.columns_of(chapter))
+
+    def earned(self, student: str) -> float:
+        """Return all points of a student, after what lateness costs."""
+        return round(sum(grade.earned for grade in self.of(student)), 2)
+
+    @property
+    def total(self) -> int:
+        """The highest possible points of all chapters."""
+        return sum(column.possible for column in self.columns)
+
+
+def report_of(grade: Grade | None, check: str) -> Report | None:
+    """Return the report on a part, if there is one."""
+    return next((report for report in grade.reports if report.check == check), None) if grade else None
+
+
+def name_of(student: str) -> str:
+    """Return a student's name as a report shows it."""
+    return clean.line(student, 120) or "(nobody)"
+
+
+def points(value: float) -> str:
+    """Return points as a report shows them: 2, 1.5, 0.33."""
+    return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def about_lateness(grade: Grade) -> str:
+    """Return the message about the deadline for a student; an empty string for a submission in time."""
+    if grade.late <= 0:
+        return ""
+    days = f"Handed in {points(grade.late)} {'day' if grade.late == 1 else 'days'} late"
+    return f"{days}: {grade.factor:.0%} of the points count." if grade.factor < 1 else f"{days}."
+
+
+def of_points(earned: float, possible: float) -> str:
+    """Return the score as text, such as "1.5 of 2 points"."""
+    return f"{points(earned)} of {points(possible)} {'point' if possible == 1 else 'points'}"
+
+
+def attention(book: Book, student: str) -> list[str]:
+    """Return why an instructor should look at a student's work, the most serious reason first."""
+    grades = book.of(student)
+    missing = [chapter for chapter in book.chapters if not any(grade.chapter == chapter for grade in grades)]
+    return [
+        *(clean.line(grade.problem) for grade in grades if grade.problem),
+        *(reason for grade in grades if (reason := _about(grade))),
+        *(f"Nothing was handed in for chapter {chapter}." for chapter in missing),
+    ]
+
+
+def notes(book: Book, student: str) -> list[str]:
+    """Return what was unusual about a student's notebooks but needs no attention."""
+    found = (note for grade in book.of(student) for note in grade.notes)
+    return list(dict.fromkeys(clean.line(note) for note in found))
+
+
+def _about(grade: Grade) -> str:
+    undecided = [report for report in grade.reports if report.verdict is Verdict.UNDECIDED]
+    if grade.problem or not grade.reports:
+        return ""
+    if undecided:
+        why = next((report.note for report in undecided if report.note), "no reason was recorded")
+        return f"{', '.join(report.check for report in undecided)} not examined: {clean.line(why, 160)}"
+    return "" if grade.earned else f"No point in chapter {grade.chapter}."
+
+
+def _with_warning(grade: Grade) -> Grade:
+    if grade.sandboxed or WITHOUT_SANDBOX in grade.notes:
+        return grade
+    return replace(grade, notes=(WITHOUT_SANDBOX, *grade.notes))
+
+
+def _columns(grades: Sequence[Grade]) -> list[Column]:
+    found: dict[str, Column] = {}
+    for grade in grades:
+        for report in grade.reports:
+            known = found.get(report.check, Column(report.check, grade.chapter, "", 0))
+            possible = max(known.possible, report.possible)
+            found[report.check] = Column(report.check, known.chapter, known.goal or report.goal, possible)
+    return sorted(found.values(), key=lambda column: (column.chapter, _numbers(column.check)))
+
+
+def _numbers(check: str) -> list[tuple[int, str]]:
+    return [(int(part), "") if part.isdecimal() else (1 << 30, part) for part in check.split(".")]

@@ -1,5 +1,0 @@
-"""A node of its own that publishes and listens on one topic, for a panel: a process, at the end of a wire.
-
-It is a process because rospy has one publisher and one subscriber of a topic for each process: in the kernel,
-a panel's latch, queue and type would be those of the student's own publisher and subscriber as well.
-"""

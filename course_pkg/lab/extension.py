@@ -1,0 +1,139 @@
+"""The course's additions to the stock Jupyter server: an extension, and classes for checkpoints and files."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import MutableMapping
+from logging import Logger
+from pathlib import Path
+from typing import Any, Protocol
+
+from jupyter_server.services.contents.filecheckpoints import AsyncFileCheckpoints
+from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
+from tornado.websocket import WebSocketHandler
+from traitlets import Bool, Unicode
+
+# These are in the repository, but students do not need them. All other files are listed, such as a student's
+# own files and `workspace`.
+HIDDEN = (
+    *("CHANGELOG.md", "CMakeLists.txt", "CONTRIBUTING.md", "LICENSE", "README.md", "action", "course"),
+    *("course_pkg", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml", "setup.py"),
+    *("solutions", "srv", "start", "tests"),
+)
+# the server's setting for the class that connects a page with a kernel
+CONNECTION_CLASS = "kernel_websocket_connection_class"
+
+
+class Connection(Protocol):
+    """The methods that the extension uses of a connection between a page's websocket and a kernel."""
+
+    websocket_handler: WebSocketHandler
+    log: Logger
+
+    async def connect(self) -> None:
+        """Begin to pass messages."""
+
+
+class WebApplication(Protocol):
+    """The tornado application of the server."""
+
+    settings: MutableMapping[str, type[Connection]]
+
+
+class Server(Protocol):
+    """The attributes that the extension uses of the server."""
+
+    web_app: WebApplication
+    log: Logger
+
+
+def _jupyter_server_extension_points() -> list[dict[str, str]]:
+    return [{"module": "course_pkg.lab.extension"}]
+
+
+def _load_jupyter_server_extension(server: Server) -> None:
+    """Set TCP_NODELAY on every kernel websocket, so that a click takes 10 ms instead of 46.
+
+    The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) holds a
+    piece back until the browser has acknowledged the previous one. A browser may wait 40 ms before it does
+    so. A server that has no setting for the class of the connection stays as it is.
+    """
+    stock = server.web_app.settings.get(CONNECTION_CLASS)
+    if stock is None:
+        server.log.warning("course_pkg.lab.extension: this server has no setting %s", CONNECTION_CLASS)
+        return
+    server.web_app.settings[CONNECTION_CLASS] = undelayed(stock)
+
+
+def undelayed(stock: type[Connection]) -> type[Connection]:
+    """Return a subclass of `stock` that sets TCP_NODELAY before it connects."""
+
+    async def connect(self: Connection) -> None:
+        try:
+            self.websocket_handler.set_nodelay(True)
+        except Exception as error:  # noqa: BLE001 -- without the option the page works, too, but more slowly
+            self.log.warning("course_pkg.lab.extension could not set TCP_NODELAY: %s", error)
+        await stock.connect(self)
+
+    return type("UndelayedConnection", (stock,), {"connect": connect})
+
+
+class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # of an untyped package
+    """Keeps each notebook's checkpoint under the notebook's own path, in a folder outside the checkout.
+
+    The stock class can use another folder, too, but then a chapter and its solution share a checkpoint,
+    because their files have the same name.
+    """
+
+    folder = Unicode(help="the folder of the checkpoints").tag(config=True)
+
+    def checkpoint_path(self, checkpoint_id: str, path: str) -> str:
+        """Return the file for a checkpoint of the notebook at `path`, and make its folder.
+
+        Raises tornado.web.HTTPError if `path` leads out of the server's folder.
+        """
+        self._get_os_path(path.strip("/"))
+        notebook = Path(self.folder, path.strip("/"))
+        with self.perm_to_403():
+            notebook.parent.mkdir(parents=True, exist_ok=True)
+        return str(notebook.with_name(f"{notebook.stem}-{checkpoint_id}{notebook.suffix}"))
+
+
+def kernel_language() -> dict[str, Any]:
+    """Return the language data that ipykernel sends in kernel_info_reply, for this interpreter.
+
+    ipykernel.ipkernel.IPythonKernel has the same values, but its import would delay the server's start.
+    """
+    return {
+        "name": "python",
+        "version": sys.version.split()[0],
+        "mimetype": "text/x-python",
+        "codemirror_mode": {"name": "ipython", "version": sys.version_info[0]},
+        "pygments_lexer": f"ipython{sys.version_info[0]}",
+        "nbconvert_exporter": "python",
+        "file_extension": ".py",
+    }
+
+
+class CourseContents(AsyncLargeFileManager):  # type: ignore[misc]  # of an untyped package
+    """The stock files, with two changes for students.
+
+    - A list of the root folder leaves out the files of the repository. A file that is not listed can be
+      opened by its path.
+    - A notebook has the language_info of the kernel. The stored notebooks contain only the name of the
+      language. JupyterLab would add the rest when the kernel has started, and then mark the notebook as
+      changed.
+    """
+
+    everything = Bool(False, help="whether all files of the root folder are listed").tag(config=True)
+
+    async def get(self, path: str, content: bool = True, **options: Any) -> dict[str, Any]:  # noqa: ANN401 -- passed on
+        """Return the model of a file or folder, as the stock class does."""
+        model: dict[str, Any] = await super().get(path, content=content, **options)
+        if content and not path.strip("/") and not self.everything:
+            model["content"] = [each for each in model["content"] if each["name"] not in HIDDEN]
+        if content and model["type"] == "notebook":
+            metadata = model["content"]["metadata"]
+            if metadata.get("language_info") == {"name": "python"}:
+                metadata["language_info"] = kernel_language()
+        return model

@@ -1,0 +1,273 @@
+"""`course lab`: starts a master and the stock JupyterLab with the course's settings, and ends both."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import sys
+import tempfile
+import time
+import webbrowser
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
+from http.client import HTTPConnection, HTTPException
+from pathlib import Path
+from types import FrameType
+from typing import NamedTuple, NoReturn
+from urllib.parse import SplitResult, quote, urlsplit
+
+from course_pkg.errors import CourseError, PortBusy, SetupError
+from course_pkg.lab.master import starting_master
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.setup import Places
+from course_pkg.workspace import make_own_workspace
+
+HERE = Path(__file__).parent
+PORTS = (*range(8888, 8938), 0)  # the candidates, as in Jupyter: its own port, one of the next, or any
+READY = 60.0  # time limit in s; the start takes 2 s, and many times as long if the disk cache is empty
+LOOK = 0.01  # s between two checks whether the server answers
+KEPT_LINES = 12  # lines of the server's log in an error message
+# The workspace "default" in jupyterlab_server's naming: the name, and the start of its SHA-256.
+WORKSPACE = "default-37a8.jupyterlab-workspace"
+
+
+def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) -> int:
+    """Serve JupyterLab until Ctrl-C or SIGTERM; open the notebook at `asked`, or the first chapter.
+
+    Returns 0, or the server's exit status if the server ends by itself. Raises SetupError for a notebook
+    that JupyterLab cannot open, PortBusy if it cannot listen at the address, CourseError if the server does
+    not start.
+    """
+    places = Places.of()
+    notebook = _notebook(places.checkout, asked)
+    _make_workspace()
+    chosen = free_port(ip, PORTS if port is None else [port])
+    with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as folder:
+        scratch = Path(folder)
+        _write_workspace(scratch / "workspaces", notebook)
+        settings = _settings(places, ip, chosen, scratch)
+        # An author works in solutions/ and sees the whole checkout.
+        settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
+        if port is not None:
+            settings["ServerApp.port_retries"] = 0
+        with (
+            starting_master(free_port()) as wait_for_master,
+            _server(places, settings, scratch) as server,
+        ):
+            try:
+                address = _await_server(server, scratch)
+                _start_kernel(address, notebook)
+                _announce(address, notebook, places.checkout, browser)
+                wait_for_master()
+                while not server.wait(3600):
+                    pass
+            except _Stop:
+                sys.stderr.write("\nEnding JupyterLab and the master.\n")
+                return 0
+            sys.stderr.write(_tail(_log(scratch)))
+            return server.returncode or 0
+
+
+def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
+    """Return the first of `candidates` on which a program can listen at `ip`; 0 means any port.
+
+    Raises PortBusy if there is none.
+    """
+    reason, tried = "no port was given", 0
+    for tried in candidates:
+        with socket.socket(socket.AF_INET6 if ":" in ip else socket.AF_INET) as probe:
+            try:
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                probe.bind((ip, tried))
+                probe.listen()
+                return int(probe.getsockname()[1])
+            except (OSError, OverflowError) as error:
+                reason = getattr(error, "strerror", None) or str(error)
+    raise PortBusy(f"JupyterLab cannot listen on {ip}:{tried}: {reason}. Omit --port to get a free port.")
+
+
+class _Address(NamedTuple):
+    """The address at which the server listens, as the server itself reports it."""
+
+    url: str
+    token: str
+
+    @property
+    def base(self) -> SplitResult:
+        return urlsplit(self.url)
+
+
+class _Stop(BaseException):
+    """The exception for a signal that asks this command to end; `except Exception` may not catch it."""
+
+
+@contextmanager
+def _stopping_on_signals() -> Iterator[None]:
+    def stop(number: int, _frame: FrameType | None) -> NoReturn:
+        # this command is already ending: a second Ctrl-C changes nothing
+        signal.signal(number, signal.SIG_IGN)
+        raise _Stop
+
+    kept = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield
+    except _Stop:
+        sys.exit(0)
+    finally:
+        for number, handler in kept.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
+    """Run the server; it ends, with its kernels and terminals, when the block or this process ends."""
+    folders = {
+        # This server does not use the settings and the files of the user's other Jupyter.
+        "JUPYTER_CONFIG_DIR": str(places.cache / "jupyter" / "config"),
+        "JUPYTER_DATA_DIR": str(places.cache / "jupyter" / "data"),
+        "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
+    }
+    options = [f"--{name}={value}" for name, value in settings.items()]
+    with _log(scratch).open("wb") as output:
+        server = SupervisedProcess(
+            [str(places.python), "-m", "course_pkg.lab", *options],
+            output=output,
+            env={**os.environ, **folders},
+            cwd=places.checkout,  # where the terminals start
+            remove=scratch,
+        )
+        try:
+            yield server
+        finally:
+            server.end()
+
+
+def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
+    """Return JupyterLab's settings, by the names of its traits. Every installed extension stays enabled."""
+    return {
+        "ServerApp.root_dir": places.checkout,
+        "ServerApp.ip": ip,
+        "ServerApp.port": port,
+        "ServerApp.open_browser": False,
+        "ServerApp.allow_root": True,
+        "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
+        "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
+        "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
+        "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
+        "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
+        "LabApp.app_settings_dir": HERE / "settings",
+        "LabApp.user_settings_dir": _user_settings(),
+        "LabApp.workspaces_dir": scratch / "workspaces",
+        "LabApp.cache_files": True,  # the names of the front end's files change with their content
+        "LabApp.extension_manager": "readonly",
+    }
+
+
+def _user_settings() -> Path:
+    """Return the folder of the user's own settings for JupyterLab, such as a theme; they are used, too."""
+    given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
+    config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")
+    return Path(given) if given else Path(config) / "lab" / "user-settings"
+
+
+def _notebook(checkout: Path, asked: str | None) -> str:
+    """Return the notebook to open, relative to the checkout: `asked`, else the first chapter, else ""."""
+    if asked is None:
+        chapters = sorted((checkout / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+        return str(chapters[0].relative_to(checkout)) if chapters else ""
+    path = Path(asked).resolve()
+    if not path.is_file():
+        raise SetupError(f"There is no notebook {asked}. The chapters are in {checkout / 'notebooks'}.")
+    if not path.is_relative_to(checkout):
+        raise SetupError(
+            f"{path} is not in {checkout}, and JupyterLab serves only that folder. Copy the notebook there."
+        )
+    return str(path.relative_to(checkout))
+
+
+def _make_workspace() -> None:
+    """Make the folder of the student's own packages; print a message on stderr if it cannot be used."""
+    try:
+        make_own_workspace()
+    except SetupError as error:
+        sys.stderr.write(f"{error} Until you do that, the chapters about building packages do not work.\n")
+
+
+def _write_workspace(folder: Path, notebook: str) -> None:
+    """Write the workspace with which JupyterLab opens: one tab for `notebook`, none of the previous start.
+
+    Each restored tab would start a kernel before the page is usable. The page's address can also contain the
+    notebook and `?reset`, but JupyterLab reads it half a second later than the workspace.
+    """
+    tab = f"notebook:{notebook}"
+    dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}
+    left = {"collapsed": False, "visible": True, "current": "filebrowser", "widgets": ["filebrowser"]}
+    opened = {
+        "layout-restorer:data": {"main": {"dock": dock, "current": tab}, "left": left},
+        tab: {"data": {"path": notebook, "factory": "Notebook"}},
+        "file-browser-filebrowser:cwd": {"path": str(Path(notebook).parent)},
+    }
+    folder.mkdir()
+    workspace = {"data": opened if notebook else {}, "metadata": {"id": "default"}}
+    (folder / WORKSPACE).write_text(json.dumps(workspace))
+
+
+def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
+    """Return the server's address as soon as the server accepts connections.
+
+    Raises CourseError if the server ends, or does not listen within READY.
+    """
+    deadline = time.monotonic() + READY
+    info = scratch / "runtime" / f"jpserver-{server.pid}.json"  # the server writes it just before it listens
+    while True:
+        with suppress(OSError, ValueError):
+            seen = json.loads(info.read_text())
+            address = _Address(seen["url"], seen["token"])
+            socket.create_connection((address.base.hostname, seen["port"]), timeout=READY).close()
+            return address
+        if server.wait(LOOK):
+            raise CourseError(
+                f"JupyterLab ended with status {server.returncode} as it started:\n{_tail(_log(scratch))}"
+            )
+        if time.monotonic() > deadline:
+            raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(_log(scratch))}")
+
+
+def _start_kernel(address: _Address, notebook: str) -> None:
+    """Start the notebook's kernel while the page loads, so that the page finds it running.
+
+    If this fails, the page starts the kernel itself. If that fails, too, the page shows the reason.
+    """
+    if not notebook:
+        return
+    kernel = {"name": "python3"}
+    session = {"path": notebook, "name": Path(notebook).name, "type": "notebook", "kernel": kernel}
+    headers = {"Authorization": f"token {address.token}", "Content-Type": "application/json"}
+    with (
+        suppress(OSError, HTTPException),
+        closing(HTTPConnection(address.base.netloc, timeout=READY)) as server,
+    ):
+        server.request("POST", f"{address.base.path}api/sessions", json.dumps(session), headers)
+        server.getresponse().read()
+
+
+def _announce(address: _Address, notebook: str, checkout: Path, browser: bool) -> None:
+    page = f"lab/tree/{quote(notebook)}" if notebook else "lab"
+    url = f"{address.url}{page}?token={address.token}"
+    opened = browser and webbrowser.open(url)
+    sys.stdout.write(
+        f"JupyterLab serves {checkout} at\n\n    {url}\n\n"
+        f"{'It opens in your browser.' if opened else 'Open this address in your browser.'} "
+        "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
+    )
+    sys.stdout.flush()
+
+
+def _log(scratch: Path) -> Path:
+    return scratch / "server.log"
+
+
+def _tail(log: Path) -> str:
+    return "\n".join(log.read_text(errors="replace").splitlines()[-KEPT_LINES:]) + "\n"

@@ -1,0 +1,151 @@
+"""What a student has done, as plain data: parts, chapters, and the whole course."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course_pkg.checking.record import PartRecord
+from course_pkg.panels.choices.model import ChoiceRecord
+from course_pkg.panels.prediction.model import Prediction
+
+NOT_CHECKED = "not checked"
+PASSED = "passed"
+NO_GRADE = "This is your own record of the checks that you ran. It is not a grade."
+
+
+@dataclass(frozen=True)
+class PartProgress:
+    """A part of a chapter, and its record; None for a part that was never checked."""
+
+    check: str
+    goal: str
+    possible: int
+    record: PartRecord | None = None
+
+    @property
+    def passed(self) -> bool:
+        """Whether a check of the part has passed once; a later check that does not pass changes nothing."""
+        return bool(self.record and self.record.passed)
+
+    @property
+    def earned(self) -> int:
+        """The points of the part if it is passed, else 0."""
+        return self.possible if self.passed else 0
+
+    @property
+    def state(self) -> str:
+        """The state in one or two words: "passed", "not checked", or the result of the last check."""
+        if self.passed:
+            return PASSED
+        return self.record.verdict if self.record else NOT_CHECKED
+
+    @property
+    def mark(self) -> str:
+        """The state as one letter."""
+        return "✓" if self.passed else "✗" if self.record else "·"
+
+
+@dataclass(frozen=True)
+class ChapterProgress:
+    """The parts, predictions and choices of a chapter."""
+
+    number: str
+    title: str
+    notebook: str
+    parts: tuple[PartProgress, ...]
+    predictions: tuple[Prediction, ...] = ()
+    choices: tuple[ChoiceRecord, ...] = ()
+
+    @property
+    def passed(self) -> int:
+        """The number of passed parts."""
+        return sum(part.passed for part in self.parts)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all parts are passed."""
+        return self.passed == len(self.parts)
+
+    @property
+    def points(self) -> tuple[int, int]:
+        """The earned and the possible points."""
+        return sum(part.earned for part in self.parts), sum(part.possible for part in self.parts)
+
+    @property
+    def right(self) -> tuple[int, int]:
+        """How many predictions were right, of those that were made before the result was known."""
+        compared = [each for each in self.predictions if each.compared and each.first]
+        return sum(each.right for each in compared), len(compared)
+
+    @property
+    def chosen(self) -> tuple[int, int]:
+        """How many choices were the expected ones, of those that were compared."""
+        compared = [each for each in self.choices if each.compared]
+        return sum(each.fit for each in compared), sum(len(each.first) for each in compared)
+
+    @property
+    def latest(self) -> str:
+        """The time of the last check, prediction or choice, as ISO 8601 in UTC; "" for none."""
+        checked = [part.record.checked for part in self.parts if part.record]
+        answered = [max(each.answered, each.compared) for each in self.predictions]
+        return max([*checked, *answered, *(each.compared for each in self.choices)], default="")
+
+    @property
+    def next_part(self) -> PartProgress | None:
+        """The first part that is not passed; None if all are."""
+        return next((part for part in self.parts if not part.passed), None)
+
+
+@dataclass(frozen=True)
+class LearningPath:
+    """A path through the course: its name, and the numbers of its chapters in their order."""
+
+    name: str
+    chapters: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Progress:
+    """The progress in the chapters of the course, or in those that were asked for.
+
+    `problems` are messages about records that cannot be read.
+    """
+
+    chapters: tuple[ChapterProgress, ...]
+    paths: tuple[LearningPath, ...] = ()
+    problems: tuple[str, ...] = ()
+
+    @property
+    def passed(self) -> tuple[int, int]:
+        """The number of passed parts, and of all parts."""
+        return sum(each.passed for each in self.chapters), sum(len(each.parts) for each in self.chapters)
+
+    @property
+    def points(self) -> tuple[int, int]:
+        """The earned and the possible points."""
+        return _sum([each.points for each in self.chapters])
+
+    @property
+    def right(self) -> tuple[int, int]:
+        """How many predictions were right, of those that were made before the result was known."""
+        return _sum([each.right for each in self.chapters])
+
+    @property
+    def chosen(self) -> tuple[int, int]:
+        """How many choices were the expected ones, of those that were compared."""
+        return _sum([each.chosen for each in self.chapters])
+
+    @property
+    def current(self) -> ChapterProgress | None:
+        """The chapter in which the student worked last; None before the first check or prediction."""
+        begun = [each for each in self.chapters if each.latest]
+        return max(begun, key=lambda each: each.latest, default=None)
+
+    def only(self, number: str) -> Progress:
+        """Return the progress in one chapter."""
+        chapters = tuple(each for each in self.chapters if each.number == number)
+        return Progress(chapters, self.paths, self.problems)
+
+
+def _sum(pairs: list[tuple[int, int]]) -> tuple[int, int]:
+    return sum(first for first, _ in pairs), sum(second for _, second in pairs)

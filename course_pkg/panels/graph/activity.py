@@ -1,0 +1,278 @@
+"""What happens on the graph, for the page: rates of topics, measured from counts, and callers of services."""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from math import floor, log10, sqrt
+from typing import TYPE_CHECKING, TypedDict
+
+from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
+
+if TYPE_CHECKING:
+    from course_pkg.ros.trace.activity import Activity, Traffic
+
+LONG, SHORT = 30.0, 3.9  # s: the time over which a steady rate is measured, and in which a change is seen
+LEAST = 1.5  # s: a shorter time tells nothing
+LATE = 0.05  # s by which a count may be older than it seems, because its node was busy
+SHOWN = 12  # connections of a topic, or callers of a service
+UNCONNECTED = "not connected: do both have the same type?"
+
+Key = tuple[str, str, str, int]
+Pair = list[str]  # a label and its value
+
+
+class Caller(TypedDict):
+    """A node that called a service: how often, when last (s since the epoch), and how many calls run now.
+
+    `gone` is whether the node has left the graph.
+    """
+
+    node: str
+    calls: int
+    last: float
+    running: int
+    gone: bool
+
+
+class CallLine(TypedDict):
+    """A line to draw from the shape of a caller to that of a service."""
+
+    tail: str
+    head: str
+    last: float
+    running: int
+
+
+class ActivityState(TypedDict, total=False):
+    """What the page shows, by the key of the shape to which it belongs.
+
+    `notes` are the few words under a topic's name (at most 12 letters). `details` are pairs of label and
+    value. `callers` called a service; a server that does not report its callers is missing. `calls` are
+    lines to draw.
+    """
+
+    notes: dict[str, str]
+    details: dict[str, list[Pair]]
+    callers: dict[str, list[Caller]]
+    calls: list[CallLine]
+
+
+class RateMeter:
+    """The rate of one connection."""
+
+    def __init__(self) -> None:
+        self._counts: deque[tuple[float, int]] = deque()
+        self._shown: float | None = None
+
+    def read(self, at: float, messages: int) -> None:
+        """Take in the number of messages counted until `at` (s)."""
+        if self._counts and messages < self._counts[-1][1]:
+            self._counts.clear()  # another connection with the same number: its publisher was restarted
+        self._counts.append((at, messages))
+        while at - self._counts[0][0] > LONG:
+            self._counts.popleft()
+        self._forget_former_rate()
+        self._settle()
+
+    @property
+    def rate(self) -> float | None:
+        """Messages per second, rounded to what the counts can tell; None as long as they tell nothing."""
+        return self._shown
+
+    def _forget_former_rate(self) -> None:
+        """Keep only the latest counts if the rate has changed."""
+        at, messages = self._counts[-1]
+        recent = [each for each in self._counts if at - each[0] >= SHORT]
+        if len(recent) < 2:
+            return
+        (first, sent), (middle, until) = recent[0], recent[-1]
+        expected = (until - sent) / (middle - first) * (at - middle)
+        stopped = messages == until and expected >= 3
+        if stopped or abs(messages - until - expected) > 2 + 3 * sqrt(expected):
+            self._counts = deque(each for each in self._counts if each[0] >= middle)
+
+    def _settle(self) -> None:
+        (since, before), (at, messages) = self._counts[0], self._counts[-1]
+        if at - since < LEAST:
+            return
+        rate = (messages - before) / (at - since)
+        tolerance = (1 + LATE * rate) / (at - since)
+        holds = self._shown is not None and abs(self._shown - rate) <= tolerance + 0.01 * rate
+        if not holds or bool(rate) != bool(self._shown):
+            self._shown = plainest(rate, tolerance)
+
+
+def plainest(rate: float, tolerance: float) -> float:
+    """Return the number with the fewest digits that differs from the rate by at most `tolerance`."""
+    if rate <= 0:
+        return 0.0
+    for digits in range(3):
+        rounded = round(rate, digits - floor(log10(rate)))
+        if abs(rounded - rate) <= tolerance:
+            return rounded
+    return rounded
+
+
+def rate_text(rate: float) -> str:
+    """Return a rate for the reader, such as "10 Hz"."""
+    if 0 < rate < 0.1:
+        return "< 0.1 Hz"
+    return f"{rate:.3g} Hz" if rate < 999.5 else f"{rate / 1000:.3g} kHz"
+
+
+class Rates:
+    """The rates of all connections of a graph."""
+
+    def __init__(self) -> None:
+        self._meters: dict[Key, RateMeter] = {}
+
+    def read(self, activity: Activity) -> None:
+        """Take in all counts of one time; forget connections that have ended."""
+        meters = {_key(each): self._meters.get(_key(each)) or RateMeter() for each in activity.traffic}
+        for each in activity.traffic:
+            meters[_key(each)].read(activity.at, each.messages)
+        self._meters = meters
+
+    def of(self, carried: Traffic) -> float | None:
+        """Return the rate of a connection (Hz)."""
+        meter = self._meters.get(_key(carried))
+        return meter.rate if meter else None
+
+
+def _key(carried: Traffic) -> Key:
+    return (carried.topic, carried.publisher, carried.subscriber, carried.connection)
+
+
+class _Ends:
+    """The publishers and subscribers of each topic of a picture, by its key."""
+
+    def __init__(self, picture: Picture) -> None:
+        self.publishers: dict[str, list[str]] = defaultdict(list)
+        self.subscribers: dict[str, list[str]] = defaultdict(list)
+        for line in picture.lines:
+            self.publishers[line.head].append(line.tail.partition(" ")[2])
+            self.subscribers[line.tail].append(line.head.partition(" ")[2])
+
+
+class GraphActivity:
+    """Turns the counts of successive times into what the page shows."""
+
+    def __init__(self) -> None:
+        self.seen: Activity | None = None
+        self._rates = Rates()
+        self._carried: dict[str, list[Traffic]] = defaultdict(list)
+
+    def read(self, activity: Activity) -> None:
+        """Take in the counts of one time."""
+        self.seen = activity
+        self._rates.read(activity)
+        self._carried.clear()
+        for each in activity.traffic:
+            self._carried[each.topic].append(each)
+
+    def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
+        """Return what the page shows.
+
+        `alive` are the nodes of the graph, even those that are not shown. `box` returns the key of the
+        shape in which another is drawn: its own, or that of the folded namespace around it.
+        """
+        ends = _Ends(picture)
+        topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
+        callers = {each.key: self._callers(each, alive) for each in self._reporting(picture)}
+        return {
+            "notes": {key: note for key, (note, _) in topics.items()},
+            "details": {key: details for key, (_, details) in topics.items()} | _spaces(picture, topics),
+            "callers": callers,
+            "calls": list(_calls(callers, box)) if callers else [],
+        }
+
+    def _topic(self, topic: Shape, ends: _Ends) -> tuple[str, list[Pair]]:
+        publishers, subscribers = ends.publishers[topic.key], ends.subscribers[topic.key]
+        if not publishers:
+            return "no publisher", [["rate", "no publisher, nothing comes"]]
+        if not subscribers:
+            return "no listener", [["rate", "no listener, nothing is sent"]]
+        if self.seen is None:
+            return "", []
+        carried = self._carried[topic.name]
+        details = [
+            [f"{publisher} → {subscriber}", self._connection(publisher, subscriber, carried)]
+            for publisher in publishers
+            for subscriber in subscribers
+        ]
+        note = self._note(publishers, [each for each in carried if each.subscriber in subscribers])
+        return note, _shortened(details, "connections")
+
+    def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
+        """Return the rate of a topic: the sum over its publishers, each with its fastest connection."""
+        assert self.seen is not None
+        if self.seen.silent.intersection(publishers):
+            return "not counted"
+        if not carried:
+            return "unconnected"
+        rates = {each: rate for each in carried if (rate := self._rates.of(each)) is not None}
+        fastest = [
+            max(rate for each, rate in rates.items() if each.publisher == name) for name in _senders(rates)
+        ]
+        return rate_text(sum(fastest)) if fastest else ""
+
+    def _connection(self, publisher: str, subscriber: str, carried: Iterable[Traffic]) -> str:
+        assert self.seen is not None
+        if publisher in self.seen.silent:
+            return "its publisher does not tell what it sends"
+        ours = [each for each in carried if (each.publisher, each.subscriber) == (publisher, subscriber)]
+        if not ours:
+            return UNCONNECTED
+        rate, count = self._rates.of(ours[-1]), ours[-1].messages
+        sent = f"{count} message{'' if count == 1 else 's'} since it connected"
+        return rate_text(rate) if rate else sent if rate is None else f"0 Hz, {sent}"
+
+    def _reporting(self, picture: Picture) -> Iterator[Shape]:
+        known = self.seen.callers if self.seen else {}
+        return (each for each in picture.shapes if each.kind is Kind.SERVICE and each.name in known)
+
+    def _callers(self, service: Shape, alive: Container[str]) -> list[Caller]:
+        assert self.seen is not None
+        return [
+            {
+                "node": each.node,
+                "calls": each.calls,
+                "last": round(each.last, 1),
+                "running": each.running,
+                "gone": each.node not in alive,
+            }
+            for each in self.seen.callers[service.name][:SHOWN]
+        ]
+
+
+def _spaces(picture: Picture, topics: Mapping[str, tuple[str, list[Pair]]]) -> dict[str, list[Pair]]:
+    """Return for each namespace what its topics carry."""
+    return {
+        f"{Kind.SPACE.value} {name}": _shortened(
+            [[key.split(" ", 1)[1], topics[key][0] or "…"] for key in sorted(members) if key in topics],
+            "topics",
+        )
+        for name, members in namespaces(picture).items()
+    }
+
+
+def _senders(carried: Iterable[Traffic]) -> list[str]:
+    return sorted({each.publisher for each in carried})
+
+
+def _calls(callers: dict[str, list[Caller]], box: Callable[[str], str]) -> Iterator[CallLine]:
+    """Yield a line for each caller that is on the graph, from its shape to that of the service."""
+    latest: dict[tuple[str, str], Caller] = {}
+    for service, each in ((service, each) for service, who in callers.items() for each in who):
+        ends = box(f"{Kind.NODE.value} {each['node']}"), box(service)
+        if not each["gone"] and ends[0] != ends[1] and latest.get(ends, each)["last"] <= each["last"]:
+            latest[ends] = each
+    for (tail, head), each in sorted(latest.items(), key=lambda item: item[0]):
+        yield {"tail": tail, "head": head, "last": each["last"], "running": each["running"]}
+
+
+def _shortened(details: list[Pair], what: str) -> list[Pair]:
+    if len(details) <= SHOWN:
+        return details
+    return [*details[: SHOWN - 1], ["…", f"{len(details) - SHOWN + 1} more {what}"]]

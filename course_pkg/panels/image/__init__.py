@@ -1,1 +1,0 @@
-"""Pictures that nodes send, in the notebook."""

@@ -1,1 +1,0 @@
-"""The plot: measured data as lines, dots or bars."""

@@ -1,0 +1,121 @@
+/* What happened to the turtles up to a time: where they are then, and the paper with their trails. */
+
+/** @typedef {any[]} Row
+ * @typedef {{background: number[], names: string[], palette: number[][], rows: Row[], length: number, edition: number}} Recording
+ * @typedef {{x: number, y: number, theta: number}} Place */
+
+export const SIDE = 500; // px of the simulator's own paper
+export const DELAY = 150; // ms that the picture lags behind, so that there is always a next place to go to
+const WORLD = 11088.889; // mm
+const PEN = 3; // px: nobody announces a width, and this is the usual one
+
+/** What the rows come to at a time: where each turtle is, and what is on the paper. */
+export class Player {
+  /** @param {CanvasRenderingContext2D} paper */
+  constructor(paper) {
+    this.paper = paper;
+    this.load({ background: [69, 86, 255], names: [], palette: [], rows: [], length: 0, edition: 0 });
+  }
+
+  /** @param {Recording} recording */
+  load(recording) {
+    this.recording = recording;
+    this.rewind();
+  }
+
+  rewind() {
+    this.done = 0; // rows that have happened
+    this.time = 0;
+    /** @type {Map<number, Row>} */
+    this.here = new Map();
+    this.#wipe();
+  }
+
+  /** Go to a time, drawing on the way. @param {number} time */
+  goTo(time) {
+    if (time < this.time) this.rewind();
+    const rows = this.recording.rows;
+    while (this.done < rows.length && rows[this.done][0] <= time) {
+      this.#happen(rows[this.done], this.done);
+      this.done += 1;
+    }
+    this.time = time;
+  }
+
+  /** Where the turtles are between two rows. @returns {[number, Place][]} */
+  places() {
+    return [...this.here].map(([turtle, row]) => [turtle, between(row, this.#next(turtle), this.time)]);
+  }
+
+  /** @param {number} turtle @returns {Row | null} */
+  #next(turtle) {
+    const rows = this.recording.rows;
+    for (let index = this.done; index < rows.length && rows[index][0] <= this.time + 4 * DELAY; index += 1)
+      if (rows[index][1] === turtle) return typeof rows[index][2] === "string" ? null : rows[index];
+    return null;
+  }
+
+  /** @param {Row} row @param {number} index */
+  #happen(row, index) {
+    const [, turtle, what] = row;
+    if (what === "cleared") this.#wipe();
+    else if (what === "gone") this.here.delete(turtle);
+    else if (what === "undrawn") this.#undraw(turtle, row[3], index);
+    else {
+      const before = this.here.get(turtle);
+      if (before && row[5] >= 0) this.#line(before, row);
+      this.here.set(turtle, row);
+    }
+  }
+
+  #wipe() {
+    this.paper.fillStyle = colour(this.recording.background);
+    this.paper.fillRect(0, 0, SIDE, SIDE);
+  }
+
+  /** The pen was up after all: take the colour out of the rows and draw all of it again.
+   * @param {number} turtle @param {number} since @param {number} until */
+  #undraw(turtle, since, until) {
+    let changed = false;
+    for (const row of this.recording.rows.slice(0, until)) {
+      if (row[1] !== turtle || typeof row[2] === "string" || row[0] <= since || row[5] < 0) continue;
+      row[5] = -1;
+      changed = true;
+    }
+    if (!changed) return;
+    this.here.clear();
+    this.#wipe();
+    for (let index = 0; index < until; index += 1) if (this.recording.rows[index][2] !== "undrawn") this.#happen(this.recording.rows[index], index);
+  }
+
+  /** @param {Row} from @param {Row} to */
+  #line(from, to) {
+    const paper = this.paper;
+    paper.strokeStyle = colour(this.recording.palette[to[5]]);
+    paper.lineWidth = PEN;
+    paper.lineCap = "round";
+    paper.beginPath();
+    paper.moveTo(...pixel(from[2], from[3]));
+    paper.lineTo(...pixel(to[2], to[3]));
+    paper.stroke();
+  }
+}
+
+/** @param {number} x mm @param {number} y mm @returns {[number, number]} */
+export function pixel(x, y) {
+  return [(x / WORLD) * (SIDE - 1), (1 - y / WORLD) * (SIDE - 1)];
+}
+
+/** @param {number[]} rgb */
+function colour(rgb) {
+  return `rgb(${rgb.join(" ")})`;
+}
+
+/** Where a turtle is on its way from one row to the next. @param {Row} row @param {Row | null} next @param {number} time
+ * @returns {Place} */
+function between(row, next, time) {
+  const part = next && next[0] > row[0] ? Math.min(Math.max((time - row[0]) / (next[0] - row[0]), 0), 1) : 0;
+  if (!next || Math.hypot(next[2] - row[2], next[3] - row[3]) > 1500) return { x: row[2], y: row[3], theta: row[4] }; // a teleport
+  const turn = ((((next[4] - row[4] + 3142) % 6283) + 6283) % 6283) - 3142;
+  return { x: row[2] + part * (next[2] - row[2]), y: row[3] + part * (next[3] - row[3]), theta: row[4] + part * turn };
+}

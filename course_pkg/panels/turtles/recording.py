@@ -1,0 +1,144 @@
+"""What turtles did, as rows that a page can draw and replay. It needs neither ROS nor Jupyter.
+
+A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
+
+    (ms, turtle, x, y, theta, colour)  it is there: mm, mm, mrad; the colour (its index in `palette`)
+                                       of the line from its row before, or -1 if nothing was drawn
+    (ms, turtle, "gone")               it has left
+    (ms, turtle, "undrawn", since)     the line since that time was not drawn after all: its pen was up
+    (ms, -1, "cleared")                the paper is new
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TypedDict
+
+from course_pkg.panels.turtles.pen import Colour, Finding, Observation, Pen
+
+Place = tuple[int, int, int, int, int, int]
+Change = tuple[int, int, str] | tuple[int, int, str, int]
+Row = Place | Change
+
+MOST = 6000  # rows; 150 kB when saved
+STEP = (5, 5, 10)  # mm, mm, mrad: a smaller movement makes no row
+BACKGROUND: Colour = (69, 86, 255)
+UP = -1
+
+
+class RecordingState(TypedDict):
+    """A recording for the page; `length` is in ms."""
+
+    background: Colour
+    names: list[str]
+    palette: list[Colour]
+    rows: list[Row]
+    length: int
+    edition: int
+
+
+@dataclass
+class _Track:
+    """One turtle: its pen, its last row, and its last place if that made no row."""
+
+    number: int
+    pen: Pen
+    last: Place
+    skipped: Place | None = None
+    known: int = 0  # ms: the last time at which it was sure what the pen does
+
+
+@dataclass
+class TurtleRecording:
+    """Rows in order of time, at most MOST; with more, every second place of a turtle is left out.
+
+    `edition` counts up when earlier rows change.
+    """
+
+    background: Colour = BACKGROUND
+    names: list[str] = field(default_factory=list)
+    palette: list[Colour] = field(default_factory=list)
+    rows: list[Row] = field(default_factory=list)
+    length: int = 0
+    edition: int = 0
+    _tracks: dict[str, _Track] = field(default_factory=dict)
+
+    def see(self, ms: int, name: str, seen: Observation) -> None:
+        """Record where a turtle is."""
+        self.length = max(self.length, ms)
+        track = self._tracks.get(name)
+        if track is None:
+            self._enter(ms, name, seen)
+            return
+        found = track.pen.observe(seen)
+        if found in (Finding.CLEARED, Finding.RESET):
+            self._add((ms, UP, "cleared"))
+        row = self._row(ms, track, seen, found)
+        if found is Finding.UNDRAWN:
+            self._add((ms, track.number, "undrawn", track.known))
+        if track.pen.sure:
+            track.known = ms
+        if all(abs(new - old) < step for new, old, step in zip(row[2:5], track.last[2:5], STEP, strict=True)):
+            track.skipped = row
+            return
+        if track.skipped is not None:
+            self._add((*track.skipped[:5], UP))  # it did not move until then
+        track.last, track.skipped = row, None
+        self._add(row)
+
+    def miss(self, ms: int, name: str) -> None:
+        """Record that a turtle has left."""
+        track = self._tracks.pop(name, None)
+        if track is not None:
+            self.length = max(self.length, ms)
+            self._add((ms, track.number, "gone"))
+
+    def state(self) -> RecordingState:
+        """Return the recording for the page."""
+        return {
+            "background": self.background,
+            "names": list(self.names),
+            "palette": list(self.palette),
+            "rows": list(self.rows),
+            "length": self.length,
+            "edition": self.edition,
+        }
+
+    def _enter(self, ms: int, name: str, seen: Observation) -> None:
+        if name not in self.names:
+            self.names.append(name)
+        number, pen = self.names.index(name), Pen(self.background)
+        pen.observe(seen)
+        last = (ms, number, *_place(seen), UP)
+        self._tracks[name] = _Track(number, pen, last, known=ms)
+        self._add(last)
+
+    def _row(self, ms: int, track: _Track, seen: Observation, found: Finding) -> Place:
+        colour = track.pen.colour
+        drawn = colour is not None and found is Finding.NOTHING
+        if colour is not None and colour not in self.palette:
+            self.palette.append(colour)
+        index = self.palette.index(colour) if drawn and colour is not None else UP
+        return (ms, track.number, *_place(seen), index)
+
+    def _add(self, row: Row) -> None:
+        self.rows.append(row)
+        if len(self.rows) > MOST:
+            self._thin()
+
+    def _thin(self) -> None:
+        kept: list[Row] = []
+        turn = dict.fromkeys(range(len(self.names)), 0)
+        for row in self.rows:
+            if isinstance(row[2], str):
+                kept.append(row)
+                continue
+            turn[row[1]] += 1
+            if turn[row[1]] % 2 or row in (track.last for track in self._tracks.values()):
+                kept.append(row)
+        self.rows = kept
+        self.edition += 1
+
+
+def _place(seen: Observation) -> tuple[int, int, int]:
+    return round(seen.x * 1000), round(seen.y * 1000), round(seen.theta * 1000)

@@ -1,0 +1,139 @@
+"""The turtles as a still picture: the paper with the trails, and the turtles where they were at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+from xml.etree.ElementTree import Element, SubElement
+
+from course_pkg.panels.paper import EDGES, FAINT, Paper, State, Style, number
+
+SIDE = 500.0  # px of the simulator's own paper
+WORLD = 11088.889  # mm
+PEN = "3"  # px: no topic tells the width of a pen, and this is the usual one
+# What the panel draws below a turtle's shell: centres and half axes of head, feet and tail (px).
+LIMBS = (
+    (19, 0, 7, 5),
+    (11, 13, 6, 4),
+    (11, -13, 6, 4),
+    (-11, 13, 6, 4),
+    (-11, -13, 6, 4),
+    (-19, 0, 5, 2),
+)
+SHELLS = ("#2e7d32", "#1565c0", "#6a1b9a", "#ad5300", "#00695c", "#b71c1c")
+GREEN, WHITE, DARK = "#9ccc65", "#ffffff", "#10182b"
+
+Row = Sequence[Any]  # see recording.py
+
+
+def still(state: State) -> str:
+    """Return the paper as it is at the end; if the simulator has ended, as it was before."""
+    recorded = state["recorded"]
+    # A check moves turtles of its own, in a namespace that is drawn at random.
+    own = {turtle for turtle, name in enumerate(recorded["names"]) if "/" not in name}
+    rows = [list(row) for row in recorded["rows"] if not own or row[1] < 0 or row[1] in own]
+    trails, here = _played(rows)
+    if not here:
+        while rows and rows[-1][2] in ("gone", "cleared"):
+            rows.pop()
+        trails, here = _played(rows)
+    names = [recorded["names"][turtle] for turtle in sorted(here)]
+    paper = Paper(f"The paper of turtlesim with {_counted(names)}", SIDE + 2 * EDGES)
+    red, green, blue = recorded["background"]
+    dark = 0.3 * red + 0.6 * green + 0.1 * blue < 128
+    group = Element("g", {"transform": f"translate({number(EDGES)} {number(paper.y)})"})
+    side = {"width": number(SIDE), "height": number(SIDE)}
+    SubElement(group, "rect", {**side, "fill": _colour(recorded["background"])})
+    for colour, points in trails:
+        line = {"stroke": _colour(recorded["palette"][colour]), "stroke-width": PEN, "fill": "none"}
+        at = " ".join(f"{number(x)},{number(y)}" for x, y in points)
+        SubElement(group, "polyline", {**line, "points": at, "stroke-linecap": "round"})
+    for turtle, row in sorted(here.items()):
+        _draw_turtle(group, row, turtle)
+    for turtle, row in sorted(here.items()):
+        _draw_name(group, row, recorded["names"][turtle], WHITE if dark else DARK)
+    for child in group:
+        child.tail = "\n"
+    paper.put_in(group)
+    paper.y += SIDE + 6
+    paper.write(
+        _counted(names) if names else "No turtle yet. Start a simulator; its turtles appear here.", FAINT
+    )
+    return paper.svg()
+
+
+def _counted(names: Sequence[str]) -> str:
+    if not names:
+        return "no turtle"
+    return f"{len(names)} {'turtle' if len(names) == 1 else 'turtles'}: {', '.join(names)}"
+
+
+def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, float]]]], dict[int, Row]]:
+    """Return the trails, each with its colour and points (px), and the last row of each turtle."""
+    for index, row in enumerate(rows):
+        if row[2] == "undrawn":  # the pen was up since that time
+            for earlier in rows[:index]:
+                if earlier[1] == row[1] and not isinstance(earlier[2], str) and earlier[0] > row[3]:
+                    earlier[5] = -1
+    trails: list[tuple[int, list[tuple[float, float]]]] = []
+    going: dict[int, tuple[int, list[tuple[float, float]]]] = {}
+    here: dict[int, Row] = {}
+    for row in rows:
+        turtle, what = row[1], row[2]
+        if what == "cleared":
+            trails, going = [], {}
+        elif what == "gone":
+            here.pop(turtle, None)
+            going.pop(turtle, None)
+        elif not isinstance(what, str):
+            colour, point = row[5], _pixel(row)
+            if colour >= 0 and turtle in here:
+                trail = going.get(turtle)
+                if trail is None or trail[0] != colour:
+                    trail = going[turtle] = (colour, [_pixel(here[turtle])])
+                    trails.append(trail)
+                _extend(trail[1], point)
+            else:
+                going.pop(turtle, None)
+            here[turtle] = row
+    return trails, here
+
+
+def _extend(points: list[tuple[float, float]], point: tuple[float, float]) -> None:
+    """Add a point to a trail; on a straight line, it takes the place of the point before it."""
+    if len(points) > 1:
+        (x1, y1), (x2, y2), (x3, y3) = points[-2], points[-1], point
+        if (
+            abs((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) < 0.5
+            and (x2 - x1) * (x3 - x2) + (y2 - y1) * (y3 - y2) >= 0
+        ):
+            points.pop()
+    points.append(point)
+
+
+def _pixel(row: Row) -> tuple[float, float]:
+    return row[2] / WORLD * (SIDE - 1), (1 - row[3] / WORLD) * (SIDE - 1)
+
+
+def _draw_turtle(group: Element, row: Row, turtle: int) -> None:
+    (x, y), degrees = _pixel(row), -row[4] / 1000 * 57.29578
+    move = f"translate({number(x)} {number(y)}) rotate({number(degrees)})"
+    body = SubElement(group, "g", {"transform": move, "stroke": WHITE, "stroke-width": "1.5"})
+    shell = SHELLS[turtle % len(SHELLS)]
+    for cx, cy, rx, ry, fill in (*((*limb, GREEN) for limb in LIMBS), (0, 0, 16, 13, shell)):
+        SubElement(
+            body, "ellipse", {"cx": str(cx), "cy": str(cy), "rx": str(rx), "ry": str(ry), "fill": fill}
+        )
+
+
+def _draw_name(group: Element, row: Row, name: str, colour: str) -> None:
+    style = Style(12.0, mono=True)
+    x, y = _pixel(row)
+    reach = style.width(name) / 2 + 4
+    at = {"x": number(min(max(x, reach), SIDE - reach)), "y": number(y + (-22 if y > SIDE - 40 else 34))}
+    look = {"fill": colour, "font-family": "Menlo, Consolas, monospace", "font-size": "12"}
+    SubElement(group, "text", {**at, **look, "text-anchor": "middle"}).text = name
+
+
+def _colour(rgb: Sequence[int]) -> str:
+    return "#" + "".join(f"{each:02x}" for each in rgb)

@@ -1,0 +1,112 @@
+"""A call on the wire as a still picture: a sequence diagram of the steps, and the bytes of some of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from course_pkg.panels.paper import (
+    CODE,
+    EDGES,
+    ERROR,
+    FAINT,
+    FAINT_CODE,
+    GROUND,
+    HEADING,
+    LINE,
+    TEXT,
+    Column,
+    Paper,
+    State,
+    Style,
+    cut,
+    wrapped,
+)
+
+ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}  # px: where the line of each end is
+ROW = 34.0  # px of a step
+MOST, BYTES = 24, 8  # pieces of a step, and bytes of a piece that are shown
+# Ports differ from run to run.
+ADDRESS = re.compile(r"(?:rosrpc://|http://)?[\w.-]+:\d{4,5}\b/?")
+SMALL = Style(12.0)
+DETAILED = ("Request", "Response", "Error")
+
+
+def still(state: State) -> str:
+    """Return the steps without times and ports, and the pieces of request and response."""
+    exchange = state["exchange"]
+    steps = exchange["steps"]
+    paper = Paper(f"A call of {exchange['service']}, byte by byte: {len(steps)} steps")
+    paper.write(f"A call of {exchange['service']}, byte by byte", HEADING)
+    paper.y += 4
+    if exchange["outcome"]:
+        paper.band(f"The call failed: {_stable(exchange['outcome'])}", bad=True)
+    if not steps:
+        paper.write("No connection came by while this was recorded.", FAINT)
+    else:
+        _draw_steps(paper, exchange["names"], steps)
+    for step in steps:
+        if step["pieces"] and (step["title"] in DETAILED or step["bad"]):
+            _draw_pieces(paper, step)
+    return paper.svg(" ".join(f"{_stable(step['title'])}." for step in steps))
+
+
+def _draw_steps(paper: Paper, names: State, steps: Sequence[State]) -> None:
+    used = [end for end in ENDS if any(end in (step["from"], step["to"]) for step in steps)]
+    for end in used:
+        paper.put(cut(names[end], CODE, 190), ENDS[end], paper.y + 8, CODE, anchor="middle")
+    paper.y += 20
+    for end in used:
+        paper.add("path", d=f"M{ENDS[end]:.1f} {paper.y:.1f}v{ROW * len(steps) + 6:.1f}", stroke=LINE)
+    for step in steps:
+        _draw_step(paper, step)
+    paper.y += 10
+
+
+def _draw_step(paper: Paper, step: State) -> None:
+    start, tip = ENDS[step["from"]], ENDS[step["to"]]
+    colour, y = ERROR if step["bad"] else TEXT, paper.y + ROW - 6
+    back = 8.0 if tip > start else -8.0
+    paper.add("path", d=f"M{start:.1f} {y:.1f}H{tip:.1f}", stroke=colour, stroke_width=1.5)
+    paper.add("path", d=f"M{tip:.1f} {y:.1f}l{-back:.1f} -4v8z", fill=colour)
+    number = f"{step['connection']}: " if step["connection"] else ""
+    size = f", {step['size']:,} bytes" if step["size"] else ""
+    style = Style(12.0, colour=colour)
+    text = cut(f"{number}{_stable(step['title'])}{size}", style, abs(tip - start) - 16)
+    middle, wide = (start + tip) / 2, style.width(text)
+    paper.box(middle - wide / 2, y - 20, wide, 16, fill=GROUND, rx=0)
+    paper.put(text, middle, y - 12, style, anchor="middle")
+    paper.y += ROW
+
+
+def _draw_pieces(paper: Paper, step: State) -> None:
+    """Draw a row for each piece of a message: its offset, its bytes, its name, type and value."""
+    paper.rule()
+    paper.write(f"{step['title']}, {step['size']:,} bytes", HEADING)
+    paper.y += 2
+    columns = [
+        Column(EDGES, 40, FAINT_CODE),
+        Column(64, 196, CODE),
+        Column(276, 150, SMALL),
+        Column(436, 84, FAINT_CODE),
+        Column(530, 214, CODE),
+    ]
+    for piece in step["pieces"][:MOST]:
+        group = piece["role"] == "group"
+        at = "" if group else str(piece["at"])
+        name = "\N{NO-BREAK SPACE}" * 3 * piece["depth"] + piece["name"]
+        value = wrapped(_stable(piece["value"]), CODE, 214)
+        shown = value[0] + ("…" if len(value) > 1 else "")
+        paper.row(columns, (at, _bytes(piece), name, piece["type"], shown), room=2)
+    if len(step["pieces"]) > MOST:
+        paper.write(f"… and {len(step['pieces']) - MOST} more", FAINT)
+
+
+def _bytes(piece: State) -> str:
+    pairs = [piece["hex"][at : at + 2] for at in range(0, min(len(piece["hex"]), 2 * BYTES), 2)]
+    return " ".join(pairs) + ("…" if piece["size"] > len(pairs) and pairs else "")
+
+
+def _stable(text: str) -> str:
+    """Return a text without addresses, whose ports differ from run to run."""
+    return ADDRESS.sub("the address of the server", text)

@@ -1,0 +1,102 @@
+"""The errors of the master, of nodes and of addresses; rows as in handler_errors.
+
+They are searched before those of calls, because `unable to contact master` is a failed call, too.
+"""
+
+from __future__ import annotations
+
+from course_pkg.ros.explain.handler_errors import Row
+
+NO_MASTER = "No master answers at ROS_MASTER_URI."
+MALFORMED = "ROS_MASTER_URI does not have the form http://HOST:PORT. Usually http:// is missing."
+
+FROM_GRAPH: tuple[Row, ...] = (
+    (
+        r"invalid master URI|MalformedMasterUri|ROS_MASTER_URI is '.{0,300}has to be of the form|"
+        r"Unable to register with master node \[(?!http)",
+        MALFORMED,
+        "Write the whole address: `export ROS_MASTER_URI=http://localhost:11311`. Start the program again.",
+        "12",
+    ),
+    (
+        r"Unable to register with master node",
+        f"{NO_MASTER} init_node() keeps trying, and prints this only once.",
+        "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the wait.",
+        "12",
+    ),
+    (
+        r"MasterSilent|takes connections and did not answer within|the master at \S+ does not answer",
+        "The master accepts connections and does not answer: it is stopped, or hangs.",
+        "Continue it (`kill -CONT` with its process id), or end it and restart the master and all nodes.",
+        "12",
+    ),
+    (
+        r"NotAMaster|is not a ROS master",
+        "The program at the address in ROS_MASTER_URI is not a master.",
+        "Correct ROS_MASTER_URI, or unset it to get your own master.",
+        "01",
+    ),
+    (
+        r"unable to contact master|No ROS master at|Unable to communicate with master|MasterUnreachable|"
+        r"master .{0,300}(?:not answer|unreachable)|^\s*(?:[\w.]+: )?ConnectionRefusedError|"
+        r"^ERROR: unable to communicate with master",
+        NO_MASTER,
+        "Start a master, or correct ROS_MASTER_URI, and start the nodes again.",
+        "12",
+    ),
+    (
+        r"roscore cannot run as another roscore/master is already running",
+        "A master already runs on this port; each computer needs only one.",
+        "Use the running master. If you really need a second one, use another port: `roscore -p 11312`.",
+        "01",
+    ),
+    (
+        r"\[Errno 98\]|Address already in use|PortBusy",
+        "Another program already uses the port. A rosmaster that prints this never ends by itself.",
+        "End it with Ctrl-C. Find the program that uses the port with `ss -tlnp`, or use another port.",
+        "01",
+    ),
+    (
+        r"init_node\(\) has already been called with different arguments",
+        "One program is one node: init_node() was called before with another name or other options.",
+        "Keep the name, or restart the kernel. In the course's notebooks, join() calls init_node().",
+        "02",
+    ),
+    (
+        r"signal only works in main thread",
+        "init_node() was called outside of the main thread. It stopped halfway; a second call does not work.",
+        "Restart the kernel, and call init_node() or join() in a separate cell before you start threads.",
+        "02",
+    ),
+    (
+        r"new node registered with same name|NodeNameTaken",
+        "Two nodes have the same name. The master shuts down the older one when the newer one registers.",
+        "Give each node its own name: `__name:=other`, or init_node(…, anonymous=True).",
+        "01",
+    ),
+    (
+        r"ROSInterruptException|node shutdown interrupted|rospy has shut down|NotJoined",
+        "The node was shut down: by Ctrl-C, by interrupting rospy.spin(), or by a node with the same name.",
+        "Start the program again. In a notebook, run the cell with join() again, and never call spin().",
+        "12",
+    ),
+    (
+        r"time is not initialized|ROSInitException",
+        "The program used a function that needs a node, and it is not a node yet.",
+        "Call init_node() first; in a notebook, call join().",
+        "02",
+    ),
+    (
+        r"topic types do not match",
+        "Publisher and subscriber of one topic have different types. The subscriber gets no error.",
+        "Compare both with `rostopic info` and `rostopic type`, and use one type on both sides.",
+        "02",
+    ),
+    (
+        r"Name or service not known|Temporary failure in name resolution|Unknown host \[|"
+        r"attempted to connect to non-local host",
+        "The server registered under a host name that this machine cannot look up.",
+        "Start the server with ROS_HOSTNAME=localhost.",
+        "12",
+    ),
+)

@@ -1,0 +1,84 @@
+"""The errors that a client gets if the server's handler fails, or if the service is declared wrongly.
+
+A row is (pattern, cause, remedy, chapter). It matches the part of a message that is the same in every
+release; the first row that matches counts.
+"""
+
+from __future__ import annotations
+
+Row = tuple[str, str, str, str]
+
+FROM_HANDLERS: tuple[Row, ...] = (
+    (
+        r"service handler returned None",
+        "The handler reached its end without a return, or returned None.",
+        "Return a response from the handler, even if the response has no fields: MyServiceResponse().",
+        "05",
+    ),
+    (
+        r"service cannot process request: .{0,300}is not an attribute of \w+",
+        "The handler names a field that the response does not have. Usually the name is misspelt.",
+        "Compare the names with the part below --- that `rossrv show` prints for the service's type.",
+        "05",
+    ),
+    (
+        r"handler returned invalid value",
+        "The returned value cannot become a response: it does not have one value for each field.",
+        "Return a response object, or a tuple, list or dict with one value for each field of the response.",
+        "05",
+    ),
+    (
+        r"handler returned wrong number of values",
+        "The handler returned a list or tuple whose length is not the number of fields in the response.",
+        "Return one value for each field. A single array field needs a list inside a list: [[1, 2, 3]].",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request: field .{1,300} (?:is not|must be)",
+        "A value in the handler's response has the wrong type for its field.",
+        "Convert each value that the handler returns to the type of its field, such as bool(…) or float(…).",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request: .{0,300}(?:positional argument|argument.{0,300} given)",
+        "The handler has the wrong parameters: it is called with one argument, the request.",
+        "Write the handler as a function of one argument: def handle(request).",
+        "05",
+    ),
+    (
+        r"[Ee]rror processing request",
+        "The handler raised an exception. Its traceback is in the server's terminal, or below its cell.",
+        "Find the line in the traceback and correct it, or refuse the request by rospy.ServiceException.",
+        "05",
+    ),
+    (
+        r"service cannot process request: handler ended with (?:SystemExit|KeyboardInterrupt)",
+        "The handler tried to end the program by sys.exit() or an interrupt, and returned no response.",
+        "Return or raise ServiceException in a handler; plain rospy would have left the client waiting.",
+        "05",
+    ),
+    (
+        r"service cannot process request",
+        "The handler refused this request on purpose, by raising ServiceException.",
+        "Read the reason above and send a request that the service accepts.",
+        "05",
+    ),
+    (
+        r"responded with an error: b''",
+        "The server refused the request and gave no reason, as handlers in C++ do that return false.",
+        "Look for the reason in the server's own output.",
+        "05",
+    ),
+    (
+        r"has no attribute '_request_class'|is the (?:request|response) of a service type",
+        "The class of the request or of the response was used instead of the type of the service.",
+        "Use the type itself: SetBool, and not SetBoolRequest or SetBoolResponse.",
+        "05",
+    ),
+    (
+        r"service \[[^\]]{0,300}\] already registered",
+        "This program already provides a service of this name, and the old handler still answers.",
+        "Call shutdown() on the old service before you create it again.",
+        "05",
+    ),
+)

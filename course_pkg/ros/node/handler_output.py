@@ -1,0 +1,102 @@
+"""What a handler prints, stored with the handler instead of shown below the cell that runs at the time."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, TextIO
+
+LIMIT = 65536  # characters
+
+
+class Printed(io.TextIOBase):
+    """The last 65,536 characters that were written."""
+
+    def __init__(self) -> None:
+        self.text = ""
+
+    def writable(self) -> bool:
+        """Return True, as print() expects."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Store `text`, and as much of the text before it as the limit allows."""
+        self.text = (self.text + text)[-LIMIT:]
+        return len(text)
+
+
+class RoutedStream(io.TextIOBase):
+    """Replaces sys.stdout or sys.stderr: what a handler's thread writes is stored, all else passes through.
+
+    Where a thread's text is stored is a context variable, so that it holds for this thread alone.
+    """
+
+    def __init__(self, stream: TextIO, destination: ContextVar[Printed | None]) -> None:
+        self.stream = stream
+        self._destination = destination
+
+    def writable(self) -> bool:
+        """Return True, as print() expects."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Write to where this thread's output belongs."""
+        return int((self._destination.get(None) or self.stream).write(text) or 0)
+
+    def flush(self) -> None:
+        """Flush the replaced stream."""
+        self.stream.flush()
+
+    def isatty(self) -> bool:
+        """Return whether the replaced stream is a terminal."""
+        return bool(self.stream.isatty())
+
+    def fileno(self) -> int:
+        """Return the descriptor of the replaced stream."""
+        return int(self.stream.fileno())
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        """The encoding of the replaced stream."""
+        return self.stream.encoding
+
+    @property
+    def errors(self) -> str | None:  # type: ignore[override]
+        """How the replaced stream treats characters that it cannot encode."""
+        return self.stream.errors
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 -- IPython's stream has more methods
+        return getattr(self.stream, name)
+
+
+class HandlerOutput:
+    """Stores what this node's handlers print, between install() and remove()."""
+
+    def __init__(self) -> None:
+        self._destination: ContextVar[Printed | None] = ContextVar("handler output", default=None)
+
+    def install(self) -> None:
+        """Replace sys.stdout and sys.stderr, unless they are replaced already."""
+        for name in ("stdout", "stderr"):
+            stream = getattr(sys, name)
+            if not isinstance(stream, RoutedStream):
+                setattr(sys, name, RoutedStream(stream, self._destination))
+
+    def remove(self) -> None:
+        """Put the replaced streams back, unless another program has replaced them again since."""
+        for name in ("stdout", "stderr"):
+            stream = getattr(sys, name)
+            if isinstance(stream, RoutedStream):
+                setattr(sys, name, stream.stream)
+
+    @contextmanager
+    def into(self, printed: Printed) -> Iterator[None]:
+        """Store what this thread prints during the block in `printed`."""
+        token = self._destination.set(printed)
+        try:
+            yield
+        finally:
+            self._destination.reset(token)

@@ -1,0 +1,251 @@
+"""How a kernel becomes a node, repeatedly, although rospy allows one node in a process and starts once."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import threading
+import time
+from contextlib import suppress
+from functools import cache
+from pkgutil import extend_path
+
+import rosgraph.names
+import rospy
+
+import course_pkg
+from course_pkg.errors import GraphError, MasterUnreachable, NodeNameTaken, NotJoined, SetupError
+from course_pkg.ros.node.node import Node
+from course_pkg.ros.node.preparation import prepare_node
+from course_pkg.ros.node.proxy import settle_keepalive
+from course_pkg.ros.node.restart import allow_init_node, begin_again, can_begin_again, logging_kept
+from course_pkg.ros.notebook.cells import Cells
+from course_pkg.ros.notebook.creations import close_all, note_creations
+from course_pkg.ros.notebook.shell import NotebookShell, current_shell
+from course_pkg.ros.process.roscore import Roscore, find_or_start_master
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe
+from course_pkg.ros.protocol.registrations import remove_stale, withdraw_node
+from course_pkg.ros.protocol.rospy_registrations import node_known, register_all, registration_manager
+from course_pkg.ros.trace.handover import hand_over
+from course_pkg.setup.figures import set_up_figures
+from course_pkg.workspace import OwnPackages, own_workspace
+
+NAME_TIMEOUT = 2.0  # s for another node of this name to end, such as a kernel that is being restarted
+
+
+def join(name: str) -> Node:
+    """Make this kernel the node `name`, and return it; run again, it returns the same node.
+
+    Uses the master of ROS_MASTER_URI, or starts one that ends with this kernel. After that master was lost
+    and another has taken its place, it registers again what this node had.
+    """
+    return _kernel(os.getpid()).join(name)
+
+
+def this_node() -> Node | None:
+    """Return the node that join() has made of this kernel, or None before the first join()."""
+    return _kernel(os.getpid()).node
+
+
+def cells() -> Cells:
+    """Return what is known about the runs of this kernel's cells."""
+    return _kernel(os.getpid()).cells
+
+
+def leave(node: Node) -> None:
+    """Take this kernel's node off the graph."""
+    _kernel(os.getpid()).leave(node)
+
+
+@cache
+def _kernel(pid: int) -> _Kernel:
+    """Return the one _Kernel of this process; a forked child is not the node that its parent is."""
+    return _Kernel(pid)
+
+
+class _Kernel:
+    """This process's node, its private master if any, and the process that cleans up after a SIGKILL."""
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self.cells = Cells(close_all)
+        self._shell: NotebookShell | None = None
+        self._node: Node | None = None
+        self._packages: OwnPackages | None = None
+        self._private: Roscore | None = None
+        self._cleaner: SupervisedProcess | None = None
+        self._registered: tuple[str, str, str] | None = None  # what the cleaner withdraws
+
+    def join(self, name: str) -> Node:
+        _require_main_thread()
+        self._follow_cells()
+        full = _full(name)
+        _require_same_name(full)
+        with self.cells.paused():
+            return self._joined(full)
+
+    def _follow_cells(self) -> None:
+        """Have the notebook's cells followed, if this is the kernel of one."""
+        shell = current_shell()
+        if shell is not None and self._shell is None:
+            self._shell = NotebookShell(shell, self.cells)
+
+    def _joined(self, full: str) -> Node:
+        _apply_environment()
+        if self._packages is None:
+            self._packages = OwnPackages(own_workspace())
+            self._packages.follow_cells(current_shell())
+        set_up_figures()
+        self._ensure_master()
+        master = MasterClient(master_uri())
+        self._ensure_rospy(full, master)
+        note_creations(self.cells)
+        if self._shell is not None:
+            self._shell.errors.follow_threads()
+        if self._node is None:
+            self._node = Node(leave, self.cells)
+            if self._shell is not None:
+                self._shell.add_programs(self._node.keep)
+            atexit.register(self._at_exit)
+            # The end of a forked child would unregister its parent's services and topics.
+            os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
+        self._node.renew()
+        self._start_cleaner(master)
+        return self._node
+
+    @property
+    def node(self) -> Node | None:
+        """This kernel's node, if it has joined."""
+        return self._node
+
+    def leave(self, node: Node) -> None:
+        master = MasterClient(master_uri())
+        try:
+            master.pid()
+        except GraphError:
+            node.close(with_master=False)
+        else:
+            node.close()
+            hand_over()
+            withdraw_node(master, node.name, node.uri)
+        self._end_cleaner()
+
+    def _ensure_rospy(self, full: str, master: MasterClient) -> None:
+        """Start rospy as this node if necessary, and register it at a master that does not know it."""
+        if rospy.core.is_shutdown():
+            begin_again()
+        if not rospy.core.is_initialized():
+            _free_name(full, master)
+            settle_keepalive(master)
+            with logging_kept():
+                rospy.init_node(full.removeprefix("/"), disable_signals=True)
+            allow_init_node()
+        elif not node_known(master):
+            _free_name(full, master)
+            register_all(master)
+        prepare_node()
+
+    def _ensure_master(self) -> None:
+        """Find or start a master that answers; replace a lost private one at the same address."""
+        try:
+            found = find_or_start_master()
+        except MasterUnreachable:
+            if self._private is None or self._private.uri != master_uri():
+                raise
+            self._private.stop()
+            found = Roscore(self._private.port).start()
+        if isinstance(found, Roscore):
+            self._private = found
+
+    def _start_cleaner(self, master: MasterClient) -> None:
+        """On a master that outlives this kernel, have the node unregistered if the kernel is killed."""
+        ours = self._private is not None and self._private.uri == master.uri
+        registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
+        if registered != self._registered:
+            self._end_cleaner()
+            self._cleaner = SupervisedProcess([], withdraw=registered) if registered else None
+            self._registered = registered
+
+    def _end_cleaner(self) -> None:
+        cleaner, self._cleaner, self._registered = self._cleaner, None, None
+        if cleaner is not None:
+            cleaner.end()
+
+    def _at_exit(self) -> None:
+        if os.getpid() != self._pid or self._node is None:
+            return
+        with suppress(GraphError, OSError):
+            self.leave(self._node)
+        if (manager := registration_manager()) is not None:
+            manager.master_uri = None  # all is unregistered; rospy's own attempt has no limit
+        if self._private is not None:
+            self._private.stop()
+
+
+def _require_main_thread() -> None:
+    if threading.current_thread() is not threading.main_thread():
+        raise NotJoined(
+            "join() was called on a thread. rospy can be started on the main thread only, and an attempt "
+            "anywhere else spoils this kernel for the next: call join() in a cell of its own."
+        )
+
+
+def _full(name: str) -> str:
+    base = name.removeprefix("/")
+    if not rosgraph.names.is_legal_base_name(base):
+        raise NotJoined(f"{name!r} cannot be a node's name: letters, digits and _ only, and a letter first.")
+    return "/" + base
+
+
+def _require_same_name(full: str) -> None:
+    if rospy.core.is_shutdown() and not can_begin_again():
+        raise NotJoined(
+            "This kernel's node has been shut down, and this release of rospy cannot begin again in one "
+            "process: restart the kernel, and run the cells again."
+        )
+    if rospy.core.is_initialized() and rospy.get_name() != full:
+        base = rospy.get_name().removeprefix("/")
+        raise NotJoined(
+            f"This kernel is the node {rospy.get_name()} already, and one process can be one node only. Use "
+            f"join({base!r}), or restart the kernel to be {full}."
+        )
+
+
+def _apply_environment() -> None:
+    """Find the workspace where it has not been sourced: in a notebook of an editor, or on Binder."""
+    if "ROS_PACKAGE_PATH" not in os.environ:
+        from course_pkg.setup import environment
+
+        if not environment.apply():
+            raise SetupError(
+                "The course's workspace is not built on this machine. Run `./course doctor` in a terminal: "
+                "it says what is missing. Then run this cell again."
+            )
+        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)  # course_pkg.srv is there
+    if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
+        os.environ["ROS_HOSTNAME"] = "localhost"
+
+
+def _free_name(full: str, master: MasterClient) -> None:
+    """Make sure that no living node has the name, and that nothing of a dead one is registered under it."""
+    deadline = time.monotonic() + NAME_TIMEOUT
+    while (uri := master.lookup_node(full)) is not None:
+        probe = node_probe(uri)
+        ask_all([probe], timeout=1.0)
+        if probe.reach is Reach.REFUSED:
+            remove_stale(master.uri, nodes=frozenset({full}))
+            return
+        if time.monotonic() > deadline:
+            raise NodeNameTaken(_taken(full, uri, probe.reach))
+        time.sleep(0.05)
+
+
+def _taken(full: str, uri: str, reach: Reach) -> str:
+    silent = " It does not answer: it is stopped, or hangs." if reach is Reach.SILENT else ""
+    return (
+        f"Another node is {full} already, at {uri}.{silent} Two kernels with one notebook? Shut the other "
+        "kernel down and run this cell again, or take another name here. Joining would have shut that node "
+        "down."
+    )

@@ -1,0 +1,120 @@
+"""A program that is a node: it serves until it is told to end, or makes one call and prints the response."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+
+import rospy
+
+from course_pkg import waiting
+from course_pkg.errors import CourseError
+from course_pkg.ros.node.preparation import prepare_node
+from course_pkg.ros.node.proxy import BoundedProxy
+from course_pkg.ros.node.type_lookup import Message, ServiceKind, service_class
+from course_pkg.ros.process.master import wait_for_master
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+
+END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+TIMEOUT = 5.0  # s to wait for a server, and again for its response
+INTERVAL = 0.02  # s between polls
+
+Offered = tuple[type, Callable[[Message], Message]]  # a service's class and its handler
+
+
+def start_node(name: str) -> bool:
+    """Become the node `name` as soon as there is a master; return False when Ctrl-C came before that.
+
+    Raises MalformedMasterUri and NotAMaster.
+    """
+    try:
+        wait_for_master(rospy.logwarn)
+    except KeyboardInterrupt:
+        return False
+    # Ctrl-C waits: while rospy starts, it holds locks that its shutdown needs, too. A mask is used because
+    # rospy installs handlers of its own meanwhile.
+    signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
+    try:
+        rospy.init_node(name)
+        prepare_node()
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, END_SIGNALS)
+    return True
+
+
+def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
+    """Become the node `node` as soon as there is a master, and serve `services`, by name, until Ctrl-C."""
+    if not start_node(node):
+        return
+    with undisturbed():
+        for name, (cls, handler) in services.items():
+            rospy.loginfo("Serving %s", rospy.Service(name, cls, handler).resolved_name)
+    rospy.spin()
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Delay Ctrl-C until the end of the block: while rospy registers, it holds a lock that its end needs."""
+    came: list[int] = []
+    before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if came:
+            signal.raise_signal(came[0])
+
+
+def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Message:
+    """Become the node `node` for one call of `service`, which may appear within 5 s; return the response.
+
+    `kind` is a class, or a type made from text. Raises ROSException when no node serves it in time, what
+    rospy raises for a failed call, CallTimeout, and MasterUnreachable at once.
+    """
+    MasterClient(master_uri()).pid()  # init_node would wait for a master for ever
+    rospy.init_node(node)
+    prepare_node()
+    rospy.wait_for_service(service, timeout=TIMEOUT)
+    return BoundedProxy(service, service_class(kind), timeout=TIMEOUT)(*values)
+
+
+def print_response(call: Callable[[], str]) -> int:
+    """Print what `call` returns, or why it failed; return the exit status, 0 or 1."""
+    try:
+        print(call())  # noqa: T201 -- the program's result
+    except (rospy.ROSException, rospy.ServiceException, CourseError) as error:
+        return complain(str(error), 1)
+    return 0
+
+
+def complain(message: str, status: int) -> int:
+    """Print `message` to stderr and return `status`."""
+    sys.stderr.write(f"{message}\n")
+    return status
+
+
+def number_parameter(name: str, default: float, least: float, most: float) -> float:
+    """Return the number that a program was started with, such as `_rate:=5`; end it when that is none.
+
+    It has to be from `least` to `most`, in the unit of the parameter.
+    """
+    given = rospy.get_param(name, default)
+    try:
+        value = float(given)
+    except (TypeError, ValueError):
+        value = float("nan")
+    if not least <= value <= most:
+        allowed = f"a number from {least:g} to {most:g}"
+        sys.exit(f"{rospy.resolve_name(name)} is {given!r}, and has to be {allowed}.")
+    return value
+
+
+def wait_until(condition: Callable[[], object], seconds: float) -> bool:
+    """Wait for `condition`, at most `seconds`; return False when they are over, or the node is shut down."""
+    outcome = waiting.wait_until(
+        lambda: "met" if condition() else rospy.is_shutdown() and "shut down", seconds, INTERVAL
+    )
+    return outcome == "met"

@@ -1,0 +1,255 @@
+"""Calling a service in bounded time.
+
+rospy's ServiceProxy has no time limit, and it sets its sockets to block. So the transport is created here,
+where a watchdog or another thread can shut its socket down in every phase of the call.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+
+import rospy
+from rospy.core import parse_rosrpc_uri
+from rospy.exceptions import TransportException, TransportInitError
+from rospy.impl import tcpros_base
+from rospy.impl.tcpros_base import TCPROSTransport
+from rospy.msg import args_kwds_to_message
+
+from course_pkg.errors import CallCancelled, CallTimeout, GraphError, MasterSilent, MasterUnreachable
+from course_pkg.ros.node.type_lookup import Message, ServiceKind, service_class
+from course_pkg.ros.node.watchdog import Watchdog
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.trace.service_hooks import RecordedCall, RecordedLookup, service_transport
+
+KEEPALIVE = "_use_tcp_keepalive"  # where rospy stores that parameter, None before it has asked the master
+
+
+class BoundedProxy(rospy.ServiceProxy):
+    """A ServiceProxy whose calls end: with a response, with rospy's own error, or with the deadline.
+
+    Threads may share it. A persistent one reconnects when its server has been replaced.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        kind: ServiceKind,
+        *,
+        persistent: bool = False,
+        headers: dict[str, str] | None = None,
+        timeout: float = 5.0,
+        watchdog: Watchdog | None = None,
+    ) -> None:
+        super().__init__(name, service_class(kind), persistent, dict(headers or {}))  # type: ignore[no-untyped-call]
+        self.timeout = timeout
+        self._watchdog = watchdog or Watchdog()
+        self._master = MasterClient(master_uri())
+        self._running: set[_Call] = set()
+        self._connection: TCPROSTransport | None = None
+        self._lock = threading.Lock()  # a persistent connection carries one call at a time
+
+    def call(self, *args: object, timeout: float | None = None, **fields: object) -> Message:
+        """Return the response to a request given by position, by field, or whole.
+
+        Raises CallTimeout after `timeout` s, CallCancelled after cancel(), and what rospy raises.
+        """
+        with RecordedCall(self.resolved_name):
+            return self._call(args, fields, self.timeout if timeout is None else timeout)
+
+    def cancel(self) -> None:
+        """End the calls that are under way; each raises CallCancelled where it was made."""
+        for call in list(self._running):
+            call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
+            if call.over:  # it ended meanwhile, and may have missed this action when it disarmed them
+                self._disarm(call)
+
+    def close(self) -> None:
+        """Cancel what is under way and close the connections."""
+        self.cancel()
+        kept, self._connection = self._connection, None
+        if kept is not None:
+            kept.close()
+        self._master.close()
+
+    def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
+        request = args_kwds_to_message(self.request_class, args, fields)
+        if request._type != self.request_class._type:
+            text = "request object type [%s] does not match service type [%s]"  # rospy's
+            raise TypeError(text % (request.__class__, self.request_class))
+        call = _Call(self.resolved_name, timeout)
+        self._running.add(call)
+        call.actions.append(self._watchdog.arm(call.deadline, call.expire))
+        try:
+            return self._persistently(call, request) if self.persistent else self._once(call, request)
+        except (rospy.ServiceException, TransportException, OSError, AttributeError):
+            # A socket that was shut down while rospy used it causes any of these.
+            if call.error is None:
+                raise
+            raise call.error from None  # rospy's error about the closed socket explains nothing
+        finally:
+            call.over = True
+            self._running.discard(call)
+            self._disarm(call)
+
+    def _disarm(self, call: _Call) -> None:
+        for action in list(call.actions):
+            self._watchdog.disarm(action)
+
+    def _once(self, call: _Call, request: Message) -> Message:
+        transport = self._connected(call)
+        try:
+            return self._exchanged(transport, request)
+        finally:
+            transport.close()
+
+    def _persistently(self, call: _Call, request: Message) -> Message:
+        if not self._lock.acquire(timeout=call.left()):
+            raise call.too_late("another call over this persistent proxy is still waiting for its answer")
+        try:
+            transport, self._connection = self._connection, None
+            if transport is not None and _hung_up(transport):
+                transport.close()
+                transport = None
+            transport = transport or self._connected(call)
+            call.transport = transport
+            try:
+                response = self._exchanged(transport, request)
+            except rospy.ServiceException as error:
+                if error.__cause__ is None and call.error is None:
+                    self._connection = transport  # the server answered, with an error
+                else:
+                    transport.close()
+                raise
+            except BaseException:
+                transport.close()
+                raise
+            self._connection = transport
+            return response
+        finally:
+            self._lock.release()
+
+    def _connected(self, call: _Call) -> TCPROSTransport:
+        uri = self._looked_up(call)
+        host, port = parse_rosrpc_uri(uri)
+        settle_keepalive(self._current_master())
+        transport = service_transport(self.protocol, self.resolved_name)
+        call.transport = transport
+        connected = False
+        try:
+            transport.connect(host, port, uri)
+            connected = True
+        except TransportInitError as error:
+            raise rospy.ServiceException(f"unable to connect to service: {error}") from error
+        finally:
+            if not connected:
+                transport.close()
+        if call.error is not None:
+            transport.close()
+            raise call.error
+        return transport
+
+    def _looked_up(self, call: _Call) -> str:
+        master = self._current_master()
+        try:
+            with RecordedLookup():
+                uri = master.lookup_service(self.resolved_name, timeout=call.left())
+        except MasterUnreachable as error:
+            raise rospy.ServiceException("unable to contact master") from error
+        except MasterSilent as error:
+            raise call.too_late(f"the master at {master.uri} does not answer") from error
+        if call.error is not None:
+            raise call.error
+        if uri is None:
+            raise rospy.ServiceException(f"service [{self.resolved_name}] unavailable")
+        self.uri = uri
+        return uri
+
+    def _exchanged(self, transport: TCPROSTransport, request: Message) -> Message:
+        """Send and receive; the errors are those of rospy.ServiceProxy.call."""
+        self.seq += 1
+        transport.send_message(request, self.seq)
+        try:
+            responses = transport.receive_once()
+        except TransportException as error:
+            if rospy.core.is_shutdown():
+                text = "node shutdown interrupted service call"
+                raise rospy.exceptions.ROSInterruptException(text) from error
+            raise rospy.ServiceException(f"transport error completing service call: {error}") from error
+        if not responses:
+            raise rospy.ServiceException(f"service [{self.resolved_name}] returned no response")
+        return responses[0]
+
+    def _current_master(self) -> MasterClient:
+        if self._master.uri != master_uri():
+            self._master = MasterClient(master_uri())
+        return self._master
+
+
+class _Call:
+    """One call under way: its deadline, its transport once there is one, and why it was broken off."""
+
+    def __init__(self, name: str, timeout: float) -> None:
+        self.deadline = time.monotonic() + timeout
+        self.over = False
+        self.actions: list[int] = []
+        self.transport: TCPROSTransport | None = None
+        self.error: GraphError | None = None
+        self._name = name
+        self._timeout = timeout
+
+    def left(self) -> float:
+        """Return how many s are left, at least 0.001."""
+        return max(self.deadline - time.monotonic(), 0.001)
+
+    def too_late(self, why: str) -> CallTimeout:
+        """Return the error for a deadline that has passed, with a reason."""
+        return CallTimeout(f"service [{self._name}]: no answer within {self._timeout:g} s; {why}.")
+
+    def expire(self) -> None:
+        """Break the call off because its deadline has passed."""
+        self._break_off(self.too_late(self._waiting_for()))
+
+    def cancel(self) -> None:
+        """Break the call off because its caller cancelled it."""
+        text = "the call was cancelled; the server may still work on it."
+        self._break_off(CallCancelled(f"service [{self._name}]: {text}"))
+
+    def _waiting_for(self) -> str:
+        if self.transport is None or not self.transport.socket:
+            return "it was not even reached"
+        if self.transport.md5sum is None:
+            return "the server takes connections and does not speak: stopped, or busy with another one"
+        return "its handler is still working, waits for something itself, or ended without an answer"
+
+    def _break_off(self, error: GraphError) -> None:
+        if self.over:
+            return
+        self.error = self.error or error
+        sock = self.transport.socket if self.transport else None
+        if sock is not None:
+            with suppress(OSError):  # not connected yet: the watchdog comes again
+                sock.shutdown(socket.SHUT_RDWR)
+
+
+def settle_keepalive(master: MasterClient) -> None:
+    """Ask the master for the parameter that rospy asks for at its first connection without a time limit."""
+    if getattr(tcpros_base, KEEPALIVE, True) is None:
+        setattr(tcpros_base, KEEPALIVE, master.get_param("/tcp_keepalive", True))
+
+
+def _hung_up(transport: TCPROSTransport) -> bool:
+    """Return whether the other end of an idle connection is gone; it never sends anything else then."""
+    sock = transport.socket
+    if sock is None:
+        return True
+    try:
+        sock.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+    return True

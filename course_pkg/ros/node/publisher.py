@@ -1,0 +1,112 @@
+"""A publisher that counts its messages, so that a cell can see which were sent, and which were dropped."""
+
+from __future__ import annotations
+
+import threading
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+import rospy
+
+from course_pkg.errors import PublisherStopped, TooFewSubscribers
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.trace.deliveries import Deliveries, Delivery
+from course_pkg.waiting import wait_until
+
+if TYPE_CHECKING:
+    from course_pkg.types import MessageClass
+
+
+class Publisher:
+    """A publisher; `published` counts its messages, `unheard` those sent while no subscriber was connected.
+
+    With `latch` the last message is sent to each subscriber that connects later. Up to `queue_size` messages
+    wait for each subscriber; 0 sets no limit.
+    """
+
+    def __init__(self, topic: str, cls: MessageClass, *, queue_size: int = 10, latch: bool = False) -> None:
+        self.name = str(rospy.resolve_name(topic))
+        self.type = cls._type
+        self.queue_size = queue_size
+        self.latch = latch
+        self.published = 0
+        self.unheard = 0
+        self._cls = cls
+        self._lock = threading.Lock()
+        self._publisher: rospy.Publisher | None = None
+        self._deliveries: list[Deliveries] = []
+        self._advertise()
+
+    def publish(self, *args: object, **fields: object) -> None:
+        """Publish a message: whole, by position, or by field. Raises PublisherStopped after stop()."""
+        with self._lock:
+            if self._publisher is None:
+                raise PublisherStopped(f"{self.name}: this publisher was stopped. Advertise the topic again.")
+            self._deliveries[-1].update()
+            alone = not self._publisher.get_num_connections()
+            self._publisher.publish(*args, **fields)
+            self.published += 1
+            self.unheard += alone
+
+    @property
+    def advertised(self) -> bool:
+        """Whether it can publish."""
+        return self._publisher is not None
+
+    @property
+    def deliveries(self) -> tuple[Delivery, ...]:
+        """What was sent to each subscriber that is connected, what waits, and what was dropped."""
+        return self._deliveries[-1].current()
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent, counted once for each subscriber."""
+        return sum(each.sent for each in self._deliveries)
+
+    @property
+    def dropped(self) -> int:
+        """How many messages were dropped from full queues, counted once for each subscriber."""
+        return sum(each.dropped for each in self._deliveries)
+
+    def wait(self, count: int = 1, timeout: float = 5.0) -> None:
+        """Return as soon as `count` subscribers are connected.
+
+        Raises TooFewSubscribers when there are fewer after `timeout` s.
+        """
+        if not wait_until(lambda: len(self.deliveries) >= count, timeout, 0.005):
+            raise TooFewSubscribers(
+                f"{self.name}: {len(self.deliveries)} of {count} subscribers connected within {timeout:g} s. "
+                f"Does somebody subscribe to it, and to {self.type}? See `rostopic info {self.name}`."
+            )
+
+    def stop(self, *, unregister: bool = True) -> None:
+        """Stop publishing, and unregister the topic; the counts stay. A second stop changes nothing.
+
+        Raises MasterUnreachable or MasterSilent where rospy would wait for ever; even then nothing more is
+        published.
+        """
+        with self._lock:
+            publisher, self._publisher = self._publisher, None
+        if publisher is not None and unregister:
+            MasterClient(master_uri()).pid()
+            publisher.unregister()
+
+    def renew(self) -> None:
+        """Advertise again after a restart of rospy, unless it was stopped."""
+        if self._publisher is not None:
+            self._advertise()
+
+    def __enter__(self) -> Publisher:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.name} of type {self.type}, {'published' if self._publisher else 'stopped'}>"
+
+    def _advertise(self) -> None:
+        self._publisher = rospy.Publisher(self.name, self._cls, queue_size=self.queue_size, latch=self.latch)
+        self._deliveries.append(Deliveries(self._publisher))

@@ -1,0 +1,170 @@
+"""A service of this kernel's node, which a cell may define again and again."""
+
+from __future__ import annotations
+
+import logging
+import time
+import traceback
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import rospy
+from rospy.impl.registration import get_service_manager
+from rospy.impl.tcpros_service import ServiceImpl, convert_return_to_response
+
+from course_pkg.ros.node.handler_output import HandlerOutput, Printed
+from course_pkg.ros.node.type_lookup import Message
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+
+if TYPE_CHECKING:
+    from course_pkg.types import ServiceClass
+
+Handler = Callable[[Message], Message]
+CAPACITY = 1000  # calls
+
+
+@dataclass(frozen=True)
+class HandledCall:
+    """One call as its server saw it: `time` in s since the epoch, a response or an error message."""
+
+    time: float
+    request: Message
+    response: Message = None
+    error: str = ""
+    traceback: str = ""
+
+
+class Service:
+    """A service of this kernel. `calls` holds the last 1000; `output` is what the handler printed."""
+
+    def __init__(self, name: str, cls: ServiceClass, handler: Handler, output: HandlerOutput) -> None:
+        self.handler = handler
+        self.calls: deque[HandledCall] = deque(maxlen=CAPACITY)
+        self._printed = Printed()
+        self._output = output
+        self._impl = ServiceImpl(name, cls, self._answer, error_handler=self._failed)
+        self._active = True
+
+    @property
+    def name(self) -> str:
+        """The full name of the service."""
+        return str(self._impl.resolved_name)
+
+    @property
+    def type(self) -> str:
+        """The name of its type."""
+        return str(self._impl.service_class._type)
+
+    @property
+    def uri(self) -> str:
+        """Where it is served, rosrpc://HOST:PORT."""
+        return str(self._impl.uri)
+
+    @property
+    def errors(self) -> list[HandledCall]:
+        """The stored calls that ended in an error, with tracebacks."""
+        return [call for call in self.calls if call.error]
+
+    @property
+    def output(self) -> str:
+        """The end of what the handler has printed."""
+        return self._printed.text
+
+    @property
+    def stopped(self) -> bool:
+        """Whether another service, or none, has this name now."""
+        return get_service_manager().get_service(self.name) is not self._impl
+
+    def start(self, master: MasterClient) -> None:
+        """Take the name over from another service of this process, and register it.
+
+        It is registered from here and not by rospy, which would try for ever when the master is gone.
+        """
+        manager = get_service_manager()
+        with manager.lock:
+            before = manager.map.get(self.name)
+            manager.map[self.name] = self._impl
+        try:
+            master.register_service(rospy.get_name(), self.name, self.uri, rospy.get_node_uri())
+        except BaseException:
+            with manager.lock:
+                manager.map.pop(self.name)
+                if before is not None:
+                    manager.map[self.name] = before
+            raise
+        if before is not None:
+            self._replace(before)
+
+    def stop(self, *, unregister: bool = True) -> None:
+        """End the service and unregister it; a second stop changes nothing."""
+        self._active = False
+        manager = get_service_manager()
+        with manager.lock:
+            if self.stopped:
+                return
+            del manager.map[self.name]
+        if unregister:
+            MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self.uri)
+
+    def renew(self, master: MasterClient) -> None:
+        """Serve again after a restart of rospy, unless it was stopped."""
+        if self._active:
+            cls = self._impl.service_class
+            self._impl = ServiceImpl(self.name, cls, self._answer, error_handler=self._failed)
+            self.start(master)
+
+    def __enter__(self) -> Service:
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        self.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.name} of type {self.type}, {'stopped' if self.stopped else 'served'}>"
+
+    def _replace(self, before: ServiceImpl) -> None:
+        """Answer the clients that keep a connection to the predecessor as this service answers.
+
+        The predecessor's address is made invalid: its own shutdown() would unregister what is registered
+        there, and that is this service.
+        """
+        before.uri = "rosrpc://replaced:0"
+        same = before.service_class._md5sum == self._impl.service_class._md5sum
+        before.handler = self._answer if same else self._replaced
+
+    def _replaced(self, _request: Message) -> Message:
+        raise rospy.ServiceException(f"{self.name} is of type {self.type} now: connect to it again")
+
+    def _answer(self, request: Message) -> Message:
+        """Return the handler's response, or raise what rospy turns into an error message."""
+        started = time.time()
+        try:
+            with self._output.into(self._printed):
+                response = convert_return_to_response(self.handler(request), self._impl.response_class)
+        except rospy.ServiceException as error:
+            self._store(started, request, f"service cannot process request: {error}")
+            raise
+        except Exception as error:
+            self._store(started, request, f"error processing request: {error}")
+            raise
+        except BaseException as error:
+            # rospy sends no answer for any of these, and the client would wait for ever.
+            message = f"handler ended with {type(error).__name__}: {error}"
+            self._store(started, request, f"service cannot process request: {message}")
+            raise rospy.ServiceException(message) from error
+        self.calls.append(HandledCall(started, request, response))
+        return response
+
+    def _store(self, started: float, request: Message, message: str) -> None:
+        self.calls.append(HandledCall(started, request, None, message, traceback.format_exc()))
+
+    def _failed(self, error: Exception, *_: object) -> None:
+        """Log an error that rospy reports; one that the handler raised is stored already."""
+        logging.getLogger("rospy.course").error("%s: %s", self.name, error, exc_info=error)
+        last = self.calls[-1] if self.calls else None
+        if last is not None and last.response is not None:
+            # The response was of the right type and could not be packed: a field holds a wrong value.
+            message, trace = f"error processing request: {error}", "".join(traceback.format_exception(error))
+            self.calls[-1] = HandledCall(last.time, last.request, None, message, trace)

@@ -1,0 +1,69 @@
+"""The generated classes that rospy needs, from what a caller gave: a class, a type of `types`, or a name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard, Union
+
+import genpy
+
+from course_pkg.errors import NotAMessageType, NotAServiceType
+
+if TYPE_CHECKING:
+    from course_pkg.types import MessageClass, MessageType, ServiceClass, ServiceType
+
+Message: TypeAlias = Any  # an instance of a generated class: genmsg declares no types for its fields
+ServiceKind = Union[type, "ServiceClass", "ServiceType", str]
+MessageKind = Union[type, "MessageClass", "MessageType", str]
+
+
+def service_class(kind: ServiceKind) -> ServiceClass:
+    """Return the service class for a class, a ServiceType or a name such as "std_srvs/Trigger".
+
+    Raises UnknownType for a name that is not known here, and NotAServiceType for anything else.
+    """
+    if isinstance(kind, str):
+        from course_pkg.types import service_type
+
+        kind = service_type(kind)
+    cls = getattr(kind, "cls", kind)
+    if not _is_service(cls):
+        raise NotAServiceType(_not_a_service(cls))
+    return cls
+
+
+def message_class(kind: MessageKind) -> MessageClass:
+    """Return the message class for a class, a MessageType or a name such as "std_msgs/UInt32".
+
+    Raises UnknownType for a name that is not known here, and NotAMessageType for anything else.
+    """
+    if isinstance(kind, str):
+        from course_pkg.types import message_type
+
+        kind = message_type(kind)
+    cls = getattr(kind, "cls", kind)
+    if not _is_message(cls):
+        raise NotAMessageType(f"{_name(cls)} is not a message type. Give a class like std_msgs.msg.UInt32.")
+    return cls
+
+
+def _is_service(cls: object) -> TypeGuard[ServiceClass]:
+    return hasattr(cls, "_request_class")
+
+
+def _is_message(cls: object) -> TypeGuard[MessageClass]:
+    return isinstance(cls, type) and issubclass(cls, genpy.Message)
+
+
+def _not_a_service(cls: object) -> str:
+    name = _name(cls)
+    for half in ("Request", "Response"):
+        if name.endswith(half) and hasattr(cls, "_type"):
+            whole = name.removesuffix(half)
+            return f"{name} is the {half.lower()} of a service type. Give the type itself: {whole}."
+    if isinstance(cls, genpy.Message) or hasattr(cls, "_slot_types"):
+        return f"{name} is a message type, for topics. A service needs one like std_srvs.srv.Trigger."
+    return f"{name} is not a service type. Give a class like std_srvs.srv.Trigger, from a package's srv."
+
+
+def _name(cls: object) -> str:
+    return cls.__name__ if isinstance(cls, type) else f"{cls!r} ({type(cls).__name__})"

@@ -1,0 +1,1 @@
+"""What plain rospy needs in a notebook: cells that run again, programs of the terminal, readable errors."""

@@ -1,0 +1,140 @@
+"""`%rosrun` and `%roslaunch`: programs that a cell starts with the commands of a terminal."""
+
+from __future__ import annotations
+
+import difflib
+import shlex
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from course_pkg.errors import UnknownExecutable
+from course_pkg.ros.notebook.cells import Cells
+from course_pkg.ros.process.executables import package_folder
+from course_pkg.ros.process.node_process import NodeProcess
+
+if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
+
+ROSRUN = "usage: %rosrun PACKAGE PROGRAM [ARGUMENTS]"
+ROSLAUNCH = "usage: %roslaunch PACKAGE FILE [NAME:=VALUE ...], or %roslaunch PATH [NAME:=VALUE ...]"
+SUFFIX = ".launch"
+CORE = "--core"  # a master without a launch file, as roscore starts it
+
+Keep = Callable[[NodeProcess], None]
+
+
+class Program:
+    """A program that runs beside the notebook. It ends when its cell runs again, and with the kernel."""
+
+    def __init__(self, words: str, process: NodeProcess) -> None:
+        self._words = words
+        self._process = process
+
+    @property
+    def output(self) -> str:
+        """What the program has printed so far, to stdout and to stderr."""
+        return self._process.output()
+
+    @property
+    def running(self) -> bool:
+        """Whether the program runs."""
+        return self._process.running
+
+    @property
+    def status(self) -> int | None:
+        """The exit status, negative for a signal, or None while the program runs."""
+        return self._process.returncode
+
+    def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
+        """Wait until the program ends, or until it prints `line` or serves `service`, if one is given.
+
+        Returns the exit status, None while the program runs. Raises NodeFailed, with the end of the output,
+        when `timeout` s have passed, or when the program ends without having done what is awaited.
+        """
+        if line:
+            self._process.wait_for_output(line, timeout)
+        if service:
+            self._process.wait_for_service(service, timeout)
+        if not line and not service:
+            self._process.wait(timeout)
+        return self.status
+
+    def stop(self) -> None:
+        """End the program as Ctrl-C does, by force if it does not end; a second stop changes nothing."""
+        self._process.stop()
+
+    def __repr__(self) -> str:
+        state = "running" if self.running else f"ended with exit status {self.status}"
+        return f"<{self._words}: {state}>"
+
+
+class ProgramMagics:
+    """Gives `shell` the two magics. `keep` gets each process that they start."""
+
+    def __init__(self, shell: InteractiveShell, cells: Cells, keep: Keep) -> None:
+        self._cells = cells
+        self._keep = keep
+        shell.magics_manager.register_function(self._rosrun, "line", "rosrun")
+        shell.magics_manager.register_function(self._roslaunch, "line", "roslaunch")
+
+    def _rosrun(self, line: str) -> Program:
+        """Start a program of a package, as rosrun does in a terminal, and return its handle."""
+        words = _words(line)
+        if len(words) < 2:
+            raise _usage(ROSRUN)
+        return self._started("rosrun", words, partial(NodeProcess.rosrun, *words))
+
+    def _roslaunch(self, line: str) -> Program:
+        """Start a launch file, or a master, as roslaunch does in a terminal, and return the handle."""
+        words = _words(line)
+        if CORE not in words:
+            _require_launchable(words)
+        return self._started("roslaunch", words, partial(NodeProcess, ["roslaunch", *words]))
+
+    def _started(self, command: str, words: list[str], start: Callable[[], NodeProcess]) -> Program:
+        process = start()
+        self._keep(process)
+        program = Program(shlex.join([command, *words]), process)
+        self._cells.created(program, program.stop)
+        return program
+
+
+def _words(line: str) -> list[str]:
+    """Return the parts of a command, without a `&` at the end: no magic waits for the program anyway."""
+    words = shlex.split(line)
+    return words[:-1] if words[-1:] == ["&"] else words
+
+
+def _usage(text: str) -> Exception:
+    from IPython.core.error import UsageError
+
+    return UsageError(text)
+
+
+def _require_launchable(words: list[str]) -> None:
+    """Raise UsageError or UnknownExecutable if the words name no launch file that exists."""
+    if not words or (len(words) < 2 and not words[0].endswith(SUFFIX)):
+        raise _usage(ROSLAUNCH)
+    if words[0].endswith(SUFFIX):
+        _require_file(Path(words[0]))
+    else:
+        _require_launch_file(*words[:2])
+
+
+def _require_file(path: Path) -> None:
+    if not path.is_file():
+        raise UnknownExecutable(f"There is no launch file {str(path)!r} in {Path.cwd()}.")
+
+
+def _require_launch_file(package: str, name: str) -> None:
+    """Raise UnknownExecutable, which names similar files, if roslaunch would not find the file."""
+    folder = package_folder(package)
+    places = [folder, folder / "launch"]
+    if any((place / name).is_file() for place in places) or any(folder.rglob(name)):
+        return
+    others = sorted({path.name for place in places for path in place.glob(f"*{SUFFIX}")})
+    alike = difflib.get_close_matches(name, others, n=1)
+    hint = f" Did you mean {alike[0]!r}?" if alike else f" It has: {', '.join(others)}." if others else ""
+    raise UnknownExecutable(f"Package {package!r} has no launch file {name!r}.{hint}")

@@ -1,0 +1,1 @@
+"""Processes: start, supervise and end them, so that nothing is left behind."""

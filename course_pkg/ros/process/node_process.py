@@ -1,0 +1,154 @@
+"""Nodes that run as processes of their own and end with this one."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import weakref
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from types import TracebackType
+
+from course_pkg.errors import GraphError, NodeFailed
+from course_pkg.ros.process.executables import find_executable
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.protocol.probe import ask_all, service_probe
+from course_pkg.ros.protocol.registrations import registered_at, withdraw
+from course_pkg.ros.protocol.xmlrpc import port_of
+from course_pkg.waiting import wait_until
+
+TAIL = 2000  # characters of output in an error message
+INTERVAL = 0.05  # s between polls; each costs milliseconds, also for the master
+GRACE = 3.0  # s for a node to end after SIGINT; rospy takes 0.6 s
+
+
+class NodeProcess:
+    """A command that runs one or more nodes; it ends with this process, at the latest.
+
+    What it prints goes to a file of its own, which vanishes with this object: see output().
+    """
+
+    def __init__(self, command: Sequence[str], *, label: str = "") -> None:
+        self.command = tuple(command)
+        self.label = label or os.path.basename(command[0])
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as this object
+        weakref.finalize(self, self._output.close)
+        environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+        self._process = SupervisedProcess(self.command, output=self._output, env=environment)
+        self.pid = self._process.pid
+
+    @classmethod
+    def rosrun(cls, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
+        """Run a package's node, as rosrun does; `name` renames it. Raises UnknownExecutable."""
+        program = find_executable(package, executable)
+        renamed = [f"__name:={name}"] if name else []
+        return cls([str(program), *map(str, args), *renamed], label=name or f"{package}/{executable}")
+
+    @classmethod
+    def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
+        """Run a launch file, `args` as name:=value; all its nodes end with it."""
+        return cls(["roslaunch", package, file, *args], label=f"{package}/{file}")
+
+    @property
+    def returncode(self) -> int | None:
+        """The exit status, negative for a signal, or None while it runs."""
+        return self._process.returncode
+
+    @property
+    def running(self) -> bool:
+        """Whether it runs."""
+        return self.returncode is None
+
+    def listening_ports(self) -> frozenset[int]:
+        """Return the TCP ports on which it and its descendants listen."""
+        return self._process.listening_ports()
+
+    def output(self) -> str:
+        """Return what it has printed so far, both to stdout and to stderr."""
+        file = self._output.fileno()
+        return os.pread(file, os.fstat(file).st_size, 0).decode("utf-8", "replace")
+
+    def wait_for_service(self, name: str, timeout: float = 30.0) -> None:
+        """Return as soon as this process serves `name` and answers there.
+
+        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        """
+        full, master = "/" + name.lstrip("/"), MasterClient(master_uri())
+        self._wait_until(
+            lambda: self._serves(master, full), timeout, f"never served {full}", f"does not serve {full}"
+        )
+
+    def wait_for_output(self, text: str, timeout: float = 30.0) -> None:
+        """Return as soon as it has printed `text`.
+
+        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        """
+        self._wait_until(
+            lambda: text in self.output(), timeout, f"never printed {text!r}", f"has not printed {text!r}"
+        )
+
+    def wait(self, timeout: float = 10.0) -> int:
+        """Return the exit status once it has ended by itself; raises NodeFailed after `timeout` s."""
+        self._process.wait(timeout)
+        status = self.returncode
+        if status is None:
+            raise self._failed(f"still runs after {timeout:g} s")
+        return status
+
+    def interrupt(self) -> None:
+        """Interrupt it, as Ctrl-C does, and do not wait."""
+        self._process.signal(signal.SIGCONT)
+        self._process.signal(signal.SIGINT)
+
+    def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
+        """End it, by force after `grace` s, and return when it and its registrations are gone."""
+        if not self.running:
+            return
+        registered = registered_at(self._process.listening_ports()) if unregister else []
+        self._process.end(grace)
+        if registered:  # one that was killed could not withdraw them itself
+            with suppress(GraphError):
+                withdraw(MasterClient(master_uri()), registered)
+
+    def kill(self) -> None:
+        """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, stale."""
+        self._process.signal(signal.SIGKILL)
+        self._process.wait(GRACE)
+
+    def __enter__(self) -> NodeProcess:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def __repr__(self) -> str:
+        return f"<{self.label}, {'running' if self.running else 'ended'}>"
+
+    def _serves(self, master: MasterClient, name: str) -> bool:
+        """Return whether this process answers, and not another one that is still registered for the name."""
+        uri = master.lookup_service(name)
+        if uri is None or port_of(uri) not in self._process.listening_ports():
+            return False
+        probe = service_probe(name, uri)
+        ask_all([probe], timeout=1.0)
+        return probe.answered
+
+    def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
+        def settled() -> str:
+            ended = not self.running  # before the condition, which the last thing that it does may fulfil
+            return "met" if condition() else "ended" if ended else ""
+
+        outcome = wait_until(settled, timeout, INTERVAL)
+        if outcome == "ended":
+            raise self._failed(f"ended with exit status {self.returncode}, and {never}")
+        if outcome != "met":
+            raise self._failed(f"runs, and {not_yet} after {timeout:g} s")
+
+    def _failed(self, what: str) -> NodeFailed:
+        tail = self.output()[-TAIL:].strip()
+        printed = f"The end of what it printed:\n{tail}" if tail else "It printed nothing."
+        return NodeFailed(f"{self.label} {what}. {printed}", tail, self.returncode)

@@ -1,0 +1,112 @@
+"""What `roscore` starts: a master, its parameters, and the node /rosout."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import uuid
+from pathlib import Path
+
+from course_pkg.errors import NodeFailed, SetupError
+from course_pkg.ros.process.master import OTHER_ADDRESSES, PrivateMaster, local_environment
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.protocol.master_api import MasterClient
+from course_pkg.waiting import wait_until
+
+ROSOUT = "/rosout"  # the node and its topic
+READY = 15.0  # s; it takes 0.05 s, and many times that on a machine that is busy
+INTERVAL = 0.005  # s between polls
+VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
+
+
+class Roscore(PrivateMaster):
+    """A private master as `roscore` starts it, for a graph that a student looks at.
+
+    Beside the master it runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. A
+    graph that only a program looks at needs a PrivateMaster alone, which starts sooner and is one process.
+    """
+
+    def __init__(self, port: int | None = None) -> None:
+        super().__init__(port)
+        self._rosout: SupervisedProcess | None = None
+
+    def start(self) -> Roscore:
+        """Start the master and /rosout, and wait until both are registered.
+
+        Raises what PrivateMaster.start() raises, SetupError where the package rosout is missing, and
+        NodeFailed when /rosout does not start.
+        """
+        super().start()
+        try:
+            self._start_rosout()
+        except BaseException:
+            self.stop()
+            raise
+        return self
+
+    def stop(self) -> None:
+        """End /rosout and the master; a second stop changes nothing."""
+        rosout, self._rosout = self._rosout, None
+        if rosout is not None:
+            rosout.end(grace=0)  # its registrations end with the master
+        super().stop()
+
+    def _start_rosout(self) -> None:
+        client = MasterClient(self.uri)
+        prefix = _prefix()
+        for name, value in _parameters(prefix).items():
+            client.set_param(name, value)
+        program = prefix / "lib" / "rosout" / "rosout"
+        if not program.is_file():
+            raise SetupError(f"There is no {program}. Run `./course doctor`: it says what is missing.")
+        environment = {**local_environment(), "ROS_MASTER_URI": self.uri, "ROS_LOG_DIR": str(self.logs)}
+        rosout = self._rosout = SupervisedProcess([str(program), "__name:=rosout"], env=environment)
+
+        def settled() -> str:
+            ended = rosout.returncode is not None
+            return "met" if _receives(client) else "ended" if ended else ""
+
+        if wait_until(settled, READY, INTERVAL) != "met":
+            raise NodeFailed(
+                f"The node {ROSOUT} was started and is not on the graph after {READY:g} s, or it has ended.",
+                "",
+                rosout.returncode,
+            )
+
+
+def find_or_start_master() -> Roscore | MasterClient:
+    """Return the master that ROS_MASTER_URI names, once it has answered, or a new private one.
+
+    The private one's address is put into ROS_MASTER_URI, for rospy and for the processes started from here.
+    """
+    if given := os.environ.get("ROS_MASTER_URI"):
+        client = MasterClient(given)
+        client.pid()
+        return client
+    master = Roscore().start()
+    for name in OTHER_ADDRESSES:
+        os.environ.pop(name, None)
+    os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
+    return master
+
+
+def _prefix() -> Path:
+    """Return the folder in which ROS is installed, such as /usr or /opt/ros/noetic."""
+    return Path(shutil.which("rosmaster") or "/usr/bin/rosmaster").parents[1]
+
+
+def _parameters(prefix: Path) -> dict[str, str]:
+    """Return the parameters as roscore sets them: the first two are the output of `rosversion`."""
+    package = prefix / "share" / "roslaunch" / "package.xml"
+    version = VERSION.search(package.read_text("utf-8")) if package.is_file() else None
+    return {
+        "/rosdistro": f"{os.environ.get('ROS_DISTRO', 'unknown')}\n",
+        "/rosversion": f"{version[1] if version else 'unknown'}\n",
+        "/run_id": str(uuid.uuid1()),
+    }
+
+
+def _receives(client: MasterClient) -> bool:
+    """Return whether /rosout subscribes to the log messages, which it does after all else."""
+    return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

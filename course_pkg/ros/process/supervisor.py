@@ -1,0 +1,233 @@
+"""The process between an owner and a command: it ends the command when the owner is gone.
+
+Run as a script by `supervised.py`, on the bare interpreter: it starts in 20 ms because it imports little, and
+nothing of the course or its libraries until there is something to clean up. So it reads /proc itself: psutil
+alone takes longer to import than all of this to start.
+usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import select
+import signal
+import sys
+import time
+from contextlib import suppress
+
+PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
+FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)  # what a terminal sends to all of its group
+FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+# What this program, or Python itself, does not leave as a command expects to find it.
+CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
+GRACE = 2.0  # s between asking descendants to end and killing them
+COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+INTERVAL = 200  # ms between looks at the parent where the system has no pidfd
+
+
+class Supervisor:
+    """One command, or none, below one owner."""
+
+    def __init__(self, owner: int, report: int, command: list[str], *, foreground: bool = False) -> None:
+        self.owner = owner
+        self.status: int | None = None
+        self.urgent = False
+        self._poll, self._pidfd = select.poll(), _pidfd(owner)
+        self._signalled, wakeup = os.pipe()
+        for end in (self._signalled, wakeup):
+            os.set_blocking(end, False)
+            os.set_inheritable(end, False)
+        signal.set_wakeup_fd(wakeup, warn_on_full_buffer=False)
+        self._poll.register(self._signalled, select.POLLIN)
+        if self._pidfd is not None:
+            self._poll.register(self._pidfd, select.POLLIN)
+        _prctl(PR_SET_CHILD_SUBREAPER, 1)
+        for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
+            signal.signal(number, self._handle)
+        for number in FROM_TERMINAL if foreground else ():
+            signal.signal(number, signal.SIG_IGN)  # the terminal has sent it to the command as well
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # the owner may hold some back
+        os.set_inheritable(report, False)
+        self.child = self._start(command, report) if command else None
+        os.close(report)
+
+    def run(self) -> int:
+        """Return the command's exit status once it has ended, or 0 once the owner has."""
+        while self.owner_lives() and self.status is None and not self.urgent:
+            self._wait(None if self._pidfd is not None else INTERVAL)
+            self._reap()
+        ports = self._end_descendants()
+        if ports and not self.urgent and "ROS_MASTER_URI" in os.environ:
+            _withdraw_registered(ports)
+        return self.status or 0
+
+    def owner_lives(self) -> bool:
+        """Return whether the owner, which is the parent of this process, still lives."""
+        return os.getppid() == self.owner
+
+    def _start(self, command: list[str], report: int) -> int:
+        failed, fail = os.pipe()  # closes by itself when the command is running
+        child = os.fork()
+        if child == 0:
+            _become(command, fail)
+        os.close(fail)
+        with os.fdopen(failed, "rb") as reader:
+            reason = reader.read()
+        os.write(report, reason or str(child).encode())
+        return child
+
+    def _handle(self, number: int, _frame: object) -> None:
+        if number == signal.SIGUSR1:
+            self.urgent = True
+        elif number in FORWARDED and self.child and self.status is None:
+            os.kill(self.child, number)
+
+    def _wait(self, milliseconds: float | None) -> None:
+        self._poll.poll(milliseconds)
+        with suppress(BlockingIOError):
+            os.read(self._signalled, 512)
+
+    def _reap(self) -> bool:
+        """Collect the children that have ended, and return whether any is left."""
+        while True:
+            try:
+                pid, status = os.waitpid(-1, os.WNOHANG)
+            except ChildProcessError:
+                return False
+            if pid == 0:
+                return True
+            if pid == self.child:
+                self.status = status
+
+    def _end_descendants(self) -> frozenset[int]:
+        """Ask all descendants to end, and kill those that do not; orphans become children of this process.
+
+        Return the ports on which those listened that were killed.
+        """
+        ports: frozenset[int] = frozenset()
+        deadline = time.monotonic() + (0 if self.urgent else GRACE)
+        if self._reap() and not self.urgent:
+            _signal_all((signal.SIGCONT, signal.SIGTERM), self.child)
+        if self._pidfd is not None and not self.owner_lives():
+            self._poll.unregister(self._pidfd)
+            self._pidfd = None
+        while self._reap():
+            if time.monotonic() >= deadline or self.urgent:
+                if not self.urgent:
+                    ports |= _listening_ports()
+                _signal_all((signal.SIGKILL,), self.child)
+            self._wait(20)
+        return ports
+
+
+def _pidfd(pid: int) -> int | None:
+    try:
+        return os.pidfd_open(pid)
+    except (AttributeError, OSError):
+        return None
+
+
+def _prctl(option: int, value: int) -> None:
+    """Set an option of this process on Linux; elsewhere this program only looks at its parent."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+
+
+def _become(command: list[str], fail: int) -> None:
+    _prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    try:
+        for number in CHANGED:
+            signal.signal(number, signal.SIG_DFL)
+        signal.set_wakeup_fd(-1)
+        os.execvp(command[0], command)  # noqa: S606 -- no shell is what is wanted
+    except OSError as error:
+        os.write(fail, (error.strerror or str(error)).encode())
+    finally:
+        os._exit(127)
+
+
+def _signal_all(numbers: tuple[int, ...], child: int | None) -> None:
+    for pid in descendants(os.getpid()) or ([child] if child else []):
+        for number in numbers:
+            with suppress(ProcessLookupError, PermissionError):
+                os.kill(pid, number)
+
+
+def descendants(root: int) -> list[int]:
+    """Return the processes below `root`, parents before their children; empty where there is no /proc."""
+    children: dict[int, list[int]] = {}
+    for entry in os.listdir("/proc") if os.path.isdir("/proc") else []:
+        if entry.isdigit():
+            try:
+                with open(f"/proc/{entry}/stat", "rb") as stat:
+                    parent = int(stat.read().rpartition(b")")[2].split()[1])  # the name may hold brackets
+            except OSError:
+                continue
+            children.setdefault(parent, []).append(int(entry))
+    found, todo = [], [root]
+    while todo:
+        below = children.get(todo.pop(0), [])
+        found += below
+        todo += below
+    return found
+
+
+def _import_libraries() -> None:
+    """Have the course and its libraries found by `import`, as the bare interpreter does not."""
+    import site
+
+    site.main()
+    sys.path.insert(0, COURSE)
+
+
+def _listening_ports() -> frozenset[int]:
+    with suppress(ImportError):  # the checkout is gone
+        _import_libraries()
+        from course_pkg.ros.process.supervised import listening_ports
+
+        return listening_ports(os.getpid())
+    return frozenset()
+
+
+def _withdraw_registered(ports: frozenset[int]) -> None:
+    """Withdraw what was registered at these ports by nodes that were killed."""
+    with suppress(ImportError):
+        from course_pkg.errors import GraphError
+        from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+        from course_pkg.ros.protocol.registrations import registered_at, withdraw
+
+        with suppress(GraphError):
+            withdraw(MasterClient(master_uri()), registered_at(ports))
+
+
+def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
+    """Withdraw what the owner's node has registered, and delete the folder; "" stands for none."""
+    if master_uri:
+        with suppress(ImportError):
+            sys.path.insert(0, COURSE)
+            from course_pkg.errors import GraphError
+            from course_pkg.ros.protocol.master_api import MasterClient
+            from course_pkg.ros.protocol.registrations import withdraw_node
+
+            with suppress(GraphError):  # the master is gone, too
+                withdraw_node(MasterClient(master_uri), node, node_uri)
+    if folder:
+        import shutil
+
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def main(argv: list[str]) -> int:
+    """Run the command until it or the owner ends, then clean up."""
+    owner, report, foreground, *cleaning = argv[1:8]
+    supervisor = Supervisor(int(owner), int(report), argv[8:], foreground=bool(foreground))
+    status = supervisor.run()
+    if not supervisor.owner_lives() or supervisor.child:
+        _clean_up(*cleaning)
+    return os.waitstatus_to_exitcode(status) if status >= 0 else 0
+
+
+if __name__ == "__main__":
+    code = main(sys.argv)
+    os._exit(128 - code if code < 0 else code)

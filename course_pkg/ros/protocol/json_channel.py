@@ -1,0 +1,106 @@
+"""JSON objects over a stream socket, both ways: one object a line, in UTF-8, bounded in size and in time."""
+
+from __future__ import annotations
+
+import json
+import select
+import socket
+import threading
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import TypeAlias
+
+from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
+from course_pkg.waiting import Deadline
+
+Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
+LIMIT = 1 << 26  # bytes of a line, unless a channel has a limit of its own
+CHUNK = 65536  # bytes read or written at once
+
+
+class JsonChannel:
+    """One end of a connection. One thread may send while another receives."""
+
+    def __init__(self, sock: socket.socket, limit: int = LIMIT) -> None:
+        self._socket = sock
+        self._limit = limit
+        self._received = bytearray()
+        self._searched = 0  # bytes of _received that hold no end of a line
+        self._sending = threading.Lock()
+
+    def fileno(self) -> int:
+        """Return the socket's descriptor, so that it can be polled."""
+        return self._socket.fileno()
+
+    def send(self, message: Mapping[str, object], timeout: float | None = None) -> None:
+        """Send one object, and wait at most `timeout` s for the other end to read what it was sent before.
+
+        Raises ChannelBroken for a message that is too long, ChannelClosed when the other end is gone, and
+        ChannelTimeout; after a timeout, part of the line may have been sent, so close the channel.
+        """
+        line = memoryview(json.dumps(message).encode() + b"\n")
+        if len(line) > self._limit:
+            raise ChannelBroken(f"a message of {len(line)} bytes is longer than {self._limit}")
+        deadline = Deadline(timeout)
+        with self._sending:
+            while line:
+                try:
+                    sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
+                except BlockingIOError:  # only now: poll waits until most of a Unix socket's buffer is free
+                    self._wait_for(select.POLLOUT, deadline)
+                    continue
+                except OSError as error:
+                    raise ChannelClosed(f"the other end is gone: {error}") from error
+                line = line[sent:]
+
+    def receive(self, timeout: float | None = None) -> dict[str, Json]:
+        """Return the next object, waiting at most `timeout` s for the whole line.
+
+        Raises ChannelTimeout, ChannelClosed when the other end is gone, and ChannelBroken for a line that is
+        too long or that is not a JSON object.
+        """
+        deadline = Deadline(timeout)
+        while (end := self._received.find(b"\n", self._searched)) < 0:
+            self._searched = len(self._received)
+            if self._searched > self._limit:
+                raise ChannelBroken(f"a line is longer than {self._limit} bytes")
+            self._wait_for(select.POLLIN, deadline)
+            self._received += self._chunk()
+        line = bytes(self._received[:end])
+        del self._received[: end + 1]
+        self._searched = 0
+        return _parsed(line)
+
+    def close(self) -> None:
+        """Close this end. The other end notices it, and so does a thread that receives here."""
+        with suppress(OSError):  # the other end has closed it already
+            self._socket.shutdown(socket.SHUT_RDWR)
+        self._socket.close()
+
+    def _wait_for(self, event: int, deadline: Deadline) -> None:
+        poll = select.poll()
+        try:
+            poll.register(self._socket, event)
+        except ValueError as error:
+            raise ChannelClosed("this end of the connection is closed") from error
+        if not poll.poll(deadline.milliseconds):
+            raise ChannelTimeout(f"no answer within {deadline.seconds:g} s")
+
+    def _chunk(self) -> bytes:
+        try:
+            chunk = self._socket.recv(CHUNK)
+        except OSError as error:
+            raise ChannelClosed(f"the other end is gone: {error}") from error
+        if not chunk:
+            raise ChannelClosed("the other end closed the connection")
+        return chunk
+
+
+def _parsed(line: bytes) -> dict[str, Json]:
+    try:
+        message = json.loads(line)
+    except (ValueError, RecursionError) as error:
+        raise ChannelBroken(f"a line is not JSON: {line[:80]!r}") from error
+    if not isinstance(message, dict):
+        raise ChannelBroken(f"a line is not a JSON object: {line[:80]!r}")
+    return message

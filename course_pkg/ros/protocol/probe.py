@@ -1,0 +1,161 @@
+"""Asking many sockets one thing each, all at the same time, in bounded time and on one thread."""
+
+from __future__ import annotations
+
+import selectors
+import socket
+import struct
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+from rosgraph.network import (
+    ROSHandshakeException,
+    decode_ros_handshake_header,
+    encode_ros_handshake_header,
+)
+
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, decode, encode, items, port_of
+
+END = b"</methodResponse>"  # of an XML-RPC answer
+HTTP_HEAD = "POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {}\r\n\r\n"
+
+
+class Reach(Enum):
+    """How far a probe came."""
+
+    ANSWERED = "answered"
+    REFUSED = "refused"  # no process listens there: the node is dead
+    SILENT = "silent"  # a process listens and does not answer: it is stopped, or busy
+    LOST = "lost"  # no route to the host, or it closed the connection before its answer was complete
+
+
+@dataclass
+class Probe:
+    """One request to one address; `complete` tells whether the bytes so far are the whole answer."""
+
+    address: tuple[str, int]
+    request: bytes
+    complete: Callable[[bytes], bool]
+    answer: bytes = b""
+    reach: Reach = field(default=Reach.SILENT)
+
+    @property
+    def answered(self) -> bool:
+        """Whether a whole answer came."""
+        return self.reach is Reach.ANSWERED
+
+
+def ask_all(probes: Sequence[Probe], timeout: float) -> None:
+    """Set the answer and the reach of all probes; return when all are settled, or after `timeout` s."""
+    deadline = time.monotonic() + timeout
+    resolved = {host: _resolved(host) for host in {probe.address[0] for probe in probes}}
+    with selectors.DefaultSelector() as selector:
+        for probe in probes:
+            _begin(probe, resolved[probe.address[0]], selector)
+        try:
+            while selector.get_map() and (rest := deadline - time.monotonic()) > 0:
+                for key, _ in selector.select(rest):
+                    _go_on(key, selector)
+        finally:
+            for key in list(selector.get_map().values()):
+                _end(key, selector)
+
+
+def service_probe(name: str, uri: str) -> Probe:
+    """Return a probe that asks a server for the type of a service, as rospy.wait_for_service() does."""
+    header = {"probe": "1", "md5sum": "*", "callerid": "/course", "service": name}
+    return Probe(_address(uri), encode_header(header), _whole_header)
+
+
+def node_probe(uri: str) -> Probe:
+    """Return a probe that shows whether a node answers; getPid of the slave API."""
+    return rpc_probe(uri, "getPid")
+
+
+def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
+    """Return a probe that calls a method of a node; http://wiki.ros.org/ROS/Slave_API."""
+    body = encode(method, "/course", *args)
+    request = HTTP_HEAD.format(len(body)).encode() + body
+    return Probe(_address(uri), request, lambda answer: END in answer[-2 * len(END) :])
+
+
+def rpc_answer(probe: Probe) -> RpcValue:
+    """Return the value that a node has answered, or None where it has not, or does not have the method."""
+    if not probe.answered:
+        return None
+    try:
+        code, _, value = items(decode(probe.answer.partition(b"\r\n\r\n")[2]))
+    except NO_ANSWER:
+        return None
+    return value if code == 1 else None
+
+
+def encode_header(fields: dict[str, str]) -> bytes:
+    """Return a connection header with its length; http://wiki.ros.org/ROS/Connection Header."""
+    header: bytes = encode_ros_handshake_header(fields)
+    return header
+
+
+def header_fields(answer: bytes) -> dict[str, str]:
+    """Return the fields of the connection header at the start of `answer`; none where there is no header."""
+    try:
+        fields: dict[str, str] = decode_ros_handshake_header(answer)
+    except (ROSHandshakeException, struct.error, UnicodeDecodeError):
+        return {}
+    return fields
+
+
+def _whole_header(answer: bytes) -> bool:
+    return len(answer) >= 4 and len(answer) >= 4 + struct.unpack("<I", answer[:4])[0]
+
+
+def _address(uri: str) -> tuple[str, int]:
+    return uri.rpartition("://")[2].rstrip("/").rpartition(":")[0], port_of(uri)
+
+
+def _resolved(host: str) -> str | None:
+    try:
+        return socket.gethostbyname(host)
+    except OSError:
+        return None
+
+
+def _begin(probe: Probe, host: str | None, selector: selectors.BaseSelector) -> None:
+    if host is None:
+        probe.reach = Reach.LOST
+        return
+    sock = socket.socket()
+    sock.setblocking(False)
+    sock.connect_ex((host, probe.address[1]))
+    selector.register(sock, selectors.EVENT_WRITE, probe)
+
+
+def _go_on(key: selectors.SelectorKey, selector: selectors.BaseSelector) -> None:
+    probe, sock = key.data, key.fileobj
+    assert isinstance(sock, socket.socket)
+    try:
+        if key.events == selectors.EVENT_WRITE:
+            sock.sendall(probe.request)
+            selector.modify(sock, selectors.EVENT_READ, probe)
+            return
+        part = sock.recv(65536)
+        probe.answer += part
+        if probe.complete(probe.answer):
+            probe.reach = Reach.ANSWERED
+        elif part:
+            return
+        else:
+            probe.reach = Reach.LOST
+    except ConnectionRefusedError:
+        probe.reach = Reach.REFUSED
+    except OSError:
+        probe.reach = Reach.LOST
+    _end(key, selector)
+
+
+def _end(key: selectors.SelectorKey, selector: selectors.BaseSelector) -> None:
+    selector.unregister(key.fileobj)
+    assert isinstance(key.fileobj, socket.socket)
+    key.fileobj.close()

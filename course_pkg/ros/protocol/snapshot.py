@@ -1,0 +1,118 @@
+"""The graph at one moment: its nodes, topics and services."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING
+
+from course_pkg.ros.protocol.master_api import MasterClient, SystemState, master_uri
+from course_pkg.ros.protocol.probe import Probe, Reach, ask_all, header_fields, node_probe, service_probe
+
+if TYPE_CHECKING:
+    from course_pkg.types import Plain
+
+TIMEOUT = 0.5  # s for a node to answer; on one machine it takes a few milliseconds
+
+
+@dataclass(frozen=True, order=True)
+class NodeSeen:
+    """A registered node; `reach` is "answered", "refused" (gone), "silent" (stopped or busy) or "lost"."""
+
+    name: str
+    uri: str
+    reach: str
+
+    @property
+    def reachable(self) -> bool:
+        """Whether it answers."""
+        return self.reach == Reach.ANSWERED.value
+
+
+@dataclass(frozen=True, order=True)
+class TopicSeen:
+    """A topic; `type` is "" as long as no node has registered it with a type."""
+
+    name: str
+    type: str
+    publishers: tuple[str, ...]
+    subscribers: tuple[str, ...]
+
+
+@dataclass(frozen=True, order=True)
+class ServiceSeen:
+    """A service; `type` is "" when its server does not answer, `node` is its server."""
+
+    name: str
+    type: str
+    node: str
+    uri: str
+    reach: str
+
+    @property
+    def reachable(self) -> bool:
+        """Whether its server answers."""
+        return self.reach == Reach.ANSWERED.value
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """All nodes, topics and services, sorted by name. Two equal snapshots show the same graph."""
+
+    master: str
+    nodes: tuple[NodeSeen, ...]
+    topics: tuple[TopicSeen, ...]
+    services: tuple[ServiceSeen, ...]
+
+    def service(self, name: str) -> ServiceSeen | None:
+        """Return the service of this name, or None."""
+        return next((service for service in self.services if service.name == name), None)
+
+    def node(self, name: str) -> NodeSeen | None:
+        """Return the node of this name, or None."""
+        return next((node for node in self.nodes if node.name == name), None)
+
+    def as_dict(self) -> dict[str, Plain]:
+        """Return it as plain data, for JSON."""
+        return asdict(self)
+
+
+def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
+    """Return the graph of the master at `uri`, by default that of ROS_MASTER_URI.
+
+    Each request to the master takes at most `timeout` s, asking all nodes at most 0.5 s more.
+    Raises MasterUnreachable, MasterSilent, MalformedMasterUri, NotAMaster.
+    """
+    master = MasterClient(uri or master_uri(), timeout)
+    state, types = master.system_state(), master.topic_types()
+    node_uris, service_uris = master.lookup_all(state.nodes, state.services)
+    node_timeout = min(timeout, TIMEOUT)
+    services = {name: service_probe(name, uri) for name, uri in service_uris.items()}
+    ask_all(list(services.values()), node_timeout)
+    seen = tuple(_service(name, state, service_uris, probe) for name, probe in services.items())
+    nodes = _nodes(node_uris, seen, node_timeout)
+    return Snapshot(master.uri, nodes, _topics(state, types), tuple(sorted(seen)))
+
+
+def _service(name: str, state: SystemState, uris: dict[str, str], probe: Probe) -> ServiceSeen:
+    kind = header_fields(probe.answer).get("type", "") if probe.answered else ""
+    return ServiceSeen(name, kind, state.services[name][0], uris[name], probe.reach.value)
+
+
+def _nodes(uris: dict[str, str], services: Iterable[ServiceSeen], timeout: float) -> tuple[NodeSeen, ...]:
+    """Return all nodes; one that has answered for a service is not asked again."""
+    answered = {service.node for service in services if service.reachable}
+    probes = {name: node_probe(uri) for name, uri in uris.items() if name not in answered}
+    ask_all(list(probes.values()), timeout)
+    reaches = {name: probe.reach for name, probe in probes.items()}
+    return tuple(
+        NodeSeen(name, uri, reaches.get(name, Reach.ANSWERED).value) for name, uri in sorted(uris.items())
+    )
+
+
+def _topics(state: SystemState, types: dict[str, str]) -> tuple[TopicSeen, ...]:
+    names = sorted({*state.publishers, *state.subscribers})
+    return tuple(
+        TopicSeen(name, types.get(name, ""), state.publishers.get(name, ()), state.subscribers.get(name, ()))
+        for name in names
+    )

@@ -1,0 +1,80 @@
+"""The paths of the numbers in a message: `data`, `pose.position.x`, `position[0]`."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+
+import genpy
+
+from course_pkg.ros.node.type_lookup import Message
+from course_pkg.types import Field, Kind, MessageType
+
+ELEMENTS = 8  # of an array, at most, whose paths are listed
+MOST = 200  # numbers of a message; arrays of arrays may hold thousands
+
+_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # the most probable measurement first
+# Parts of messages that describe a measurement, and are none: who measured when, and the sensor's limits.
+_HEADER = "std_msgs/Header"
+_SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
+
+
+def numbers(message: MessageType) -> list[str]:
+    """Return the paths of all numbers in a message; of an array, those of its first elements."""
+    return [path for path, _ in _first_numbers(message)]
+
+
+def measurement(message: MessageType) -> str:
+    """Return the path of the first number that carries a measurement, "" for a message without numbers.
+
+    The first float counts that is in no std_msgs/Header and is no setting of the sensor, such as `range_min`;
+    then the first integer of that kind, then the first bool. A message that has none of them, such as a
+    header, gives its first number.
+    """
+    measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
+    by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]
+    return next(iter(by_kind or numbers(message)), "")
+
+
+def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
+    """Return a function that reads the number at a path from a message's bytes; NaN where there is none.
+
+    Raises ValueError for a path that the type does not have.
+    """
+    if path not in numbers(message):
+        raise ValueError(f"{message.name} has no number {path!r}")
+    steps = [int(step) if step.isdigit() else step for step in re.findall(r"\w+", path)]
+    cls = message.cls
+
+    def extract(body: bytes) -> float:
+        try:
+            return float(_walk(cls().deserialize(body), steps))
+        except (genpy.DeserializationError, IndexError, TypeError, ValueError):
+            return math.nan
+
+    return extract
+
+
+def _walk(value: Message, steps: Sequence[int | str]) -> Message:
+    for step in steps:
+        value = value[step] if isinstance(step, int) else getattr(value, step)
+    return value
+
+
+def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
+    """Yield path and kind of the first MOST numbers, and of none in a message of the type `without`."""
+    every = (found for field in message.fields for found in _paths(field, field.name, without))
+    return islice(every, MOST)
+
+
+def _paths(field: Field, path: str, without: str) -> Iterator[tuple[str, Kind]]:
+    if field.kind in _NUMBERS:
+        yield path, field.kind
+    elif field.kind is Kind.ARRAY and field.item is not None:
+        for index in range(min(ELEMENTS, ELEMENTS if field.length is None else field.length)):
+            yield from _paths(field.item, f"{path}[{index}]", without)
+    elif field.kind is Kind.MESSAGE and field.type != without:
+        for each in field.fields:
+            yield from _paths(each, f"{path}.{each.name}", without)

@@ -1,0 +1,84 @@
+"""A subscription to a topic of any type: counted and timed, the last messages stored as bytes.
+
+rospy deserialises a message only where its values are shown, so that a fast topic costs little.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import rospy
+
+from course_pkg.ros.node.type_lookup import Message
+from course_pkg.ros.topic.reports import Source
+from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
+
+CAPACITY = 10  # messages
+LONGEST = 16_384  # bytes of a message that is stored
+
+Extract = Callable[[bytes], float]
+
+
+@dataclass(frozen=True)
+class ReceivedMessage:
+    """A message: `number` since the beginning, `at` (s of time.monotonic()), its publisher, and its bytes.
+
+    `body` is empty for one that is too long to be stored; `size` is its length in bytes.
+    """
+
+    number: int
+    at: float
+    peer: str
+    type: str
+    md5: str
+    size: int
+    body: bytes
+
+
+class TopicSubscription:
+    """Receives the messages of `topic`."""
+
+    def __init__(self, topic: str) -> None:
+        self.count = 0
+        self.rate = RateStatistics()
+        self.series = DownsampledSeries()
+        self._extract: Extract | None = None
+        self._md5 = ""
+        self._lock = threading.Lock()
+        self._received: deque[ReceivedMessage] = deque(maxlen=CAPACITY)
+        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, tcp_nodelay=True)
+
+    def plot(self, md5: str, extract: Extract | None) -> None:
+        """Start a new series of what `extract` finds in messages of the type with this MD5 sum."""
+        self._md5, self._extract, self.series = md5, extract, DownsampledSeries()
+
+    def new_messages(self) -> list[ReceivedMessage]:
+        """Return the last messages since the previous call, at most 10, oldest first."""
+        with self._lock:
+            received = list(self._received)
+            self._received.clear()
+        return received
+
+    def sources(self) -> list[Source]:
+        """Return the publishers that are connected."""
+        connections = self._subscriber.impl.connections
+        return [
+            Source(node=str(each.callerid_pub), type=str(each.type), md5=str(each.md5sum))
+            for each in connections
+        ]
+
+    def _receive(self, message: Message) -> None:
+        at = time.monotonic()
+        body, header = message._buff, message._connection_header
+        self.rate.beat(at)
+        with self._lock:
+            self.count += 1
+            about = header["callerid"], header["type"], header["md5sum"], len(body)
+            stored = body if len(body) <= LONGEST else b""
+            self._received.append(ReceivedMessage(self.count, at, *about, stored))
+        if self._extract and header["md5sum"] == self._md5:
+            self.series.add(at, self._extract(body))

@@ -1,0 +1,113 @@
+"""The owner's side of a topic process: it starts the process, sends commands, and receives reports."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import TypeAlias
+
+import course_pkg
+from course_pkg.errors import ChannelClosed, GraphError
+from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.protocol.json_channel import Json, JsonChannel
+from course_pkg.ros.protocol.master_api import master_uri
+from course_pkg.ros.protocol.registrations import remove_stale
+from course_pkg.types import Plain
+
+Report: TypeAlias = dict[str, Json]
+
+TAIL = 600  # characters of what it printed, in an error message
+GRACE = 6.0  # s to shut down: a slow machine may only just be importing rospy
+# A busy master may register what a killed node sent only after its death. So it is withdrawn repeatedly.
+PAUSES = (0.0, 0.5, 2.0)  # s before each attempt
+
+
+class TopicProcess:
+    """A separate node on `topic`, which ends with end(), and with this process at the latest.
+
+    `reported` is called with each report, `lost` with a message when the node ends without end(). Both get
+    this object, too, and run on a thread. `main.py` lists the commands, `reports.py` the parts of a report.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        reported: Callable[[TopicProcess, Report], None],
+        lost: Callable[[TopicProcess, str], None],
+    ) -> None:
+        self.topic = topic
+        self.master = master_uri()
+        self._reported = reported
+        self._lost = lost
+        self._ended = threading.Event()
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as the process
+        ours, theirs = socket.socketpair()
+        self._channel = JsonChannel(ours)
+        with theirs:
+            command = [sys.executable, "-m", "course_pkg.ros.topic.main", str(theirs.fileno()), topic]
+            self._process = SupervisedProcess(
+                command, output=self._output, env=_environment(), inherit=[theirs.fileno()]
+            )
+        self.pid = self._process.pid
+        threading.Thread(target=self._receive, daemon=True, name="topic-reports").start()
+
+    def tell(self, do: str, **what: Plain) -> None:
+        """Send the command `do`; nothing happens when the process is gone."""
+        with suppress(ChannelClosed):  # _receive() reports it
+            self._channel.send({"do": do, **what})
+
+    def end(self, *, wait: bool = False) -> None:
+        """Have it unregister and end; with `wait`, return when it has."""
+        if not self._ended.is_set():
+            self._ended.set()
+            self._channel.close()
+            ending = threading.Thread(target=self._finish, name="topic-end")
+            ending.start()
+            if wait:
+                ending.join()
+
+    def _receive(self) -> None:
+        try:
+            while True:
+                report = self._channel.receive()
+                if report is not None and not self._ended.is_set():
+                    self._reported(self, report)
+        except ChannelClosed:
+            if not self._ended.is_set():
+                message = f"The panel's node has ended. {self._tail()}"
+                self.end()
+                self._withdraw()
+                self._lost(self, message)
+
+    def _finish(self) -> None:
+        if not self._process.wait(GRACE):
+            self._process.end(0.2)
+            for pause in PAUSES:
+                time.sleep(pause)
+                self._withdraw()
+        self._output.close()
+
+    def _withdraw(self) -> None:
+        """Unregister in the place of a node that was killed."""
+        with suppress(GraphError):
+            remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
+
+    def _tail(self) -> str:
+        descriptor = self._output.fileno()
+        text = os.pread(descriptor, os.fstat(descriptor).st_size, 0).decode("utf-8", "replace").strip()
+        return f"The end of what it printed:\n{text[-TAIL:]}" if text else "It printed nothing."
+
+
+def _environment() -> dict[str, str]:
+    """Return an environment in which it imports the course and the workspace, but no file of the notebook."""
+    here = os.getcwd()
+    course = str(Path(course_pkg.__file__).resolve().parent.parent)
+    path = [entry for entry in sys.path if entry and os.path.abspath(entry) != here] + [course]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(path), "PYTHONSAFEPATH": "1"}

@@ -1,0 +1,167 @@
+"""What happens on the graph: how many messages each connection has carried, and who has called which service.
+
+This needs no subscriber. Every node counts what it sends, and answers the slave API's getBusStats and
+getBusInfo (http://wiki.ros.org/ROS/Slave_API); the course's nodes also count who calls their services.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+from xml.parsers.expat import ExpatError
+from xmlrpc.client import Fault, loads
+
+from course_pkg.ros.protocol.probe import Probe, ask_all, rpc_answer, rpc_probe
+from course_pkg.ros.protocol.snapshot import Snapshot
+from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
+
+TIMEOUT = 0.5  # s
+STATISTICS = "getBusStats"  # the third part of the answer is for services; rospy leaves it empty
+
+Callers = dict[str, tuple["ServiceCaller", ...]]
+INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)  # what an answer of another form raises
+
+
+@dataclass(frozen=True)
+class ServiceCaller:
+    """A node that has called a service since the server started.
+
+    `calls` counts the requests that reached the server, `last` is the time of the latest one (s since the
+    epoch), and `running` counts the requests that a handler works on: while it is not 0, the caller waits.
+    """
+
+    node: str
+    calls: int
+    last: float
+    running: int
+
+
+@dataclass(frozen=True, order=True)
+class Traffic:
+    """A connection of a topic, and how many `messages` it has carried since it was opened."""
+
+    topic: str
+    publisher: str
+    subscriber: str
+    connection: int
+    messages: int
+
+
+@dataclass(frozen=True)
+class Activity:
+    """All counts at one time.
+
+    `at` is a time of time.monotonic() (s). `silent` are the nodes that did not say what they send. `callers`
+    has the services whose servers count their callers, the latest caller first.
+    """
+
+    at: float
+    traffic: tuple[Traffic, ...] = ()
+    silent: frozenset[str] = frozenset()
+    callers: Mapping[str, tuple[ServiceCaller, ...]] = field(default_factory=dict)
+
+
+class ActivityPoller:
+    """Polls the nodes of a graph. It asks only once for what does not change."""
+
+    def __init__(self) -> None:
+        self._peers: dict[str, dict[int, str]] = {}  # by the address of a node: connection -> subscriber
+
+    def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:
+        """Ask all nodes of a snapshot that answer; takes at most `timeout` s, and twice that at first."""
+        uris = {node.name: node.uri for node in snapshot.nodes if node.reachable}
+        probes = {name: callers_probe(uri) for name, uri in uris.items()}
+        ask_all(list(probes.values()), timeout)
+        counts = {name: found for name, probe in probes.items() if (found := _counts(probe)) is not None}
+        self._update_peers(
+            {uris[name]: [each.connection for each in found] for name, found in counts.items()}, timeout
+        )
+        traffic = [
+            Traffic(each.topic, name, peer, each.connection, each.messages)
+            for name, found in counts.items()
+            for each in found
+            if (peer := self._peers[uris[name]].get(each.connection))
+        ]
+        callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
+        # Counts are useless without the subscribers that the connections lead to.
+        known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
+        silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
+        return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
+
+    def _update_peers(self, connections: Mapping[str, Iterable[int]], timeout: float) -> None:
+        """Ask the nodes that have new connections for the subscribers; forget nodes that have ended."""
+        self._peers = {uri: self._peers.get(uri, {}) for uri in connections}
+        new = [uri for uri, numbers in connections.items() if not self._peers[uri].keys() >= set(numbers)]
+        probes = {uri: rpc_probe(uri, "getBusInfo") for uri in new}
+        ask_all(list(probes.values()), timeout)
+        self._peers |= {uri: _subscribers(rpc_answer(probe)) for uri, probe in probes.items()}
+
+
+def callers_probe(uri: str) -> Probe:
+    """Return a probe that asks the node at `uri` for its statistics, for ask_all()."""
+    return rpc_probe(uri, STATISTICS)
+
+
+def answered_callers(probe: Probe) -> Callers:
+    """Return the callers in a node's answer, by service; nothing without an answer."""
+    stats = rpc_answer(probe)
+    if not (isinstance(stats, list) and len(stats) == 3 and isinstance(stats[2], list)):
+        return {}
+    services = map(items, stats[2])
+    return {str(name): tuple(map(_caller, items(callers))) for name, callers in services}
+
+
+def _caller(row: RpcValue) -> ServiceCaller:
+    node, calls, last, running = items(row)
+    return ServiceCaller(str(node), int(number(calls)), number(last), int(number(running)))
+
+
+@dataclass(frozen=True)
+class _Count:
+    topic: str
+    connection: int
+    messages: int
+
+
+def _counts(probe: Probe) -> list[_Count] | None:
+    """Return what a node has sent over each connection, or None if it does not say.
+
+    For a topic, rospy answers [name, bytes, connections], roscpp [name, connections]; for a connection, rospy
+    [id, bytes, messages, connected], roscpp [id, bytes, bytes of messages, messages, connected].
+    """
+    if not probe.answered:
+        return None
+    try:
+        return [
+            _Count(str(topic), int(number), int(messages))
+            for topic, *_, connections in _statistics(probe)[0]
+            for number, *_, messages, _ in connections
+        ]
+    except INVALID:
+        # rospy answers with a fault once a connection has carried 2 GiB: XML-RPC has no greater integers.
+        return None
+
+
+def _callers(probe: Probe) -> Callers:
+    """Return who has called a node's services; nothing if the answer has another form."""
+    try:
+        return answered_callers(probe)
+    except INVALID:
+        return {}
+
+
+def _subscribers(info: RpcValue) -> dict[int, str]:
+    """Return the subscribers of a node's outgoing connections; nothing if the answer has another form."""
+    try:
+        rows = map(items, items(info))
+        return {int(number(row[0])): str(row[1]) for row in rows if row[2] == "o"}
+    except INVALID:
+        return {}
+
+
+def _statistics(probe: Probe) -> Any:  # noqa: ANN401 -- any node may answer with any value
+    """Return the value of an answer; roscpp answers getBusStats with the value only, without a status."""
+    value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
+    return value[2] if value[0] == 1 else value

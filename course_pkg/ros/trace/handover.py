@@ -1,0 +1,81 @@
+"""The hand-over of a node's record when the node ends, so that a recording includes nodes that run briefly.
+
+A node that makes a recording sets a parameter on the master for that time. A node that ends sends its record
+there, by the XML-RPC interface that every node has. A node that is killed cannot do this.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+import rospy
+from rospy.impl.masterslave import ROSHandler
+
+from course_pkg.errors import GraphError
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.protocol.rospy_registrations import registration_manager
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient
+from course_pkg.ros.trace.recorder import recorder
+
+KEEP = "keepCourseRecord"
+PARAMETER = "/course_recorders"
+TIMEOUT = 0.5  # s for each call, so that a node's end is not delayed
+LONGEST = 600.0  # s before its end that a node hands over
+PREPARED = "prepared_for_handover_by_course"  # an attribute of a registration manager whose node hands over
+
+
+def hand_over_at_exit() -> None:
+    """Have this process's node hand its record over when it ends, and accept the records of other nodes."""
+    setattr(ROSHandler, KEEP, _keep)
+    manager = registration_manager()
+    if manager is not None and not getattr(manager, PREPARED, False):
+        setattr(manager, PREPARED, True)
+        # Without the master's address, the node has left the graph before, or its master does not answer.
+        rospy.core.add_shutdown_hook(lambda _reason: hand_over() if manager.master_uri else None)
+
+
+@contextmanager
+def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
+    """Have nodes that end during the block hand their records over to the node at `uri`."""
+    parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
+    own, announced = recorder(), False
+    own.recordings += 1
+    with suppress(GraphError):  # the master may have ended
+        announced = master.set_param(parameter, uri, timeout=TIMEOUT)
+    try:
+        yield
+    finally:
+        own.recordings -= 1
+        if not own.recordings:
+            own.handed_over.clear()
+        if announced:
+            with suppress(GraphError):
+                master.delete_param(parameter, timeout=TIMEOUT)
+
+
+def hand_over() -> None:
+    """Hand this node's record over to all nodes that make a recording."""
+    with suppress(GraphError):
+        recorders = MasterClient(master_uri(), TIMEOUT).get_param(PARAMETER, {})
+        found = recorders.values() if isinstance(recorders, dict) else ()
+        uris = {uri for uri in found if isinstance(uri, str)}
+        for uri in uris - {rospy.get_node_uri()}:
+            _hand_over(uri)
+
+
+def _hand_over(uri: str) -> None:
+    record = json.dumps(recorder().since(time.monotonic() - LONGEST))
+    # The recording node may have ended, and another program may use its port.
+    with suppress(OSError, *NO_ANSWER):
+        XmlRpcClient(uri, TIMEOUT).ask(KEEP, "/course", rospy.get_name(), record)
+
+
+def _keep(_handler: ROSHandler, _caller_id: str, node: str, record: str) -> tuple[int, str, int]:
+    """Accept the record of a node that ends, while there is a recording that it may belong to."""
+    if not recorder().recordings:
+        return 0, "no recording is made here", 0
+    recorder().handed_over.append((str(node), json.loads(record)))
+    return 1, "", 0

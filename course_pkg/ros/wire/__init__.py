@@ -1,0 +1,1 @@
+"""The bytes of real calls, recorded between a client and a server."""

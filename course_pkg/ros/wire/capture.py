@@ -1,0 +1,135 @@
+"""The bytes of a real call, recorded between a client and a server.
+
+The lookup and the connection go through relays (relay.py), which forward every byte. The client is rospy's
+transport.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import genpy
+import rospy
+from rospy.core import parse_rosrpc_uri
+
+from course_pkg.errors import CourseError
+from course_pkg.ros.node.proxy import BoundedProxy, _Call
+from course_pkg.ros.protocol.master_api import MasterClient, master_uri
+from course_pkg.ros.protocol.probe import ask_all, header_fields, service_probe
+from course_pkg.ros.protocol.xmlrpc import address_of
+from course_pkg.ros.wire.relay import Relay, RelayedConnection
+from course_pkg.types import Plain, ServiceClass, ServiceType, service_type
+
+TYPE_TIMEOUT = 2.0  # s for a server to answer with its type
+
+
+@dataclass
+class Wire:
+    """The recorded bytes: the lookup, if there was one, and connections.
+
+    `response` or `error` is the result of the call. `skipped` is the number of connections that were too many
+    to keep.
+    """
+
+    service: str
+    lookup: RelayedConnection | None = None
+    uri: str = ""  # the answer of the master: rosrpc://HOST:PORT
+    connections: Sequence[RelayedConnection] = ()
+    response: genpy.Message | None = None
+    error: str = ""
+    skipped: int = 0
+    kind: ServiceType | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        return f"<the bytes of {self.service}>"
+
+
+def record_call(
+    name: str,
+    kind: str | ServiceType | ServiceClass | None = None,
+    headers: Mapping[str, str] | None = None,
+    fields: Mapping[str, Plain] | None = None,
+    timeout: float = 5.0,
+) -> Wire:
+    """Call a service as rospy does, over a new connection, and return the bytes.
+
+    Without `kind`, the type is that of the server. A call that fails is recorded, too, with its error
+    message. `timeout` is in seconds. Raises FieldError for wrong `fields`, UnknownType for an unknown type.
+    """
+    full = str(rospy.resolve_name(name))
+    found = service_type(kind) if kind is not None else _type_of_server(full)
+    wire = Wire(full, kind=found)
+    if found is None:
+        with _master_relay() as relay:
+            _look_up(full, relay, wire, timeout)
+        wire.error = f"service [{full}] unavailable" if not wire.uri else "the server does not say its type"
+        return wire
+    request = found.request.to_message({**found.request.default(), **(fields or {})})
+    proxy = _Relayed(full, found, wire, headers, timeout)
+    try:
+        wire.response = proxy.call(request)
+    except (rospy.ServiceException, rospy.exceptions.TransportException, CourseError, OSError) as error:
+        wire.error = f"{type(error).__name__}: {error}"
+    finally:
+        proxy.end()
+    return wire
+
+
+class _Relayed(BoundedProxy):
+    """A proxy for one call, whose look-up and connection go through relays."""
+
+    def __init__(
+        self,
+        name: str,
+        kind: ServiceType,
+        wire: Wire,
+        headers: Mapping[str, str] | None,
+        timeout: float,
+    ) -> None:
+        super().__init__(name, kind, headers=dict(headers or {}), timeout=timeout)
+        self._wire = wire
+        self._relay: Relay | None = None
+
+    def _looked_up(self, call: _Call) -> str:
+        with _master_relay() as relay:
+            _look_up(self.resolved_name, relay, self._wire, call.left())
+        if not self._wire.uri:
+            raise rospy.ServiceException(f"service [{self.resolved_name}] unavailable")
+        self.uri = self._wire.uri
+        self._relay = Relay(*parse_rosrpc_uri(self.uri))
+        return f"rosrpc://localhost:{self._relay.port}"
+
+    def end(self) -> None:
+        """Close the connections, and keep their bytes."""
+        self.close()
+        if self._relay is not None:
+            self._relay.wait()
+            self._relay.close()
+            self._wire.connections = self._relay.connections
+
+
+def _master_relay() -> Relay:
+    return Relay(*address_of(master_uri()))
+
+
+def _look_up(name: str, relay: Relay, wire: Wire, timeout: float) -> None:
+    """Ask the master for the service through a relay, as this node."""
+    master = MasterClient(f"http://localhost:{relay.port}", caller=str(rospy.get_name()))
+    try:
+        wire.uri = master.lookup_service(name, timeout) or ""
+    finally:
+        master.close()
+        relay.wait()
+        wire.lookup = next(iter(relay.connections), None)
+
+
+def _type_of_server(name: str) -> ServiceType | None:
+    """Return the type with which the server of `name` answers, or None if none answers."""
+    uri = MasterClient(master_uri()).lookup_service(name)
+    if uri is None:
+        return None
+    probe = service_probe(name, uri)
+    ask_all([probe], TYPE_TIMEOUT)
+    kind = header_fields(probe.answer).get("type") if probe.answered else None
+    return service_type(kind) if kind else None

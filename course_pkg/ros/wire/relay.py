@@ -1,0 +1,169 @@
+"""A relay for TCP connections that keeps the bytes, to show the bytes of a real call.
+
+The relay is between a client and a server. It changes nothing and knows no protocol.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from types import TracebackType
+
+MOST = 4 << 20  # bytes that are kept of each direction of a connection; more are only forwarded and counted
+CONNECTIONS = 50  # connections that are kept; more are only forwarded and counted
+CONNECT_TIMEOUT = 5.0  # s
+CLOSE_TIMEOUT = 2.0  # s for open connections to end
+CHUNK = 65536  # bytes that are forwarded at a time
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """Bytes that arrived together, at a time of time.monotonic(), from the client or from the server."""
+
+    at: float
+    from_client: bool
+    data: bytes
+
+
+@dataclass
+class RelayedConnection:
+    """One connection and its bytes, in the order in which they arrived."""
+
+    opened: float  # a time of time.monotonic()
+    chunks: list[Chunk] = field(default_factory=list)
+    closed_by: str = ""  # "client" or "server", the first to close; empty while it is open
+    refused: str = ""  # why the server could not be reached
+    lost: int = 0  # bytes that were forwarded and not kept
+
+    def data(self, *, from_client: bool) -> bytes:
+        """Return all bytes of one direction that were kept."""
+        return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
+
+    def since(self, offset: int, *, from_client: bool) -> float:
+        """Return when the byte at `offset` of one direction arrived, in s since the connection was opened."""
+        count = 0
+        for chunk in self.chunks:
+            if chunk.from_client is from_client:
+                count += len(chunk.data)
+                if count > offset:
+                    return chunk.at - self.opened
+        return (self.chunks[-1].at - self.opened) if self.chunks else 0.0
+
+
+class Relay:
+    """Listens on a new `port` and forwards each connection to the target, until it is closed."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self.target = (host, port)
+        self.skipped = 0  # connections that were forwarded and not kept
+        self._connections: list[RelayedConnection] = []
+        self._open: set[socket.socket] = set()
+        self._threads: list[threading.Thread] = []
+        self._lock = threading.Lock()
+        self._closed = False
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.port = int(self._listener.getsockname()[1])
+        self._start(self._accept)
+
+    @property
+    def connections(self) -> Sequence[RelayedConnection]:
+        """The connections so far, in the order in which they were opened."""
+        return tuple(self._connections)
+
+    def wait(self, timeout: float = CLOSE_TIMEOUT) -> None:
+        """Wait until the open connections have ended, at most `timeout` s."""
+        deadline = time.monotonic() + timeout
+        for thread in self._threads[1:]:
+            thread.join(max(deadline - time.monotonic(), 0))
+
+    def close(self) -> None:
+        """Close the port and every connection; a second close changes nothing."""
+        with self._lock:
+            self._closed = True
+            for sock in [self._listener, *self._open]:
+                with suppress(OSError):  # closed already
+                    sock.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
+        deadline = time.monotonic() + CLOSE_TIMEOUT
+        for thread in self._threads:
+            thread.join(max(deadline - time.monotonic(), 0))
+
+    def __enter__(self) -> Relay:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _start(self, work: Callable[..., None], *args: object) -> None:
+        thread = threading.Thread(target=work, args=args, daemon=True)
+        self._threads = [each for each in self._threads if each.is_alive() or each.ident is None]
+        self._threads.append(thread)
+        thread.start()
+
+    def _accept(self) -> None:
+        with suppress(OSError):  # the listener was closed
+            while True:
+                client, _ = self._listener.accept()
+                connection = RelayedConnection(time.monotonic())
+                if len(self._connections) < CONNECTIONS:
+                    self._connections.append(connection)
+                else:
+                    self.skipped += 1
+                self._start(self._forward, client, connection)
+
+    def _forward(self, client: socket.socket, connection: RelayedConnection) -> None:
+        with client:
+            try:
+                server = socket.create_connection(self.target, CONNECT_TIMEOUT)
+            except OSError as error:
+                connection.refused = error.strerror or str(error)
+                return
+            with server:
+                server.settimeout(None)
+                for sock in (client, server):
+                    sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                if self._remember(client, server):
+                    self._forward_both(client, server, connection)
+
+    def _remember(self, *socks: socket.socket) -> bool:
+        """Note sockets that close() has to close; return False if it was called before."""
+        with self._lock:
+            if not self._closed:
+                self._open.update(socks)
+            return not self._closed
+
+    def _forward_both(
+        self, client: socket.socket, server: socket.socket, connection: RelayedConnection
+    ) -> None:
+        back = threading.Thread(target=_copy, args=(server, client, False, connection), daemon=True)
+        back.start()
+        try:
+            _copy(client, server, True, connection)
+            back.join()
+        finally:
+            with self._lock:
+                self._open -= {client, server}
+
+
+def _copy(
+    source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
+) -> None:
+    """Forward the bytes from one side, and the end of the stream."""
+    kept = 0
+    with suppress(OSError):  # a reset connection, or one closed by close(), ends like any other
+        while data := source.recv(CHUNK):
+            kept += len(data)
+            if kept <= MOST:
+                connection.chunks.append(Chunk(time.monotonic(), from_client, data))
+            else:
+                connection.lost += len(data)
+            sink.sendall(data)
+    connection.closed_by = connection.closed_by or ("client" if from_client else "server")
+    with suppress(OSError):
+        sink.shutdown(socket.SHUT_WR)

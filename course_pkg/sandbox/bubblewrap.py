@@ -1,0 +1,168 @@
+"""The outer sandbox: what bubblewrap shows of the machine to everything that a submission starts.
+
+bubblewrap (https://github.com/containers/bubblewrap) builds the view of the file system. If root starts it,
+the command runs as an unprivileged user in the sandbox; if another user starts it, it needs user namespaces.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from course_pkg.errors import SandboxUnavailable
+from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
+from course_pkg.setup import PACKAGE_PARTS, Places, environment
+
+NOBODY = 65534  # uid and gid that own nothing; the command runs as this user if root starts it
+READABLE = (
+    "/usr",
+    "/etc/alternatives",
+    "/etc/catkin",
+    "/etc/ld.so.cache",
+    "/etc/ros",
+    "/etc/fonts",
+    "/etc/ssl/openssl.cnf",
+)
+LINKS = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+FROM_CHECKOUT = (*PACKAGE_PARTS, "pyproject.toml")
+INVENTED = {
+    "/etc/passwd": "root:x:0:0::/:/bin/false\nstudent:x:1000:1000::/student:/bin/bash\n",
+    "/etc/group": "root:x:0:\nstudent:x:1000:\n",
+    "/etc/hosts": "127.0.0.1 localhost\n",
+    "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
+}
+WRITABLE = 512 << 20  # bytes that the trusted processes may write
+AS_ROOT = (  # an uncovered /proc, which the inner sandboxes need to mount their own; then no privileges
+    "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
+    '--bounding-set=-all --no-new-privs -- "$0" "$@"'
+)
+
+
+def refusal() -> str:
+    """Return why this machine has no sandbox, and what to do about it; an empty string if it has one."""
+    if sys.platform != "linux" or not (found := shutil.which("bwrap")):
+        return (
+            "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
+        )
+    tried = subprocess.run(
+        sandbox_command([sys.executable, "-m", "course_pkg.sandbox.self_test"]),
+        env={},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    if tried.returncode == 0:
+        return ""
+    reason = (tried.stderr.strip().splitlines() or ["it gave no reason"])[-1]
+    return f"{found} cannot build a sandbox on this machine: {reason}."
+
+
+def require_sandbox() -> None:
+    """Raise SandboxUnavailable if this machine has no sandbox."""
+    if reason := refusal():
+        raise SandboxUnavailable(
+            f"{reason} Without a sandbox, students' code runs with your permissions: it can read your files "
+            "and forge grades. Grade on another machine. If you trust every submission, you can add "
+            "--unsafe-no-sandbox."
+        )
+
+
+def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
+    """Return the command that runs `command` in a sandbox; start it with an empty environment.
+
+    The sandbox shows the course and ROS read-only, without solutions and tests, and also the paths
+    `readable`.
+    """
+    root = os.geteuid() == 0
+    prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []
+    return [
+        "bwrap",
+        *("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"),
+        *(_root_capabilities() if root else ("--unshare-user", "--proc", "/proc")),
+        *("--new-session", "--die-with-parent", "--clearenv", "--hostname", "classroom"),
+        *("--dev", "/dev"),
+        *_file_system([*_course(), *readable]),
+        *_variables(),
+        *("--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/"),
+        "--",
+        *prepared,
+        *command,
+    ]
+
+
+def _root_capabilities() -> Iterator[str]:
+    """Yield the options with which root can mount /proc and then become nobody.
+
+    bwrap's own /proc is covered in part, so no inner sandbox could mount one.
+    """
+    yield from ("--dir", "/proc")
+    for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
+        yield from ("--cap-add", f"CAP_{capability}")
+
+
+def _file_system(shown: Sequence[Path]) -> Iterator[str]:
+    for folder in MEMORY_FOLDERS:
+        yield from ("--perms", "1777", "--size", str(WRITABLE), "--tmpfs", folder)
+    for link in filter(os.path.islink, LINKS):
+        yield from ("--symlink", os.readlink(link), link)
+    system = [path for path in (*READABLE, *LINKS) if os.path.exists(path) and not os.path.islink(path)]
+    for path in dict.fromkeys([*map(Path, system), *shown]):
+        yield from _shown(path, path)
+    for name, text in INVENTED.items():
+        yield from _shown(_invented(name, text), Path(name))
+    yield from _shadows(shown)
+    for folder in ("/run", "/student"):
+        yield from ("--perms", "0755", "--dir", folder)
+
+
+def _shadows(shown: Sequence[Path]) -> Iterator[str]:
+    """Yield copies of those paths that lie in /tmp or /dev/shm.
+
+    A part mounts folders of its own there, and shows these paths in them again.
+    """
+    inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]
+    for number, path in enumerate(inside):
+        place = Path(SHADOW, str(number))
+        yield from ("--perms", "0755", "--dir", str(place)) if path.is_dir() else _shown(path, place)
+    yield from ("--setenv", SHADOWED, os.pathsep.join(map(str, inside)))
+
+
+def _shown(source: Path, target: Path) -> Iterator[str]:
+    """Yield the options that show `source` at `target`, in folders that every user can read."""
+    for parent in reversed(target.parents[:-1]):
+        yield from ("--perms", "0755", "--dir", str(parent))
+    yield from ("--ro-bind", str(source), str(target))
+
+
+def _course() -> Iterator[Path]:
+    places = Places.of()
+    prefix = Path(sys.base_prefix)
+    yield from (path for name in FROM_CHECKOUT if (path := places.checkout / name).exists())
+    yield from (places.venv, places.workspace)
+    if not prefix.is_relative_to("/usr"):
+        yield prefix
+
+
+def _variables() -> Iterator[str]:
+    """Yield the course's environment, without any variable of the user who grades."""
+    known = environment.merged(Places.of(), {})
+    known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
+    for name, value in known.items():
+        yield from ("--setenv", name, value)
+
+
+def _invented(path: str, text: str) -> Path:
+    """Return a file with `text`; all sandboxes of this checkout share it."""
+    file = Places.of().cache / "sandbox" / Path(path).name
+    if not file.exists() or file.read_text("utf-8") != text:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        draft = file.with_name(f"{file.name}.{os.getpid()}.{threading.get_ident()}")
+        draft.write_text(text, "utf-8")
+        draft.replace(file)
+    return file

@@ -1,0 +1,51 @@
+"""The check runner of one part: a trusted process in the part's network, one fork for each check."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from dataclasses import replace
+from typing import NoReturn
+
+from course_pkg.checking.parts import find
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.checking.runner import record, run_check
+from course_pkg.errors import ChannelError
+from course_pkg.sandbox import namespaces
+from course_pkg.sandbox.command_runner import SplitChannel
+from course_pkg.sandbox.job import PartJob
+
+
+def check_part(
+    job: PartJob,
+    network: int,
+    port: int,
+    client: socket.socket,
+    commands: socket.socket,
+    out: int,
+    *,
+    sandboxed: bool,
+) -> NoReturn:
+    """Run the check of `job` and write its record to the file `out`, as one JSON object."""
+    if sandboxed:
+        namespaces.enter(network, namespaces.NETWORK)
+    os.environ.update(
+        ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost", COURSE_SEED=str(job.seed)
+    )
+    try:
+        report = run_check(SplitChannel(client, commands), only=job.check)
+    except ChannelError as error:
+        report = replace(
+            _undecided(job, f"The kernel gave no valid answer: {error}."), verdict=Verdict.FAILED
+        )
+    except Exception as error:  # noqa: BLE001 -- a submission that breaks the graph earns nothing by it
+        report = _undecided(job, f"The check could not be run ({type(error).__name__}: {error}).")
+    with os.fdopen(out, "w") as file:
+        json.dump(record(report, job.seed), file)
+    os._exit(0)
+
+
+def _undecided(job: PartJob, note: str) -> Report:
+    part = find(job.check)
+    return Report(job.check, Verdict.UNDECIDED, part.goal, 0, part.points, note=note)

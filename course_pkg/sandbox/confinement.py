@@ -1,0 +1,145 @@
+"""What a process gives up before it runs what a student wrote."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NoReturn
+
+from course_pkg.sandbox import namespaces
+
+STUDENT = 1000  # uid and gid, as the student's code sees them
+MEMORY = 1 << 30  # bytes of addresses a process
+CHECK_RUNNER = 2 << 30  # bytes of addresses of a check runner; most of them are stacks of its threads
+TOGETHER = 768 << 20  # bytes of memory that all processes of a part may use
+PROCESSES = 200  # and threads: a launch file of three nodes has about 60
+DISK = 128 << 20  # bytes below /student, and as much below /tmp
+MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
+SHADOW, SHADOWED = (
+    "/run/shown",
+    "COURSE_SHOWN",
+)  # copies of shown paths, and the variable that lists them
+FILES = 20_000
+FILE = 64 << 20  # bytes of one file
+OPEN = 256  # files and sockets, whose buffers no other limit counts
+PROCESSOR = 120  # s
+
+TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: typing in another user's terminal
+# fmt: off
+FORBIDDEN = (
+    "acct", "add_key", "bpf", "chroot", "clock_adjtime", "clock_settime", "delete_module", "fanotify_init",
+    "finit_module", "fsconfig", "fsmount", "fsopen", "fspick", "init_module", "io_uring_enter",
+    "io_uring_register", "io_uring_setup", "kexec_file_load", "kexec_load", "keyctl", "lookup_dcookie",
+    "mbind", "memfd_create", "memfd_secret", "migrate_pages", "mount", "mount_setattr", "move_mount",
+    "move_pages", "name_to_handle_at", "open_by_handle_at", "open_tree", "perf_event_open", "personality",
+    "pidfd_getfd", "pivot_root", "process_vm_readv", "process_vm_writev", "ptrace", "quotactl", "reboot",
+    "request_key", "setns", "settimeofday", "shmget", "swapoff", "swapon", "syslog", "umount2", "unshare",
+    "userfaultfd", "vhangup",
+)
+# fmt: on
+
+
+def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
+    """Run `work` with users, processes and memory folders of its own, and without privileges.
+
+    Call it in a fork of a trusted process that is root of its user namespace. It never returns: when `work`
+    has ended, all processes that it started are ended too. Without `may_write`, /student is read-only.
+    """
+    namespaces.die_with_parent()
+    namespaces.unshare(
+        namespaces.USER
+        | namespaces.MOUNT
+        | namespaces.PROCESS
+        | namespaces.IPC
+        | namespaces.HOSTNAME
+        | namespaces.CGROUP
+    )
+    namespaces.become(STUDENT, STUDENT, outside=(0, 0))
+    _mount_memory_folders()
+    if not may_write:
+        namespaces.make_read_only("/student")
+    if first := os.fork():
+        _wait_and_exit(first)
+    namespaces.die_with_parent()
+    namespaces.mount_processes()
+    if second := os.fork():
+        _reap_until(second)
+    _without_privileges()
+    try:
+        work()
+    finally:
+        os._exit(0)
+
+
+def _mount_memory_folders() -> None:
+    """Mount empty folders for this sandbox only, and show what the outer sandbox shows below them."""
+    shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
+    for path, place in shadows.items():
+        if os.path.isdir(path):
+            namespaces.bind(path, place)
+    for folder in MEMORY_FOLDERS:
+        namespaces.mount_memory(folder, size=DISK, files=FILES)
+    for path, place in shadows.items():
+        os.makedirs(path if os.path.isdir(place) else os.path.dirname(path), exist_ok=True)
+        if not os.path.isdir(place):
+            open(path, "w").close()
+        namespaces.bind(place, path)
+
+
+def shadowed_paths() -> list[str]:
+    """Return the paths below /tmp and /dev/shm that the outer sandbox shows, such as a checkout in /tmp."""
+    return [path for path in os.environ.get(SHADOWED, "").split(os.pathsep) if path]
+
+
+def _without_privileges() -> None:
+    namespaces.limit(
+        AS=MEMORY,
+        NPROC=PROCESSES,
+        FSIZE=FILE,
+        NOFILE=OPEN,
+        CPU=PROCESSOR,
+        CORE=0,
+        MEMLOCK=0,
+        MSGQUEUE=0,
+    )
+    namespaces.give_up_privileges()
+    _filter().load()
+
+
+def write_filter(path: Path) -> None:
+    """Write the filter of system calls to `path`, as a program that bubblewrap loads."""
+    with path.open("wb") as file:
+        _filter().export_bpf(file)
+
+
+def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
+    """Return a filter that refuses calls which no exercise needs and with which sandboxes were broken."""
+    import errno
+
+    import seccomp
+
+    refused = seccomp.ERRNO(errno.EPERM)
+    rules = seccomp.SyscallFilter(seccomp.ALLOW)
+    for call in FORBIDDEN:
+        rules.add_rule(refused, call)
+    users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
+    rules.add_rule(refused, "clone", users)
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read its flags
+    for request in (TIOCSTI, TIOCLINUX):
+        rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
+    return rules
+
+
+def _wait_and_exit(child: int) -> NoReturn:
+    os.waitpid(child, 0)
+    os._exit(0)
+
+
+def _reap_until(child: int) -> NoReturn:
+    """Be the first process of a namespace: reap orphans, and end when `child` has ended."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    while os.wait()[0] != child:
+        pass
+    os._exit(0)

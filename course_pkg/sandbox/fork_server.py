@@ -1,0 +1,45 @@
+"""The process from which submissions are forked: it has imported everything except the checks."""
+
+from __future__ import annotations
+
+import os
+import socket
+from pathlib import Path
+from typing import NoReturn
+
+from course_pkg.checking.parts import secret_paths
+from course_pkg.sandbox import namespaces
+from course_pkg.sandbox.channel import end_all_below, fork, receive, send, share_memory_with_children
+from course_pkg.sandbox.student_process import prepare
+from course_pkg.sandbox.supervisor import supervise
+
+CLEAR_TIMEOUT = 60.0  # s
+
+
+def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoReturn:
+    """Fork a supervisor for each job from `sock`, and report when it and all below it have ended."""
+    namespaces.adopt_orphans()
+    if sandboxed:
+        _hide_checks(private)
+    shell = prepare()
+    share_memory_with_children()
+    try:
+        send(sock, {"ready": True})
+        while True:
+            _, (job_file, messages, commands) = receive(sock)
+            # The supervisor reads the job: all later forks could find what this process once had in memory.
+            pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, sandboxed=sandboxed))  # noqa: B023
+            for descriptor in (job_file, messages, commands):
+                os.close(descriptor)
+            status = os.waitpid(pid, 0)[1]
+            end_all_below(CLEAR_TIMEOUT)  # in a sandbox nothing is left
+            send(sock, {"over": status})
+    except (EOFError, OSError):
+        os._exit(0)
+
+
+def _hide_checks(private: str) -> None:
+    """Cover the checks of all chapters: no process that is forked from here can read them."""
+    namespaces.unshare(namespaces.MOUNT)
+    for path in [*secret_paths(), *([Path(private)] if private else [])]:
+        namespaces.hide(str(path))

@@ -1,0 +1,185 @@
+"""The supervisor of one part: makes its network and folders, starts its processes, and ends them all."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import socket
+import tempfile
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox.channel import descendants, end_all_below, fork, send
+from course_pkg.sandbox.command_runner import run_commands
+from course_pkg.sandbox.job import PartJob, job_from
+from course_pkg.sandbox.student_process import message_writer, run_part
+from course_pkg.waiting import wait_until
+
+if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
+
+MASTER_PORT = 11311
+MASTER_TIMEOUT = 5.0  # s
+CLEAR_TIMEOUT = 5.0  # s
+MEMORY_INTERVAL = 0.1  # s between two looks at the memory
+COUNTED = ("RssAnon:", "RssShmem:")  # proc(5): KiB of its own, and shared without a file
+SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
+TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # how a supervisor ends: its exit status
+
+
+def supervise(
+    job_file: int,
+    shell: InteractiveShell,
+    fork_server: socket.socket,
+    messages: int,
+    commands: int,
+    *,
+    sandboxed: bool,
+) -> NoReturn:
+    """Start the master, the command runner and the student's process; wait until the student's has ended.
+
+    SIGTERM ends it earlier. All of the part's processes end with this one.
+    """
+    namespaces.die_with_parent()
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    namespaces.adopt_orphans()
+    with os.fdopen(job_file, "rb") as file:
+        job = job_from(file.read())
+    folder = _make_folder(sandboxed=sandboxed)
+    port = MASTER_PORT if sandboxed else _free_port()
+    with socket.create_server(("127.0.0.1", 0)) as listener, open("/proc/self/ns/net") as network:
+        _set_environment(folder, port, listener.getsockname()[1])
+        for each in job.files:
+            each.write(Path(folder))
+        _start(lambda: run_master(port))
+        wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
+        student = _start(lambda: _run_student(job, shell, messages, sandboxed=sandboxed))
+        _start(lambda: _run_commands(commands, sandboxed=sandboxed))
+        descriptors = network.fileno(), listener.fileno()
+        send(fork_server, {"supervisor": os.getpid(), "port": port}, descriptors)
+    status = _watch(student)
+    _end_all(folder, sandboxed=sandboxed)
+    os._exit(status)
+
+
+def _make_folder(*, sandboxed: bool) -> str:
+    """Return the part's work folder; in a sandbox, enter a network and a hostname for this part only."""
+    if not sandboxed:
+        return tempfile.mkdtemp(prefix="course-grading-")
+    namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)
+    namespaces.start_loopback()
+    namespaces.mount_memory("/student", size=confinement.DISK, files=confinement.FILES)
+    return "/student"
+
+
+def _set_environment(folder: str, port: int, listener: int) -> None:
+    os.chdir(folder)
+    state = Path(folder, ".course")
+    state.mkdir()
+    state.chmod(0o777)
+    os.environ.update(
+        HOME=folder,
+        ROS_MASTER_URI=f"http://localhost:{port}",
+        ROS_HOSTNAME="localhost",
+        ROS_HOME=str(state),
+        ROS_LOG_DIR=str(state),
+        COURSE_STATE=str(state),
+        COURSE_WORKSPACE=folder,
+        COURSE_CHECK_RUNNER=f"127.0.0.1:{listener}",
+    )
+
+
+def _start(work: Callable[[], None]) -> int:
+    """Fork a process that ends with this one and handles its own signals; return its process id."""
+
+    def run() -> None:
+        namespaces.die_with_parent()
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+        os.dup2(0, 2)
+        work()
+
+    return fork(run)
+
+
+def run_master(port: int) -> None:
+    """Run a master at `port` until this process is ended."""
+    import rosmaster.master
+
+    rosmaster.master.Master(port, num_workers=3).start()
+    signal.pause()
+
+
+def _run_student(job: PartJob, shell: InteractiveShell, messages: int, *, sandboxed: bool) -> None:
+    _close_all_but(messages)
+    _confine(lambda: run_part(job, shell, message_writer(messages)), sandboxed=sandboxed, may_write=True)
+
+
+def _run_commands(commands: int, *, sandboxed: bool) -> None:
+    _close_all_but(commands)
+    sock = socket.socket(fileno=commands)
+    _confine(
+        lambda: run_commands(sock, os.getcwd(), sandboxed=sandboxed), sandboxed=sandboxed, may_write=False
+    )
+
+
+def _confine(work: Callable[[], None], *, sandboxed: bool, may_write: bool) -> None:
+    folder = os.getcwd()
+
+    def run() -> None:
+        os.chdir(folder)  # in a sandbox this path leads to another mount
+        work()
+
+    confinement.run_confined(run, may_write=may_write) if sandboxed else run()
+
+
+def _close_all_but(descriptor: int) -> None:
+    """Close every file but the standard ones and `descriptor`: the sandboxed process would inherit them."""
+    os.closerange(3, descriptor)
+    os.closerange(descriptor + 1, 4096)
+
+
+def _watch(student: int) -> int:
+    """Return why the part is over: the student's process ended, it took too much memory, or SIGTERM came."""
+    while True:
+        came = signal.sigtimedwait(SIGNALS, MEMORY_INTERVAL)
+        if came is not None and came.si_signo == signal.SIGTERM:
+            return ASKED
+        if came is not None and os.waitpid(student, os.WNOHANG)[0]:
+            return STUDENT_ENDED
+        if memory_below(os.getpid()) > confinement.TOGETHER:
+            return TOO_MUCH_MEMORY
+
+
+def memory_below(ancestor: int) -> int:
+    """Return how many bytes the processes below `ancestor` hold."""
+    held = 0
+    for pid in descendants(ancestor):
+        with suppress(OSError):
+            status = Path(f"/proc/{pid}/status").read_text()
+            held += sum(
+                1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(COUNTED)
+            )
+    return held
+
+
+def _end_all(folder: str, *, sandboxed: bool) -> None:
+    """Kill all that is below, wait for it, and remove the folder; a namespace takes its mounts along."""
+    end_all_below(CLEAR_TIMEOUT)
+    if not sandboxed:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port: int = listener.getsockname()[1]
+        return port
+
+
+def _listens(port: int) -> bool:
+    with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1.0):
+        return True
+    return False

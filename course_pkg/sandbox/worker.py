@@ -1,0 +1,217 @@
+"""The trusted process of a sandbox worker: takes one job a line, and answers each with its result, a line.
+
+It is started with two arguments: "sandboxed" if bubblewrap runs it, "unsafe" if nothing does; and the folder
+of an instructor's private parts, or an empty string.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import socket
+import sys
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack, suppress
+from dataclasses import replace
+
+from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor
+from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_memory_with_children
+from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
+
+START_TIMEOUT = 60.0  # s for the fork server to import everything
+PLACE_TIMEOUT = 15.0  # s for a supervisor to start its processes
+END_TIMEOUT = 8.0  # s for a supervisor to end all below it
+KILLED_TIMEOUT = 30.0  # s for the fork server to see that a supervisor was killed
+VERDICT_TIMEOUT = 3.0  # s for a check runner to come to its verdict after the student's process has ended
+CHUNK = 65536  # bytes; also the most that is read of the messages of the student's side
+
+ENDINGS = {
+    supervisor.STUDENT_ENDED: "the process in which the answer ran ended before its check was done",
+    supervisor.TOO_MUCH_MEMORY: "the answer used more memory than an answer may use",
+}
+
+
+def main() -> None:
+    """Serve jobs from stdin until it ends."""
+    namespaces.die_with_parent()
+    sandboxed, private = sys.argv[1] == "sandboxed", sys.argv[2]
+    if sandboxed:
+        namespaces.become_root()
+    ours, theirs = pair()
+    child = fork(lambda: _serve_forks(theirs, ours, private, sandboxed=sandboxed))
+    theirs.close()
+    receive(ours, START_TIMEOUT)
+    _import_checks(private)
+    share_memory_with_children()
+    sys.stdout.write('{"ready": true}\n')
+    sys.stdout.flush()
+    for line in sys.stdin:
+        result = Session(ours, job_from(line), sandboxed=sandboxed).run()
+        sys.stdout.write(result.as_json() + "\n")
+        sys.stdout.flush()
+    end([child])
+
+
+def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, *, sandboxed: bool) -> None:
+    ours.close()
+    namespaces.die_with_parent()
+    fork_server.serve_forks(theirs, private, sandboxed=sandboxed)
+
+
+def _import_checks(private: str) -> None:
+    """Import every check, so that a check runner costs one fork; the fork server was forked before this."""
+    from course_pkg.checking.parts import add_private, every_part
+
+    if private:
+        add_private(private)
+    list(every_part())
+
+
+class Session:
+    """One job, from the start of its supervisor to its end."""
+
+    def __init__(self, fork_server: socket.socket, job: PartJob, *, sandboxed: bool) -> None:
+        self._fork_server = fork_server
+        self._job = job
+        self._sandboxed = sandboxed
+        self._over: int | None = None  # how the supervisor ended
+        self._supervisor = 0
+        self._began = time.monotonic()
+        self._limit = job.limit  # s; at the load of this moment
+
+    def run(self) -> PartResult:
+        """Run the job, and end all that it started.
+
+        Raises TimeoutError when the fork server does not answer; then this worker cannot be used any more.
+        """
+        with ExitStack() as stack:
+            messages, commands = self._begin(stack)
+            record, ending = None, "its processes could not be started"
+            try:
+                network, port, listener = self._placed(stack)
+                record, ending = self._checked(network, port, listener, commands)
+            except TimeoutError:
+                raise  # the next message of the fork server could belong to any job
+            except (EOFError, OSError) as error:
+                ending = f"{ending} ({error})" if str(error) else ending
+            self._end_supervisor()
+            took = time.monotonic() - self._began
+            return PartResult(record, "" if record else ending, _messages_of(messages), took)
+
+    def _begin(self, stack: ExitStack) -> tuple[int, socket.socket]:
+        """Hand the job to the fork server; return the pipe of messages, and our end of the commands."""
+        job_file = os.memfd_create("job")
+        unseeded = replace(self._job, seed=0)  # only the check runner may know which inputs it will draw
+        os.write(job_file, unseeded.as_json().encode())
+        os.lseek(job_file, 0, os.SEEK_SET)
+        reading, writing = os.pipe()
+        ours, theirs = socket.socketpair()
+        send(self._fork_server, {"job": True}, (job_file, writing, theirs.fileno()))
+        for descriptor in (job_file, writing):
+            os.close(descriptor)
+        theirs.close()
+        stack.callback(os.close, reading)
+        return reading, stack.enter_context(ours)
+
+    def _placed(self, stack: ExitStack) -> tuple[int, int, socket.socket]:
+        """Return the part's network, its master's port, and the socket on which the check client calls."""
+        message, descriptors = receive(self._fork_server, PLACE_TIMEOUT)
+        if "over" in message:
+            self._over = int(message["over"])
+            raise EOFError
+        network, listener = descriptors
+        stack.callback(os.close, network)
+        self._supervisor = int(message["supervisor"])
+        return network, int(message["port"]), stack.enter_context(socket.socket(fileno=listener))
+
+    def _checked(
+        self, network: int, port: int, listener: socket.socket, commands: socket.socket
+    ) -> tuple[Record | None, str]:
+        """Wait for the check client, run the check, and return the record, or why there is none."""
+        if listener not in self._wait([listener]):
+            return None, self._reason()
+        client, _ = listener.accept()
+        reading, writing = os.pipe()
+        with client:
+            runner = fork(lambda: self._run_check(network, port, client, commands, writing))
+        os.close(writing)
+        try:
+            ready = bool(self._wait([reading]))
+            if self._over is not None and not ready:
+                ready = bool(select.select([reading], [], [], VERDICT_TIMEOUT)[0])
+            return (
+                (_record(reading), "the check runner ended without a verdict")
+                if ready
+                else (None, self._reason())
+            )
+        finally:
+            end([runner])
+            os.waitpid(runner, 0)
+            os.close(reading)
+
+    def _run_check(
+        self, network: int, port: int, client: socket.socket, commands: socket.socket, out: int
+    ) -> None:
+        from course_pkg.sandbox.check_process import check_part
+
+        namespaces.die_with_parent()
+        namespaces.limit(AS=confinement.CHECK_RUNNER)  # a submission decides how much it sends to its check
+        check_part(self._job, network, port, client, commands, out, sandboxed=self._sandboxed)
+
+    def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
+        """Wait for one of `files`, until the supervisor has ended or the job's time is over."""
+        left = self._began + self._limit - time.monotonic()
+        ready = select.select([*files, self._fork_server], [], [], max(left, 0.0))[0]
+        if self._fork_server in ready:
+            self._over = int(receive(self._fork_server)[0]["over"])
+        return [file for file in ready if file is not self._fork_server]
+
+    def _reason(self) -> str:
+        if self._over is None:
+            return f"it was not done after {self._limit:g} s"
+        code = os.waitstatus_to_exitcode(self._over)
+        return ENDINGS.get(code, "the processes of this part were lost")
+
+    def _end_supervisor(self) -> None:
+        if self._over is None and self._supervisor:
+            with suppress(ProcessLookupError):
+                os.kill(self._supervisor, signal.SIGTERM)
+            try:
+                receive(self._fork_server, END_TIMEOUT)
+            except TimeoutError:
+                end([self._supervisor])
+                # The next job must not receive this message: without it, this worker cannot be used any more.
+                receive(self._fork_server, KILLED_TIMEOUT)
+
+
+def _record(reading: int) -> Record | None:
+    data = b""
+    while chunk := os.read(reading, CHUNK):
+        data += chunk
+    try:
+        record: Record = json.loads(data)
+    except ValueError:
+        return None
+    return record
+
+
+def _messages_of(descriptor: int) -> tuple[dict[str, str], ...]:
+    """Return the messages of the student's side; a line that is not a JSON object is dropped."""
+    os.set_blocking(descriptor, False)
+    messages = []
+    with suppress(BlockingIOError):
+        for line in os.read(descriptor, CHUNK).splitlines():
+            with suppress(ValueError, RecursionError):
+                found = json.loads(line)
+                if isinstance(found, dict):
+                    messages.append(
+                        {str(key)[:20]: str(value)[:2000] for key, value in list(found.items())[:4]}
+                    )
+    return tuple(messages[:40])
+
+
+if __name__ == "__main__":
+    main()

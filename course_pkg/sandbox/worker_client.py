@@ -1,0 +1,104 @@
+"""A sandbox worker as the grader sees it: a process that runs parts in a sandbox, one at a time."""
+
+from __future__ import annotations
+
+import os
+import selectors
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from types import TracebackType
+from typing import IO
+
+from course_pkg.errors import WorkerFailed
+from course_pkg.sandbox.bubblewrap import sandbox_command
+from course_pkg.sandbox.job import PartJob, PartResult, result_from
+from course_pkg.setup import Places, environment
+from course_pkg.waiting import Deadline
+
+START_TIMEOUT = 90.0  # s; a machine at rest takes two
+SLACK = 45.0  # s beyond a part's own limit, after which the worker itself has failed
+
+
+class SandboxWorker:
+    """Runs parts; a context manager. After WorkerFailed it restarts with the next part.
+
+    The processes in the sandbox end with the thread that called `run` first. `private` is the folder of an
+    instructor's private parts, which no submission can read. With `sandboxed=False` there is no sandbox.
+    """
+
+    def __init__(self, *, sandboxed: bool = True, private: str = "") -> None:
+        self._sandboxed = sandboxed
+        self._private = private
+        self._process: subprocess.Popen[bytes] | None = None
+        self._log: IO[bytes] | None = None
+        self._received = b""
+
+    def __enter__(self) -> SandboxWorker:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def run(self, job: PartJob) -> PartResult:
+        """Run one part to its end. Raises WorkerFailed when the worker itself ends or does not answer."""
+        process = self._started()
+        assert process.stdin is not None
+        try:
+            process.stdin.write(job.as_json().encode() + b"\n")
+            process.stdin.flush()
+        except OSError as error:
+            raise self._failed("it takes no work") from error
+        return result_from(self._line(job.limit + SLACK))
+
+    def close(self) -> None:
+        """End the worker, and all processes in its sandbox."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.communicate()
+        if self._log is not None:
+            self._log.close()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        if self._process is None:
+            command = [sys.executable, "-m", "course_pkg.sandbox.worker"]
+            command += ["sandboxed" if self._sandboxed else "unsafe", self._private]
+            readable = [Path(self._private)] if self._private else []
+            self._log, self._received = tempfile.TemporaryFile(), b""  # noqa: SIM115 -- closed by close()
+            self._process = subprocess.Popen(
+                sandbox_command(command, readable=readable) if self._sandboxed else command,
+                env={} if self._sandboxed else environment.merged(Places.of(), os.environ),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._log,
+            )
+            self._line(START_TIMEOUT)
+        return self._process
+
+    def _line(self, timeout: float) -> bytes:
+        """Return the next line that the worker prints."""
+        assert self._process is not None
+        assert self._process.stdout is not None
+        deadline = Deadline(timeout)
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._process.stdout, selectors.EVENT_READ)
+            while b"\n" not in self._received:
+                if not selector.select(deadline.left):
+                    raise self._failed(f"it did not answer for {timeout:g} s")
+                if not (chunk := os.read(self._process.stdout.fileno(), 65536)):
+                    raise self._failed("it ended")
+                self._received += chunk
+        line, _, self._received = self._received.partition(b"\n")
+        return line
+
+    def _failed(self, what: str) -> WorkerFailed:
+        """End the worker and return the error that tells how it failed."""
+        assert self._log is not None
+        self._log.seek(0)
+        last = self._log.read()[-2000:].decode("utf-8", "replace").strip().splitlines()[-1:]
+        self.close()
+        return WorkerFailed(": ".join([f"The process that runs submissions failed, {what}", *last]))

@@ -1,0 +1,10 @@
+"""Sets up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
+
+It runs before these exist, so it uses only the standard library.
+"""
+
+from course_pkg.setup import environment
+from course_pkg.setup.places import CATKIN_FOLDERS, PACKAGE_PARTS, Places
+from course_pkg.setup.steps import ensure
+
+__all__ = ["CATKIN_FOLDERS", "PACKAGE_PARTS", "Places", "ensure", "environment"]

@@ -1,0 +1,142 @@
+"""`course doctor`: what is installed, missing or stale, and what to do about it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import urlsplit
+
+from course_pkg.errors import SetupError
+from course_pkg.setup import packages
+from course_pkg.setup.places import Places
+from course_pkg.setup.steps import Step, steps_of
+from course_pkg.waiting import wait_until
+
+ENDING = 5.0  # s in which a process that has lost its owner ends
+NEEDED = 1 << 30  # bytes that a complete set-up takes, with some to spare
+
+
+class Finding(NamedTuple):
+    """The result of one examination: all is well, or `advice` says what to do."""
+
+    what: str
+    seen: str
+    advice: str = ""
+
+
+def examine() -> int:
+    """Print the findings; return 0 if all is well, else 1."""
+    findings = list(_findings(Places.of()))
+    for what, seen, advice in findings:
+        sys.stdout.write(f"{'to do' if advice else 'ok':6}{what}: {seen}\n")
+        if advice:
+            sys.stdout.write(f"{'':6}-> {advice}\n")
+    return int(any(finding.advice for finding in findings))
+
+
+def _findings(places: Places) -> Iterator[Finding]:
+    yield Finding("interpreter", f"{sys.executable}, Python {sys.version.split()[0]}")
+    yield from _installed(places)
+    yield _disk(places)
+    yield _master()
+    yield from _leftovers(places)
+
+
+def _installed(places: Places) -> Iterator[Finding]:
+    if not places.conda:
+        try:
+            platform = packages.read_platform(places.checkout)
+        except SetupError as error:
+            yield Finding("system", "not one that has ROS 1", str(error))
+            return
+        yield Finding("system", platform.name)
+        for part, needed_by in (("course", "course lab"), ("grade", "course grade"), ("test", "course test")):
+            missing = packages.missing_packages(getattr(platform, part))
+            advice = f"`./course {needed_by.split()[1]}` installs them; or, as an administrator: " + (
+                f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}"
+            )
+            seen = f"missing: {' '.join(missing)}" if missing else "installed"
+            yield Finding(f"packages for `{needed_by}`", seen, advice if missing else "")
+    for command, test in (("run true", False), ("test", True)):
+        steps = [step for stage in steps_of(places, test=test) for step in stage]
+        yield from (
+            _made(step, command)
+            for step in steps
+            if step.makes and not (test and step.makes == places.workspace)
+        )
+
+
+def _made(step: Step, command: str) -> Finding:
+    if step.is_done():
+        return Finding(step.title, str(step.makes))
+    seen = "stale" if step.makes and step.makes.exists() else "not there yet"
+    return Finding(step.title, seen, f"`./course {command}` does it")
+
+
+def _disk(places: Places) -> Finding:
+    folder = next(path for path in (places.cache, *places.cache.parents) if path.exists())
+    if not os.access(folder, os.W_OK):
+        return Finding("cache", f"{folder} cannot be written to", "Set XDG_CACHE_HOME to a folder of yours.")
+    free = shutil.disk_usage(folder).free
+    advice = (
+        ""
+        if free > NEEDED or places.environment.exists()
+        else f"Make room: a set-up takes {NEEDED >> 20} MB."
+    )
+    return Finding("disk", f"{free >> 20} MB free for {places.cache}", advice)
+
+
+def _master() -> Finding:
+    given = os.environ.get("ROS_MASTER_URI")
+    if not given:
+        return Finding("ROS_MASTER_URI", "not set: every command starts its own master")
+    try:
+        parts = urlsplit(given)
+        well_formed = parts.scheme == "http" and bool(parts.hostname) and bool(parts.port)
+    except ValueError:
+        well_formed = False
+    if not well_formed:
+        return Finding(
+            "ROS_MASTER_URI", given, "It must be like http://localhost:11311. Correct or unset it."
+        )
+    return _answering(given, str(parts.hostname), parts.port or 0)
+
+
+def _answering(uri: str, host: str, port: int) -> Finding:
+    import socket
+
+    try:
+        socket.create_connection((host, port), timeout=2).close()
+    except OSError as error:
+        return Finding("ROS_MASTER_URI", f"{uri}: {error}", "Start that master, or unset the variable.")
+    return Finding("ROS_MASTER_URI", f"{uri} answers")
+
+
+def _leftovers(places: Places) -> Iterator[Finding]:
+    """Look for processes of this checkout whose parent has ended, and that do not end by themselves.
+
+    After a SIGKILL of its owner, a process is ended within seconds.
+    """
+    orphans = _orphans(places)
+    wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)
+    stray = sorted(orphans & _orphans(places), key=int)
+    advice = f"End them: kill {' '.join(stray)}" if stray else ""
+    yield Finding("processes left over", ", ".join(stray) or "none", advice)
+
+
+def _orphans(places: Places) -> set[str]:
+    """Return the ids of the processes of this checkout whose parent has ended."""
+    found = set()
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parent = int(status.read_text().rpartition(")")[2].split()[1])
+            command = (status.parent / "cmdline").read_bytes()
+        except (OSError, ValueError):
+            continue
+        if parent == 1 and os.fsencode(places.cache) in command:
+            found.add(status.parent.name)
+    return found

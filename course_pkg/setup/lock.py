@@ -1,0 +1,44 @@
+"""Writes the lock files: every library with its version and the hashes of its files, from pyproject.toml."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+from course_pkg.errors import SetupError
+from course_pkg.setup.libraries import lock_file, uv_program
+from course_pkg.setup.places import Places
+
+UV = "uv==0.13.8"
+# Parsers of rare formats in JSON schemas, and what only these need. jupyter_events asks for them as an extra
+# of jsonschema, which works without them. One compiles a grammar when it is imported: 1.3 s of each start.
+LEFT_OUT = ("arrow", "fqdn", "isoduration", "lark", "rfc3987-syntax", "uri-template", "webcolors")
+HEADER = "# Written by `./course lock` from pyproject.toml. Do not edit.\n"
+WITHOUT = f"""\
+# Left out: {", ".join(LEFT_OUT)}.
+# jupyter_events asks for these parsers of rare formats as an extra of jsonschema, which works without them.
+"""
+
+
+def write_locks(places: Places) -> list[Path]:
+    """Resolve pyproject.toml for every Python that the course supports, and write the lock files."""
+    checkout, uv = places.checkout, uv_program(places)
+    _compile(uv, checkout, ["-"], lock_file("uv"), UV)
+    _compile(uv, checkout, ["pyproject.toml"], lock_file("course"))
+    constraint = ["--constraint", str(lock_file("course"))]
+    _compile(uv, checkout, ["pyproject.toml", "--extra", "test", *constraint], lock_file("test"))
+    return [lock_file(name) for name in ("uv", "course", "test")]
+
+
+def _compile(uv: Path, checkout: Path, what: list[str], target: Path, text: str = "") -> None:
+    options = ["--universal", "--generate-hashes", "--no-header", "--no-annotate", "--python-version", "3.10"]
+    env = {**os.environ, "UV_NO_CONFIG": "1"}
+    left_out = [f"--no-emit-package={name}" for name in LEFT_OUT]
+    command: list[str | Path] = [uv, "pip", "compile", "--quiet", *options, *left_out, *what]
+    result = subprocess.run(
+        command, cwd=checkout, env=env, input=text, capture_output=True, text=True, check=False
+    )
+    if result.returncode:
+        raise SetupError(f"The libraries of pyproject.toml cannot be resolved:\n{result.stderr}")
+    target.write_text(HEADER + ("" if text else WITHOUT) + result.stdout)

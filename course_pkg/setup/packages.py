@@ -1,0 +1,178 @@
+"""The packages of the distribution: which ones the course needs on this machine, and installing them."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from course_pkg.errors import SetupError
+from course_pkg.setup.journal import Journal
+
+DATA = Path(__file__).with_name("platforms.json")
+OS_RELEASE = Path("/etc/os-release")
+APT_OPTIONS = (
+    "--yes",
+    "--no-install-recommends",
+    "-o",
+    "DPkg::Lock::Timeout=600",
+    "-o",
+    "Dpkg::Use-Pty=0",
+    "-o",
+    "Dpkg::Options::=--force-unsafe-io",  # fewer syncs: a power failure is repaired by starting again
+    "-o",
+    "Dpkg::Options::=--force-confold",
+)
+LISTS = Path("/var/lib/apt/lists")
+STATUS = Path("/var/lib/dpkg/status")
+FRESH = 24 * 3600  # s for which apt's lists count as up to date
+APT = "/usr/bin/apt-get"
+UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")  # in English, because of LOCKED
+LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
+LOCK_TIMEOUT = 600.0  # s; apt-get install can wait for a lock by itself, its update and dpkg cannot
+RETRY_INTERVAL = 2.0  # s between two attempts
+WAITING = "Another program is installing packages; waiting for it (10 minutes at most)."
+
+
+class Platform(NamedTuple):
+    """A distribution that has ROS 1, with the packages that the course needs on it."""
+
+    name: str
+    bootstrap: tuple[str, ...]
+    course: tuple[str, ...]
+    grade: tuple[str, ...]
+    test: tuple[str, ...]
+
+
+def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
+    """Return the platform that `os_release` names; derivatives name the one that they are built on.
+
+    Raises SetupError, with the commands for conda, for any other system.
+    """
+    data = json.loads(DATA.read_text())
+    release = _read_release(os_release)
+    for key in ("DEBIAN_CODENAME", "UBUNTU_CODENAME", "VERSION_CODENAME"):
+        entry = data["distributions"].get(release.get(key))
+        if entry:
+            return Platform(
+                entry["name"],
+                tuple(data["bootstrap"]),
+                (*data["course"], *entry["course"]),
+                tuple(data["grade"]),
+                (*data["grade"], *entry["test"]),
+            )
+    names = ", ".join(entry["name"] for entry in data["distributions"].values())
+    raise SetupError(
+        f"ROS 1 comes with {names}; this is {release.get('PRETTY_NAME', 'another system')}. "
+        "Use conda here:\n"
+        f"  conda env create -f {checkout / 'environment.yml'}\n"
+        "  conda activate ros-services-course\n"
+        "and start again."
+    )
+
+
+def missing_packages(wanted: Iterable[str]) -> list[str]:
+    """Return those of `wanted` that are not installed, or only partly. Raises SetupError without dpkg."""
+    wanted = list(wanted)
+    command = ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Abbrev}\n", *wanted]
+    try:
+        listing = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    except OSError as error:
+        raise SetupError(f"There is no dpkg on this machine ({error.strerror}).") from error
+    installed = {line.split()[0] for line in listing.splitlines() if line.split()[1:] == ["ii"]}
+    return [name for name in wanted if name not in installed]
+
+
+def database_state() -> str:
+    """Return a string that changes whenever a package is installed or removed."""
+    try:
+        return str(STATUS.stat().st_mtime_ns)
+    except OSError:
+        return ""
+
+
+def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
+    """Install `names`, after waiting for another package manager that is at work.
+
+    `report` gets a message while this waits. Raises SetupError if only an administrator can install them,
+    or if a tool fails.
+    """
+    root = [*become_root(names), *UNATTENDED]
+
+    def run(*command: str) -> None:
+        _run_when_unlocked(journal, [*root, *command], report)
+
+    run("dpkg", "--configure", "-a")
+    updated = _lists_are_fresh()
+    if not updated:
+        run(APT, "update", "-q")
+    try:
+        run(APT, "install", *APT_OPTIONS, *names)
+    except SetupError:
+        if not updated:
+            raise
+        run(APT, "update", "-q")  # the lists may name files that have been replaced since
+        run(APT, "install", *APT_OPTIONS, *names)
+
+
+def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
+    """Run `command`; run it again while another program holds a lock that it needs."""
+    deadline = time.monotonic() + LOCK_TIMEOUT
+    while True:
+        try:
+            return journal.run(command, watch=_lock_watcher(report))
+        except SetupError as error:
+            if not LOCKED.search(str(error)) or time.monotonic() > deadline:
+                raise
+        report(WAITING)
+        time.sleep(RETRY_INTERVAL)
+
+
+def become_root(names: Sequence[str]) -> list[str]:
+    """Return what to put before a command to run it as root. Raises SetupError where that is not possible."""
+    advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
+        " ".join(names)
+    )
+    if not os.access(APT, os.X_OK):
+        raise SetupError(f"There is no {APT} to install with: {' '.join(names)}.")
+    if os.geteuid() == 0:
+        return []
+    if not shutil.which("sudo"):
+        raise SetupError(f"Packages are missing, and only root can install them. {advice}\nand start again.")
+    if subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False).returncode == 0:
+        return ["sudo", "-n"]
+    if not sys.stdin.isatty() or subprocess.run(["sudo", "-v"], check=False).returncode:
+        raise SetupError(
+            f"Packages are missing, and sudo did not let you install them. {advice}\nand start again."
+        )
+    return ["sudo", "-n"]
+
+
+def _lists_are_fresh() -> bool:
+    ages = [path.stat().st_mtime for path in LISTS.glob("*_Packages*")]
+    stamp = LISTS.stat().st_mtime if ages else 0.0
+    return time.time() - stamp < FRESH
+
+
+def _lock_watcher(report: Callable[[str], None]) -> Callable[[str], None]:
+    def watch(line: str) -> None:
+        if line.startswith("Waiting for cache lock"):
+            report(WAITING)
+
+    return watch
+
+
+def _read_release(path: Path) -> dict[str, str]:
+    try:
+        lines = path.read_text().splitlines()
+    except OSError:
+        return {}
+    pairs = (line.split("=", 1) for line in lines if "=" in line)
+    return {key: value.strip("\"'") for key, value in pairs}

@@ -1,0 +1,137 @@
+"""Runs the steps of the set-up that are not done; independent steps run at the same time."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from course_pkg.errors import SetupError
+from course_pkg.setup import catkin_workspace, libraries, packages
+from course_pkg.setup.journal import Journal
+from course_pkg.setup.places import Places
+from course_pkg.setup.progress import Progress
+from course_pkg.setup.stamps import Stamps, digest, locked
+
+
+class Step(NamedTuple):
+    """A part of the set-up. `is_done` runs at every start, so it must be fast; `makes` is its folder."""
+
+    title: str
+    is_done: Callable[[], bool]
+    make: Callable[[Journal, Progress], None]
+    makes: Path | None = None
+
+
+def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
+    """Set up what is missing; if nothing is, this takes a few milliseconds and prints nothing.
+
+    Raises SetupError, with what to do, where a step fails.
+    """
+    stages = steps_of(places, grade=grade, test=test)
+    if all(step.is_done() for stage in stages for step in stage):
+        return
+    places.make_cache()
+    progress = Progress()
+    waiting = "Another set-up of this checkout is under way; waiting for it."
+    try:
+        with locked(places.cache / "lock", lambda: progress.note(waiting)) as lock:
+            journal = Journal(places.logs, lock)
+            for stage in stages:
+                _run_stage([step for step in stage if not step.is_done()], journal, progress)
+    except OSError as error:
+        raise _explained(error, places) from error
+    except KeyboardInterrupt:
+        progress.note("Interrupted. The next start goes on with what is not done yet.")
+        raise
+
+
+def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
+    """Return the steps in stages; the steps of one stage do not depend on one another."""
+    stamps = Stamps(places.stamps)
+    library_step = _library_step(places, stamps, "test" if test else "course")
+    catkin = _workspace_step(places, stamps)
+    if places.conda:  # environment.yml holds the packages and the libraries
+        return [[catkin]]
+    platform = packages.read_platform(places.checkout)
+    wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
+    return [
+        [_bootstrap_step(platform.bootstrap, library_step)],
+        [_package_step(f"ROS and tools from {platform.name}", wanted, stamps), library_step],
+        [catkin],
+    ]
+
+
+def _bootstrap_step(wanted: Sequence[str], libraries: Step) -> Step:
+    def is_done() -> bool:
+        return libraries.is_done() or not packages.missing_packages(wanted)
+
+    def make(journal: Journal, progress: Progress) -> None:
+        packages.install_packages(wanted, journal, progress.note)
+
+    return Step("pip", is_done, make)
+
+
+def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
+    name = f"packages-{digest(wanted)}"
+
+    def is_done() -> bool:
+        state = packages.database_state()
+        if stamps.read(name) == state:
+            return True
+        if packages.missing_packages(wanted):
+            return False
+        with suppress(OSError):  # the stamp only saves the next start from asking dpkg
+            stamps.write(name, state)
+        return True
+
+    def make(journal: Journal, progress: Progress) -> None:
+        packages.install_packages(packages.missing_packages(wanted), journal, progress.note)
+
+    return Step(title, is_done, make)
+
+
+def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
+    def is_done() -> bool:
+        made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in (extra, "test"))
+        return libraries.environment_works(places) and any(made)  # the lock of the tests includes the other
+
+    def make(journal: Journal, _progress: Progress) -> None:
+        stamps.clear(f"python-{extra}")
+        libraries.make_environment(places, extra, journal)
+        stamps.write(f"python-{extra}", libraries.libraries_key(extra))
+
+    return Step("Python libraries" + (" of the tests" if extra == "test" else ""), is_done, make, places.venv)
+
+
+def _workspace_step(places: Places, stamps: Stamps) -> Step:
+    def is_done() -> bool:
+        unchanged = stamps.read("workspace") == catkin_workspace.workspace_key(places)
+        return unchanged and catkin_workspace.workspace_intact(places)
+
+    def make(journal: Journal, _progress: Progress) -> None:
+        stamps.clear("workspace")
+        catkin_workspace.build_workspace(places, journal)
+        stamps.write("workspace", catkin_workspace.workspace_key(places))
+
+    return Step("catkin workspace", is_done, make, places.workspace)
+
+
+def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> None:
+    def run(step: Step) -> None:
+        with progress.step(step.title):
+            step.make(journal, progress)
+
+    from concurrent.futures import ThreadPoolExecutor  # 5 ms; only a start that sets something up needs it
+
+    with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:
+        for finished in [pool.submit(run, step) for step in steps]:
+            finished.result()
+
+
+def _explained(error: OSError, places: Places) -> SetupError:
+    if error.errno == errno.ENOSPC:
+        return SetupError(f"The disk that holds {places.cache} is full. Make room, and start again.")
+    return SetupError(f"The set-up stopped: {error}. Correct that, and start again.")

@@ -1,0 +1,110 @@
+"""Computed pictures of the shop: a colour picture, and the frames of a small grey camera. It needs no ROS."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import cycle, islice
+from typing import Protocol
+
+Colour = tuple[int, int, int]
+WALL: Colour = (236, 226, 208)
+FLOOR: Colour = (178, 156, 130)
+COUNTER: Colour = (120, 84, 56)
+TOP: Colour = (160, 118, 82)
+FACE: Colour = (226, 184, 150)
+COATS: tuple[Colour, ...] = ((46, 98, 150), (168, 60, 56), (62, 122, 78), (122, 84, 146), (196, 140, 44))
+MOST = 12  # customers that can be distinguished
+HALF_BREADTH = 0.13  # of a customer, in heights of the picture
+
+WIDTH, HEIGHT = 160, 120  # points
+DARK = 96  # points below this brightness are dark
+SHARE = 10  # one dark point in 10 means a customer
+BRIGHT, DARK_COAT = 208, 40  # brightness of wall and coat, plus up to SHADE
+SHADE = 12
+HEAD, SHOULDERS = 0.14, 0.2  # half the breadth of a figure, in heights of the frame
+
+
+def shop_picture(width: int, height: int, customers: int) -> bytes:
+    """Return the picture as rgb8: `height` rows of `width` points of three bytes, from the top left.
+
+    It shows at most MOST customers.
+    """
+    return b"".join(
+        _picture_row((row + 0.5) / height, width, height, min(customers, MOST)) for row in range(height)
+    )
+
+
+def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
+    """Return the row at `y`, 0 at the top and 1 at the bottom."""
+    if y >= 0.72:
+        return bytes(TOP if y < 0.76 else COUNTER) * width
+    row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
+    squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))  # so that neighbours leave a gap
+    for number, coat in enumerate(islice(cycle(COATS), customers), 1):
+        half, colour = _figure_at(y, coat)
+        middle = width * number / (customers + 1)
+        left, right = (round(middle + side * half * squeeze) for side in (-1, 1))
+        row[3 * left : 3 * right] = bytes(colour) * (right - left)
+    return bytes(row)
+
+
+def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
+    """Return half the breadth of a customer at `y`, in heights of the picture, and the colour there."""
+    head = 0.08**2 - (y - 0.3) ** 2
+    if head > 0:
+        return float(head**0.5), FACE
+    return min(max(y - 0.38, 0.0) * 3, HALF_BREADTH), coat
+
+
+class Frame(Protocol):
+    """The fields of a sensor_msgs/Image that are used here."""
+
+    encoding: str
+    width: int
+    height: int
+    step: int
+    data: bytes
+
+
+@lru_cache(maxsize=16)  # the camera asks ten times per second
+def frame_points(customers: int) -> bytes:
+    """Return the points of a frame, row by row: a light wall, and a dark figure for each customer."""
+    return b"".join(_frame_row(row, customers) for row in range(HEIGHT))
+
+
+def sees_customer(frame: Frame) -> bool:
+    """Return whether a frame shows a customer: at least a tenth of its points are dark.
+
+    Raises ValueError for a malformed frame: not mono8, without points, or with a length that does not fit its
+    height and step.
+    """
+    if frame.encoding != "mono8":
+        raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")
+    if not frame.width or not frame.height or frame.step < frame.width:
+        raise ValueError(f"{frame.width} by {frame.height} points in rows of {frame.step} bytes are no frame")
+    if len(frame.data) != frame.height * frame.step:
+        raise ValueError(f"{len(frame.data)} bytes, and {frame.height} rows of {frame.step} bytes each")
+    rows = (frame.data[start : start + frame.width] for start in range(0, len(frame.data), frame.step))
+    dark = sum(point < DARK for row in rows for point in row)
+    return bool(SHARE * dark >= frame.width * frame.height)
+
+
+def _frame_row(row: int, customers: int) -> bytes:
+    """Return one row; each figure has a head and a coat."""
+    points = bytearray(BRIGHT + _shade(row, column) for column in range(WIDTH))
+    for column in _figures(row / HEIGHT, customers):
+        points[column] = DARK_COAT + _shade(row, column)
+    return bytes(points)
+
+
+def _figures(y: float, customers: int) -> set[int]:
+    """Return the columns of the figures at `y`, 0 at the top and 1 at the bottom."""
+    head = HEAD**2 - (y - 0.3) ** 2
+    half = round(HEIGHT * head**0.5) if head > 0 else round(HEIGHT * SHOULDERS) if y >= 0.46 else -1
+    middles = [WIDTH * number // (customers + 1) for number in range(1, customers + 1)]
+    near = {middle + side for middle in middles for side in range(-half, half + 1)}
+    return near & set(range(WIDTH))
+
+
+def _shade(row: int, column: int) -> int:
+    return (7 * row + 13 * column) % SHADE

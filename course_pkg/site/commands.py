@@ -1,0 +1,88 @@
+"""`course site`: its options; it writes the site, checks it, prints it as a book, and lists the problems."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+from course_pkg.errors import SiteError
+from course_pkg.setup import Places
+from course_pkg.setup.commands import Command
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser
+
+
+def _site(options: SimpleNamespace) -> int:
+    return run_site(
+        options.out,
+        student=options.student,
+        chapters=tuple(options.chapters),
+        execute=options.execute,
+        check=options.check,
+        pdf=options.pdf,
+        binder=options.binder,
+    )
+
+
+def _site_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "chapters", nargs="*", metavar="CHAPTER", help="run only these, if they changed (all)"
+    )
+    parser.add_argument("--out", metavar="DIR", help="the folder to write to (one in the cache; it is named)")
+    parser.add_argument("--student", action="store_true", help="show the notebooks without answers")
+    parser.add_argument(
+        "--check", action="store_true", help="then report dead links and missing descriptions"
+    )
+    parser.add_argument("--pdf", action="store_true", help="then print all chapters as a book, with Chromium")
+    parser.add_argument("--stored", dest="execute", action="store_false", help="run no notebook")
+    parser.add_argument("--binder", metavar="URL", help="the address under which Binder opens the repository")
+
+
+COMMANDS = {
+    "site": Command(
+        "write the course as pages that need no network and no kernel",
+        _site,
+        frozenset({"course", "libraries"}),
+        _site_arguments,
+    )
+}
+
+
+BINDER = "COURSE_BINDER"  # the address that opens the repository, up to the branch
+
+
+def run_site(
+    out: str | None = None,
+    *,
+    student: bool = False,
+    chapters: tuple[str, ...] = (),
+    execute: bool = True,
+    check: bool = False,
+    pdf: bool = False,
+    binder: str | None = None,
+) -> int:
+    """Write the site, print where it is, and return 0.
+
+    Raises SiteError if a chapter could not be run, or if `check` finds a problem.
+    """
+    folder = Path(out) if out else Places.of().cache / "site" / ("student" if student else "pages")
+    address = (os.environ.get(BINDER, "") if binder is None else binder).rstrip("/")
+    from course_pkg.site.build import Settings, write_site
+
+    problems = write_site(Settings(folder, student, chapters, execute, address, pdf))
+    if check:
+        from course_pkg.site.check import faults
+
+        problems += faults(folder)
+    if pdf:
+        from course_pkg.site.book import print_book
+
+        sys.stdout.write(f"{print_book(folder)}\n")
+    sys.stdout.write(f"{(folder / 'index.html').resolve()}\n")
+    if problems:
+        raise SiteError("\n".join(["the site is written, but it has problems:", *problems]))
+    return 0

@@ -1,0 +1,71 @@
+"""The canvas that the pens draw on: a square of pixels."""
+
+from __future__ import annotations
+
+import math
+
+Colour = tuple[int, int, int]
+Point = tuple[float, float]
+
+SIDE = 500  # px
+DEPTH = 3  # bytes of a pixel: red, green, blue
+EMPTY = (1.0, 0.0)  # the range of a row outside of a line
+
+
+class Canvas:
+    """500 by 500 pixels. The origin is at the top left, y points down; integers are centres of pixels."""
+
+    def __init__(self, background: Colour) -> None:
+        self._pixels = bytearray()
+        self.fill(background)
+
+    def fill(self, colour: Colour) -> None:
+        """Make all pixels `colour`."""
+        self._pixels[:] = bytes(colour) * (SIDE * SIDE)
+
+    def colour_at(self, point: Point) -> Colour:
+        """Return the colour of the pixel nearest to `point` (px), which may be outside."""
+        column, row = (min(max(math.floor(each + 0.5), 0), SIDE - 1) for each in point)
+        start = (row * SIDE + column) * DEPTH
+        red, green, blue = self._pixels[start : start + DEPTH]
+        return red, green, blue
+
+    def line(self, start: Point, end: Point, colour: Colour, width: int) -> None:
+        """Draw a straight line, `width` px wide, that extends by half its width beyond each end."""
+        half = max(width, 1) / 2
+        reach = half * math.sqrt(2)
+        top = max(math.floor(min(start[1], end[1]) - reach), 0)
+        bottom = min(math.ceil(max(start[1], end[1]) + reach) + 1, SIDE)
+        rectangle = _Rectangle(start, end, half)
+        for row in range(top, bottom):
+            left, right = rectangle.across(row)
+            first, last = max(math.ceil(left), 0), min(math.floor(right), SIDE - 1)
+            if first <= last:
+                begin = (row * SIDE + first) * DEPTH
+                count = last - first + 1
+                self._pixels[begin : begin + count * DEPTH] = bytes(colour) * count
+
+
+class _Rectangle:
+    """The rectangle of a line with a width and square ends."""
+
+    def __init__(self, start: Point, end: Point, half: float) -> None:
+        along = (end[0] - start[0], end[1] - start[1])
+        length = math.hypot(*along)
+        ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
+        # Two pairs of parallel edges: for each, a direction and the range between the two edges.
+        self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
+        self._start = start
+
+    def across(self, y: float) -> tuple[float, float]:
+        """Return where the row at `y` enters and leaves the rectangle; EMPTY if it does not touch it."""
+        x, dy = self._start[0], y - self._start[1]
+        left, right = -math.inf, math.inf
+        for ux, uy, low, high in self._pairs:
+            if abs(ux) < 1e-9:
+                if not low <= dy * uy <= high:
+                    return EMPTY
+                continue
+            ends = sorted((x + (low - dy * uy) / ux, x + (high - dy * uy) / ux))
+            left, right = max(left, ends[0]), min(right, ends[1])
+        return left, right

@@ -1,0 +1,95 @@
+"""Waits with a limit: for a condition, until a deadline, and for code that is interrupted after its time."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+Value = TypeVar("Value")
+INTERVAL = 0.01  # s between two evaluations of a condition that takes little time
+MOST = 4.0  # the factor of the limit on a busy machine, at most
+
+
+class Deadline:
+    """A point in time, `seconds` after now on the monotonic clock; with None, it never passes."""
+
+    def __init__(self, seconds: float | None) -> None:
+        self.seconds = seconds  # the seconds that were given
+        self._end = float("inf") if seconds is None else time.monotonic() + seconds
+
+    @property
+    def left(self) -> float:
+        """The seconds that are left, at least 0; infinity for a deadline that never passes."""
+        return max(self._end - time.monotonic(), 0.0)
+
+    @property
+    def milliseconds(self) -> int | None:
+        """The milliseconds that are left, rounded up, for select.poll; None if the deadline never passes."""
+        return None if self.seconds is None else math.ceil(self.left * 1000)
+
+    @property
+    def passed(self) -> bool:
+        """Whether no time is left."""
+        return time.monotonic() >= self._end
+
+
+def wait_until(
+    condition: Callable[[], Value],
+    timeout: float,
+    interval: float = INTERVAL,
+    stopped: threading.Event | None = None,
+) -> Value:
+    """Return the first true value of `condition`, or its last value when `timeout` s have passed.
+
+    The condition is evaluated immediately, then every `interval` s, and once again after the deadline. So
+    even a thread that could not run for a long time gets the present value. If `stopped` is set, the wait
+    ends early.
+    """
+    deadline = Deadline(timeout)
+    while True:
+        last = deadline.passed
+        value = condition()
+        if value or last:
+            return value
+        pause = min(interval, deadline.left)
+        if stopped is None:
+            time.sleep(pause)
+        elif stopped.wait(pause):
+            return condition()
+
+
+def at_this_load(seconds: float) -> float:
+    """Return a limit (s) for work that takes `seconds` s at most on an idle machine.
+
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. So a
+    program that waits for the processor is not mistaken for a program that never ends.
+    """
+    load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
+    return seconds * min(max(load, 1.0), MOST)
+
+
+@contextmanager
+def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
+    """Raise `error` in the block when it has run for `seconds` s, and again every `repeat` s (0: only once).
+
+    Use `repeat` for code that may catch the first error. This function uses an alarm signal (SIGALRM), so the
+    block has to run in the main thread, and such blocks may not be nested. Raises ValueError in another
+    thread.
+    """
+
+    def alarm(*_: object) -> None:
+        raise error
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    signal.setitimer(signal.ITIMER_REAL, seconds, repeat)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

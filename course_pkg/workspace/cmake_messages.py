@@ -1,0 +1,257 @@
+"""The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
+
+CMake breaks its messages into lines of about 75 characters. It names the file that reported the error; the
+student's line that caused it is in the call stack below. A row of a table is (pattern, file, problem,
+remedy). The file is given only if it is not the file that the message names.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from course_pkg.workspace.fault import Fault
+
+GENERATION = ("add_message_files", "add_service_files", "add_action_files", "generate_messages")
+CATKIN = ("catkin_package", "catkin_python_setup", "catkin_install_python")
+
+Row = tuple[str, str, str, str]
+
+_HEAD = re.compile(
+    r"CMake (?P<kind>Error|Warning)(?: \(dev\))?"
+    r"(?: at (?P<file>.+?):(?P<line>\d+)(?: \(\w+\))?)?:(?P<rest>.*)"
+)
+# CMake names catkin's top-level file without a folder, and files outside of src with an absolute path.
+_OURS = re.compile(r"(?P<file>[\w.+-]+(?:/[\w.+-]+)*/CMakeLists\.txt):(?P<line>\d+)")
+_STACK = "Call Stack (most recent call first):"
+_COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")
+
+
+@dataclass(frozen=True)
+class Message:
+    """One message: its text in one line, and the line of a package's CMakeLists.txt that caused it."""
+
+    text: str
+    file: str
+    line: int
+    is_error: bool
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command in a CMakeLists.txt, and the line where it begins."""
+
+    name: str
+    line: int
+    is_comment: bool
+
+
+def cmake_messages(output: str) -> Iterator[Message]:
+    """Yield the errors and warnings of CMake in the output of a build, in their order."""
+    lines = output.splitlines()
+    for number, line in enumerate(lines):
+        if head := _HEAD.match(line):
+            yield _message(head, lines[number + 1 :])
+
+
+def _message(head: re.Match[str], below: list[str]) -> Message:
+    body = list(_indented(below))
+    split = body.index(_STACK) if _STACK in body else len(body)
+    text = " ".join(" ".join([head["rest"], *body[:split]]).split())
+    places = [f"{head['file']}:{head['line']}", *body[split + 1 :]]
+    ours = next((found for place in places if (found := _OURS.match(place.strip()))), None)
+    is_error = head["kind"] == "Error"
+    return (
+        Message(text, ours["file"], int(ours["line"]), is_error) if ours else Message(text, "", 0, is_error)
+    )
+
+
+def _indented(lines: list[str]) -> Iterator[str]:
+    """Yield the lines of a message: indented lines, empty lines between them, and its call stack."""
+    for line in lines:
+        if line.strip() and not line.startswith("  ") and line.strip() != _STACK:
+            return
+        yield line.strip()
+
+
+def cmake_commands(text: str) -> Iterator[Command]:
+    """Yield the commands of a CMakeLists.txt, including those that are commented out."""
+    for number, line in enumerate(text.splitlines(), 1):
+        if found := _COMMAND.match(line.strip()):
+            yield Command(found["name"].lower(), number, bool(found["comment"]))
+
+
+def unknown_command(name: str, message: Message) -> Fault:
+    """Return why CMake does not know a command: its package was not found before, or its name is misspelt."""
+    if name.lower() in GENERATION:
+        problem = f"CMake does not know {name} here. message_generation defines it, but was not found before."
+        remedy = "Write find_package(catkin REQUIRED COMPONENTS message_generation) above this line."
+    elif name.lower() in CATKIN:
+        problem = f"CMake does not know {name} here. catkin defines it, but was not found before."
+        remedy = "Write find_package(catkin REQUIRED COMPONENTS …) above this line."
+    else:
+        near = difflib.get_close_matches(name.lower(), [*GENERATION, *CATKIN, "find_package", "project"], n=1)
+        problem = f"CMake and catkin have no command {name}."
+        remedy = f"Write {near[0]}." if near else "Compare its spelling, or find the package that defines it."
+    return Fault(problem, remedy, message.file, message.line)
+
+
+FROM_CMAKE: tuple[Row, ...] = (
+    (
+        r"generate_messages\(\) must be called after (?P<name>add_\w+)\(\)",
+        "",
+        "{name} comes after generate_messages, so generate_messages does not see its files.",
+        "Move this line above generate_messages.",
+    ),
+    (
+        r"generate_messages\(\) must be called before catkin_package\(\)",
+        "",
+        "generate_messages comes after catkin_package, but catkin_package needs to know the generated "
+        "messages.",
+        "Move generate_messages above catkin_package.",
+    ),
+    (
+        r"generate_messages\(\) must only be called once",
+        "",
+        "generate_messages is there twice.",
+        "List all files first. Then call generate_messages once.",
+    ),
+    (
+        r"file '\S*?/(?P<name>[^/']+)' does not exist.*(?:service|message|action) file not found",
+        "",
+        "There is no file {name} in the folder of this command.",
+        "Compare the spelling, upper and lower case too. Do not write the folder srv in front of the name.",
+    ),
+    (
+        r"(?P<name>add_\w+)\(\) directory not found: \S*/(?P<package>[^/\s]+)/(?P<folder>\w+)",
+        "",
+        "{name} looks for its files in the folder {folder}, but {package} has no such folder.",
+        "A .srv file belongs in srv and is listed in add_service_files, a .msg file in msg and "
+        "add_message_files.",
+    ),
+    (
+        r"(?P<name>add_\w+)\(\) called with unused arguments: (?P<rest>.+)",
+        "",
+        "{name} does not know the argument {rest}.",
+        "Write FILES before the names of files.",
+    ),
+    (
+        r'package configuration file provided by "(?P<name>[^"]+)"',
+        "",
+        "find_package asks for {name}, but this package is not installed here.",
+        "Compare its spelling, or install it. If it is in a workspace, source that workspace.",
+    ),
+    (
+        r"Messages depends on unknown pkg: (?P<name>\w+)",
+        "",
+        "generate_messages depends on {name}, but find_package has not found it.",
+        "Add {name} to the COMPONENTS of find_package.",
+    ),
+    (
+        r"which '\S*?/(?P<package>[^/']+)/(?P<file>srv/[^/']+)' depends on.*"
+        r"Cannot locate message \[(?P<type>\w+)\].*? package \[(?P=package)\]",
+        "{package}/{file}",
+        "{type} is not a built-in type of ROS, and {package} has no message of that name.",
+        "Write an existing type, such as float32 for float or int32 for int.",
+    ),
+    (
+        r"which '\S*?/(?P<file>[^/']+\.srv)' depends on.*"
+        r"Cannot locate message \[(?P<type>\w+)\].*? package \[(?P<package>\w+)\]",
+        "",
+        "{file} uses {package}/{type}, but CMakeLists.txt does not say that it depends on {package}.",
+        "Write generate_messages(DEPENDENCIES {package}), and {package} in find_package's COMPONENTS, too.",
+    ),
+    (
+        r"package name '(?P<name>[^']*)' in '\S*?/(?P<folder>[^/']+)/package\.xml' does not match current "
+        r"PROJECT_NAME '(?P<project>[^']*)'",
+        "",
+        "package.xml has the name {name}, but CMakeLists.txt has {project}.",
+        "Write the same name in <name> and in project().",
+    ),
+    (
+        r"PROJECT_NAME is set to 'Project'",
+        "",
+        "There is no project() line.",
+        "Write project(NAME) near the top, with the same name as in package.xml.",
+    ),
+    (
+        r"DEPENDS on the catkin package '(?P<name>[^']+)' which must therefore be listed as a run dependency",
+        "",
+        "catkin_package lists {name}, but package.xml does not list it as a package that is needed to run.",
+        "Add <exec_depend>{name}</exec_depend> to package.xml, or remove {name} from catkin_package.",
+    ),
+    (
+        r"the catkin package '(?P<name>[^']+)' has been find_package\(\)-ed but is not listed as a build dep",
+        "",
+        "find_package asks for {name}, but package.xml does not list it as a package that is needed to "
+        "build.",
+        "Add <build_depend>{name}</build_depend> to package.xml.",
+    ),
+    (
+        r"'catkin' must be listed as a buildtool dependency",
+        "",
+        "package.xml does not name the build tool.",
+        "Add <buildtool_depend>catkin</buildtool_depend> to package.xml.",
+    ),
+    (
+        r"add_dependencies called with incorrect number of arguments",
+        "",
+        "add_dependencies has only one argument, because the variables after it are empty.",
+        "Move the line below generate_messages, and write both ${{ }} of "
+        "${{${{PROJECT_NAME}}_EXPORTED_TARGETS}}.",
+    ),
+    (
+        r"Parse error\.\s+Function missing ending",
+        "",
+        "A bracket that is opened here is never closed.",
+        "Write the missing ).",
+    ),
+    (
+        r"Parse error.*got (?P<what>.+) with text \"(?P<text>.*?)\"",
+        "",
+        "CMake cannot read this line: there is {text} in the place of a command.",
+        "A command is a name and brackets, such as project(my_services). A comment begins with #.",
+    ),
+    (
+        r"Cannot find source file:\s+(?P<name>\S+)",
+        "",
+        "There is no file {name} at this path.",
+        "Write its path relative to the folder of the package, such as src/NAME.cpp, and compare the "
+        "spelling.",
+    ),
+    (
+        r'Cannot specify link libraries for target "(?P<name>[^"]+)" which is not built',
+        "",
+        "There is no program {name} above this line.",
+        "Write add_executable first, and use the same program name in both commands.",
+    ),
+    (
+        r"No CMAKE_CXX_COMPILER could be found|Could not find compiler set in environment variable CXX",
+        "",
+        "CMake finds no C++ compiler.",
+        "Install one: g++ on Debian and Ubuntu, or the package compilers of conda.",
+    ),
+    (
+        r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
+        "{package}",
+        "The package has no CMakeLists.txt.",
+        "Write this file. Spell its name exactly like this, with the same upper and lower case.",
+    ),
+    (
+        r"current CMakeCache\.txt directory .* is different",
+        "",
+        "The folder build was made in another place, because the workspace was moved or copied.",
+        "Remove the folders build and devel, and build again.",
+    ),
+)
+
+SILENT: tuple[Row, ...] = (
+    (
+        r"generate_messages\(\) without having added any message or service",
+        "",
+        "No file was listed before generate_messages, so it generates nothing.",
+        "Write add_service_files(FILES …) above it.",
+    ),
+)

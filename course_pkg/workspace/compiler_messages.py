@@ -1,0 +1,81 @@
+"""The errors of a C++ compiler and linker for a program that uses roscpp (seen with GCC 12 on Debian 12)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from course_pkg.workspace.fault import Fault
+
+_ERROR = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?:\d+:)? (?:fatal )?error: (?P<text>.+)$", re.M)
+_UNDEFINED = re.compile(r"undefined reference to [`'](?P<name>.+?)'$", re.MULTILINE)
+_SOURCE = re.compile(r".*/src/(?=[\w.+-]+/(?:\w+/)*[\w.+-]+$)")
+
+_TABLE: tuple[tuple[str, str, str], ...] = (
+    (
+        r"(?P<name>\S+): No such file or directory",
+        "The compiler does not find the header {name}.",
+        "Compare its spelling, name its package among the COMPONENTS of find_package, and write "
+        "include_directories(${{catkin_INCLUDE_DIRS}}) above add_executable.",
+    ),
+    (
+        r"no matching function for call to .*advertiseService",
+        "The function that is passed to advertiseService is not a handler.",
+        "Write bool NAME(TYPE::Request& request, TYPE::Response& response), with the same type in both "
+        "parameters, and with both &.",
+    ),
+    (
+        r"has no member named .(?P<name>\w+).; did you mean .(?P<near>\w+).",
+        "There is no field or method {name} here.",
+        "Did you mean {near}?",
+    ),
+    (
+        r"has no member named .(?P<name>\w+).",
+        "There is no field or method {name} here.",
+        "rossrv show lists the fields of a type, in the request and in the response.",
+    ),
+    (
+        r"no return statement in function returning|control reaches end of non-void",
+        "This function must return a value, but it can end without one.",
+        "Write return true or return false at the end of every path through the function.",
+    ),
+    (
+        r"expected .*[';]",
+        "The compiler expected something that is missing: {message}.",
+        "Look at this line and the one above it for a missing ; or bracket.",
+    ),
+    (
+        r".(?P<name>\w+). (?:was not declared in this scope|has not been declared)",
+        "The name {name} is not defined here.",
+        "Compare its spelling, check the prefix (ros:: or std::), and look for its #include.",
+    ),
+    (r"", "The compiler reports: {message}.", "Look at that line."),
+)
+
+
+def compiler_faults(text: str) -> Iterator[Fault]:
+    """Yield the compiler's errors, in the student's files first; then the linker's."""
+    found = list(_ERROR.finditer(text))
+    for each in sorted(found, key=lambda each: each["file"].startswith(("/usr/", "/opt/"))):
+        problem, remedy = _explained(each["text"])
+        yield Fault(problem, remedy, _SOURCE.sub("", each["file"]), int(each["line"]))
+    for missing in _UNDEFINED.finditer(text):
+        yield _unlinked(missing["name"])
+
+
+def _explained(message: str) -> tuple[str, str]:
+    for pattern, problem, remedy in _TABLE:
+        if found := re.search(pattern, message):
+            known = {"message": message.rstrip("."), **found.groupdict()}
+            return problem.format(**known), remedy.format(**known)
+    raise AssertionError("the last row matches everything")
+
+
+def _unlinked(name: str) -> Fault:
+    if name == "main":
+        return Fault("The program has no function main.", "Write int main(int argc, char** argv) { … }.")
+    return Fault(
+        f"The program uses {name}, but it is linked with no library that contains it.",
+        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. For a function of "
+        "your own, look for its definition.",
+    )

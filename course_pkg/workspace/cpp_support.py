@@ -1,0 +1,55 @@
+"""What is needed to build a program that uses roscpp, and how to install the missing parts."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+HEADER = "include/ros/ros.h"
+LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
+WARNINGS = ("-Werror=return-type",)  # without it, a handler without a return statement builds, but may crash
+
+
+def missing_for_cpp() -> str:
+    """Return what is missing here to build C++ programs and how to install it; empty if nothing is."""
+    if not _compiler_here():
+        return _advice(f"There is no C++ compiler here ({compiler()}).", "g++", "compilers")
+    if not any((prefix / HEADER).exists() for prefix in prefixes()):
+        return _advice("The headers of roscpp are not here.", "libroscpp-dev", "ros-noetic-roscpp")
+    return ""
+
+
+def compiler() -> str:
+    """Return the command of the C++ compiler: the variable CXX, which CMake uses, too, or else c++."""
+    return os.environ.get("CXX") or "c++"
+
+
+def prefixes() -> list[Path]:
+    """Return the prefixes of headers and libraries: catkin workspaces, conda's environment, the system."""
+    named = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
+    return [
+        Path(each) for each in dict.fromkeys([*named, os.environ.get("CONDA_PREFIX", ""), "/usr"]) if each
+    ]
+
+
+def compile_command(source: str, program: str) -> list[str]:
+    """Return the command that builds `program` from one file, as catkin does; CMake would take too long."""
+    folders: list[str] = []
+    for prefix in prefixes():
+        if prefix == Path("/usr"):  # the compiler searches /usr by itself
+            continue
+        folders += [f"-I{prefix}/include", f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib"]
+    libraries = [f"-l{name}" for name in LIBRARIES]
+    return [compiler(), "-std=c++17", *WARNINGS, *folders, source, "-o", program, *libraries, "-lpthread"]
+
+
+def _compiler_here() -> bool:
+    return shutil.which(compiler().split()[0]) is not None
+
+
+def _advice(problem: str, debian: str, conda: str) -> str:
+    return (
+        f"{problem} On Debian and Ubuntu type: apt-get install --no-install-recommends {debian}; with conda: "
+        f"conda install {conda}. Then restart the kernel."
+    )

@@ -1,0 +1,78 @@
+"""A fault in a package, and its line in a package.xml, even if the file is not well-formed XML."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_TAG = re.compile(r"<(?P<name>[A-Za-z_]\w*)(?:\s[^<>]*)?>(?P<text>[^<]*)")
+_DEPENDENCY_TAGS = {
+    "build": ("build_depend", "depend"),
+    "run": ("exec_depend", "run_depend", "depend"),
+}
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What is wrong with a package, where it is, and what to do about it.
+
+    `problem` and `remedy` are whole sentences. `file` is relative to the workspace's src. `line` counts from
+    1; it is 0 if the line is not known.
+    """
+
+    problem: str
+    remedy: str
+    file: str = ""
+    line: int = 0
+
+    @property
+    def place(self) -> str:
+        """Return the place, such as "my_services/CMakeLists.txt, line 6"; empty if it is not known."""
+        return f"{self.file}, line {self.line}" if self.line else self.file
+
+    def __str__(self) -> str:
+        text = f"{self.problem} {self.remedy}"
+        return f"{self.place}: {text}" if self.place else text
+
+
+@dataclass(frozen=True)
+class Tag:
+    """An opening tag, the line where it begins, and the text after it."""
+
+    name: str
+    line: int
+    text: str
+
+
+def manifest_tags(text: str) -> Iterator[Tag]:
+    """Yield the opening tags in their order, without the tags in comments."""
+    bare = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+    for found in _TAG.finditer(bare):
+        yield Tag(found["name"], bare.count("\n", 0, found.start()) + 1, found["text"].strip())
+
+
+def dependencies(text: str, purpose: str) -> set[str]:
+    """Return the packages that a package.xml names for `purpose`: "build" or "run"."""
+    return {tag.text for tag in manifest_tags(text) if tag.name in _DEPENDENCY_TAGS[purpose]}
+
+
+def locate(fault: Fault, text: str) -> Fault:
+    """Return a fault of a package.xml with the line of its tag, if the tag can be found."""
+    if "not closed" in fault.problem and (tag := _unclosed(text)):
+        return replace(fault, problem=f"The tag {tag.name} is not closed.", line=tag.line)
+    if fault.line or not fault.file.endswith("package.xml"):
+        return fault
+    words = set(re.findall(r"\w+", fault.problem)) - {"package"}
+    lines = [tag.line for tag in manifest_tags(text) if tag.name in words]
+    return replace(fault, line=lines[0]) if lines else fault
+
+
+def _unclosed(text: str) -> Tag | None:
+    """Return the first tag, except the outermost one, that is opened more often than closed."""
+    opened = list(manifest_tags(text))
+    for tag in opened[1:]:
+        if sum(each.name == tag.name for each in opened) > text.count(f"</{tag.name}>"):
+            return tag
+    return None

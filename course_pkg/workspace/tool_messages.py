@@ -1,0 +1,189 @@
+"""The errors of catkin, genmsg and the tools of ROS about a package; rows as in cmake_messages."""
+
+from __future__ import annotations
+
+from course_pkg.workspace.cmake_messages import Row
+
+FROM_BUILD: tuple[Row, ...] = (
+    (
+        r'from catkin_pkg\.package import parse_package" failed',
+        "",
+        "The build runs another Python, which is first on PATH, and not the Python for which ROS is "
+        "installed.",
+        "Build with catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3. If you correct PATH instead, remove "
+        "the "
+        "folder build, too: it remembers the path of the other Python.",
+    ),
+    (
+        r"The manifest contains invalid XML:\s*mismatched tag: line (?P<line>\d+)",
+        "package.xml",
+        "A tag is not closed, or it is closed with another name, in this line or above it.",
+        "Close every <tag> with </tag>.",
+    ),
+    (
+        r"The manifest contains invalid XML:\s*(?P<what>[^\n]*?): line (?P<line>\d+)",
+        "package.xml",
+        "The file is not valid XML: {what}.",
+        "Begin with <?xml in the first column of the first line, close every tag, use straight quotes, and "
+        "write &amp; for &.",
+    ),
+    (
+        r"The manifest .*?\(with format version (?P<format>\d)\) "
+        r"must not contain the following tags: (?P<tags>[^\n]+)",
+        "package.xml",
+        "A package.xml of format {format} cannot have the tag {tags}.",
+        "Use buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), and compare the "
+        "spelling.",
+    ),
+    (
+        r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',
+        "package.xml",
+        "The tag {tag} is missing, or it occurs twice.",
+        "Write <{tag}>…</{tag}> once.",
+    ),
+    (
+        r"generic dependency on .(?P<name>\w+). is redundant with: (?P<tags>\w+)",
+        "package.xml",
+        "{name} is listed twice: in <depend> and in <{tags}>.",
+        "Keep only <depend>: it stands for both <build_depend> and <exec_depend>.",
+    ),
+    (
+        r"must declare at least one maintainer",
+        "package.xml",
+        "The package has no maintainer.",
+        'Write <maintainer email="you@example.com">You</maintainer>.',
+    ),
+    (
+        r'The "(?P<tag>\w+)" tag must have the attribute "(?P<name>\w+)"',
+        "package.xml",
+        "The tag {tag} has no attribute {name}.",
+        'Write <{tag} {name}="…">.',
+    ),
+    (
+        r'Invalid email "(?P<email>[^"]*)"',
+        "package.xml",
+        "{email} is not an address of the form name@example.com.",
+        "Write a whole address, such as you@example.com.",
+    ),
+    (
+        r'Package name "(?P<package>[^"]*)" does not follow naming conventions',
+        "package.xml",
+        "{package} is not a valid name for a package.",
+        "Use only lower-case letters, digits and _, begin with a letter, and use no blanks.",
+    ),
+    (
+        r'Package version "(?P<version>[^"]*)" does not follow version conventions',
+        "package.xml",
+        "The version {version} is not three numbers with dots between them.",
+        "Write it as in this example: 0.1.0.",
+    ),
+    (
+        r"Multiple packages found with the same name \"(?P<name>[^\"]+)\"",
+        "",
+        "Two folders below src contain a package with the name {name}.",
+        "Move one of them out of src, or change its <name> and project().",
+    ),
+    (
+        r"package name '(?P<name>[^']+)' is illegal and cannot be used in message generation",
+        "package.xml",
+        "{name} cannot be the name of a package with messages, because it becomes the name of a Python "
+        "module.",
+        "Use lower-case letters, digits and _, and begin with a letter, in package.xml and in project().",
+    ),
+    (
+        r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
+        "",
+        "A .srv file has the line {text!s} in the place of the three dashes.",
+        "Write --- and nothing else.",
+    ),
+    (
+        r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[^\n]*)",
+        "",
+        "A .srv file has the line {text}, which is not a type and a name with one blank between them.",
+        "Write it as in this example: float32 length.",
+    ),
+    (
+        r"InvalidMsgSpec'?>?: (?P<what>[^\n]*)",
+        "",
+        "A .srv file cannot be read: {what}.",
+        "Correct that line. rossrv show prints the same error, with the name of the type.",
+    ),
+    (
+        r"base path \"(?P<path>[^\"]+)\" contains a package",
+        "",
+        "catkin_make was started inside a package.",
+        "Go up to the root of the workspace, the folder that contains src, and start it there.",
+    ),
+    (
+        r"specified source space \"(?P<path>[^\"]+)\" does not exist",
+        "",
+        "catkin_make was started in a folder that does not contain src.",
+        "Go to the root of the workspace, the folder that contains src, and start it there.",
+    ),
+)
+
+FROM_TOOLS: tuple[Row, ...] = (
+    (
+        r"\[rospack\] Error: package '(?P<name>[^']+)' not found|"
+        r"unknown package \[(?P<other>\w+)\] on search path",
+        "",
+        "No package {name}{other} is on ROS_PACKAGE_PATH.",
+        "Source devel/setup.bash of its workspace in this shell, and compare the spelling.",
+    ),
+    (
+        r"No module named '(?P<name>\w+)\.(?:srv|msg)'",
+        "",
+        "Python finds the package {name}, but no types in it, because they were not generated.",
+        "Look for generate_messages and add_service_files in CMakeLists.txt, and build again.",
+    ),
+    (
+        r"No module named '(?P<name>\w+)'",
+        "",
+        "Python does not find {name} on its path.",
+        "Source devel/setup.bash of its workspace. If you have done that, look for generate_messages there.",
+    ),
+    (
+        r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",
+        "",
+        "{module} has no {name}.",
+        "Compare it with the name of the .srv file. Upper and lower case are different.",
+    ),
+    (
+        r"Couldn't find executable named (?P<name>\S+) below",
+        "",
+        "The package has no program {name}.",
+        "Make the file executable: chmod +x. If it is executable, compare the name, with its ending.",
+    ),
+    (
+        r"(?:import|from): command not found|syntax error near unexpected token"
+        r"|import(?:-im\d\S*)?: unable to open X server",
+        "",
+        "The shell executed the Python script as a shell script.",
+        "Make #!/usr/bin/env python3 its first line.",
+    ),
+    (
+        r"env: .python3?\\r.: No such file",
+        "",
+        "The lines of the script end as on Windows, so the name python3 in line 1 has an extra character.",
+        "Save it with the line ends of Linux: sed -i 's/\\r$//' FILE.",
+    ),
+    (
+        r"\[(?P<name>[^\]]+)\] is neither a launch file in package",
+        "",
+        "roslaunch starts launch files, but {name} is not a launch file.",
+        "Start a single program with rosrun.",
+    ),
+    (
+        r"RLException: Invalid roslaunch XML syntax",
+        "",
+        "roslaunch expects a launch file, which is XML, but this file is not XML.",
+        "Start a single program with rosrun.",
+    ),
+    (
+        r"(?P<tool>ros\w+) args\tprint service arguments|Usage: (?P<other>ros\w+) ",
+        "",
+        "{tool}{other} does not know that command. Its output lists the commands that it knows.",
+        "Use one of them. rossrv show prints the fields of a type; rosservice info names the server of a "
+        "service.",
+    ),
+)

@@ -1,0 +1,38 @@
+"""The subcommands of a benchmark program, and what several benchmarks measure with."""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from collections.abc import Callable, Mapping
+from typing import NoReturn
+
+
+def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
+    """Run the subcommand that the command line names first; its own options follow."""
+    name = sys.argv.pop(1) if len(sys.argv) > 1 else ""
+    if name not in commands:
+        sys.exit(f"usage: {sys.argv[0]} {'|'.join(commands)} [OPTION …]")
+    sys.exit(commands[name]())
+
+
+def milliseconds(action: Callable[[], object]) -> float:
+    """Return how long `action` takes (ms)."""
+    began = time.perf_counter()
+    action()
+    return 1000 * (time.perf_counter() - began)
+
+
+def times_of(action: Callable[[], object], repeats: int) -> list[float]:
+    """Return how long each of the repeats took (ms)."""
+    return [milliseconds(action) for _ in range(repeats)]
+
+
+def alternate(actions: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:
+    """Return the median time (ms) of each action; they take turns, so that noise affects all alike."""
+    times: dict[str, list[float]] = {name: [] for name in actions}
+    for _ in range(rounds):
+        for name, action in actions.items():
+            times[name].append(milliseconds(action))
+    return {name: statistics.median(values) for name, values in times.items()}

@@ -1,0 +1,236 @@
+"""Set-up: a fresh machine, the import of the package, and the build of a C++ chapter.
+
+usage: ./course run python tests/bench/setup.py fresh|imports|cpp [OPTION …]
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from commands import run_command
+
+# fresh: prints how long a first `./course run rosservice list` takes on a fresh Debian, set-up included.
+# usage, as root, with debootstrap installed: /usr/bin/python3 tests/bench/setup.py fresh [RUNS [CODENAME]]
+# A pristine system is made once, from the mirror that this machine's apt uses, and copied for each run.
+
+ROOT = Path(__file__).parents[2]
+FRESH_BAR = 60.0  # s
+# What a machine needs to be told of its surroundings: where packages come from, and whose certificates hold.
+SURROUNDINGS = (
+    "/etc/apt/sources.list",
+    "/etc/apt/sources.list.d",
+    "/etc/apt/apt.conf.d",
+    "/etc/apt/auth.conf.d",
+    "/etc/resolv.conf",
+    "/etc/hosts",
+    "/etc/pip.conf",
+    "/etc/ssl/certs/ca-certificates.crt",
+)
+KEPT = (
+    "http_proxy",
+    "https_proxy",
+    "no_proxy",
+    "SSL_CERT_FILE",
+    "PIP_CERT",
+    "PIP_INDEX_URL",
+    "PIP_EXTRA_INDEX_URL",
+)
+INSIDE = 'mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && exec chroot "$0" sh -c "$1"'
+
+
+def fresh_main() -> int:
+    """Measure each run in a copy of its own."""
+    runs = int(sys.argv[1]) if sys.argv[1:] else 3
+    codename = sys.argv[2] if sys.argv[2:] else "bookworm"
+    if os.geteuid() or not shutil.which("debootstrap"):
+        sys.exit("This needs root and debootstrap.")
+    with tempfile.TemporaryDirectory(prefix="fresh-") as folder:
+        pristine = Path(folder, "pristine")
+        subprocess.run(
+            [
+                "debootstrap",
+                "--variant=minbase",
+                "--include=ca-certificates",
+                codename,
+                pristine,
+                mirror(codename),
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
+        tell_surroundings(pristine)
+        seconds = [fresh_measure(pristine, Path(folder, f"run-{number}")) for number in range(runs)]
+    median = statistics.median(seconds)
+    print(f"first `./course run rosservice list` on a fresh {codename}: {[round(it, 1) for it in seconds]} s")
+    print(f"median {median:.1f} s, bar {FRESH_BAR:.0f} s: {'met' if median <= FRESH_BAR else 'MISSED'}")
+    return 0
+
+
+def fresh_measure(pristine: Path, system: Path) -> float:
+    """Return the seconds of a first start in a copy of `pristine`."""
+    subprocess.run(["cp", "-a", pristine, system], check=True)
+    checkout = system / "home" / "course"
+    checkout.mkdir(parents=True)
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        check=True,
+    ).stdout
+    subprocess.run(
+        ["tar", "--create", "--null", "--files-from=-", "--file", system / "course.tar"],
+        cwd=ROOT,
+        input=listed,
+        check=True,
+    )
+    subprocess.run(["tar", "--extract", "--file", system / "course.tar", "--directory", checkout], check=True)
+    started = time.perf_counter()
+    inside(system, "cd /home/course && ./course run rosservice list")
+    seconds = time.perf_counter() - started
+    shutil.rmtree(system)
+    return seconds
+
+
+def inside(system: Path, script: str) -> None:
+    """Run `script` in `system`, in a mount namespace that ends with it."""
+    env = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
+    env |= {name: os.environ[name] for name in (*KEPT, *(it.upper() for it in KEPT)) if name in os.environ}
+    subprocess.run(["unshare", "--mount", "sh", "-c", INSIDE, system, script], env=env, check=True)
+
+
+def mirror(codename: str) -> str:
+    """Return where this machine's apt takes `codename` from; another release is taken from the same place."""
+    targets = [
+        "apt-get",
+        "indextargets",
+        "--format",
+        "$(REPO_URI) $(RELEASE) $(COMPONENT)",
+        "Created-By: Packages",
+    ]
+    lines = subprocess.run(targets, capture_output=True, text=True, check=True).stdout.splitlines()
+    rows = [line.split() for line in lines]
+    fitting = [row[0] for row in rows if row[1] == codename] or [row[0] for row in rows if "-" not in row[1]]
+    return fitting[0]
+
+
+def tell_surroundings(system: Path) -> None:
+    """Copy into `system` what it needs to reach the same mirrors as this machine."""
+    for name in SURROUNDINGS:
+        source, target = Path(name), system / name[1:]
+        if source.is_dir():
+            for path in source.glob("[a-z0-9]*.*"):
+                if "docker" not in path.name:
+                    shutil.copy(path, target / path.name)
+        elif source.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, target)
+
+
+# imports: what `import course_pkg`, and a notebook's imports, cost beyond rospy.
+
+ROUNDS = 21
+IMPORTS_BAR = 60.0  # ms
+PEER = "import rospy"
+STATEMENTS = {
+    "course_pkg": "import rospy, course_pkg",
+    "join": "import rospy; from course_pkg import join",
+    "check": "import rospy; from course_pkg import check",
+    "join, check, predict, panels": (
+        "import rospy; from course_pkg import join, check, predict, ServicePanel, GraphPanel"
+    ),
+    "ipywidgets, for comparison": "import rospy, ipywidgets",
+}
+
+
+def import_time(statement: str) -> float:
+    """Return how long a fresh interpreter takes to run `statement`, in ms."""
+    start = time.perf_counter()
+    subprocess.run([sys.executable, "-c", statement], check=True)
+    return (time.perf_counter() - start) * 1000
+
+
+def imports_main() -> None:
+    """Take turns, so that a busy moment hits all alike, and print medians beyond the peer."""
+    taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
+    for _ in range(ROUNDS):
+        peer = import_time(PEER)
+        for name, statement in STATEMENTS.items():
+            taken[name].append(import_time(statement) - peer)
+    for name, times in taken.items():
+        print(f"{name}: {statistics.median(times):+.0f} ms beyond rospy")
+    print(f"bar for course_pkg: {IMPORTS_BAR:.0f} ms")
+
+
+# cpp: prints how long chapter 13's builds take from cold, and what one file costs by itself.
+# The files and the commands are those of the solution's own cells, in a workspace that is made anew each
+# time.
+
+SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("11_*.ipynb"))
+CPP_BAR = 15.0  # s
+WRITING = re.compile(r"%%writefile (?P<more>-a )?(?P<path>src/cpp_services/\S+)\n(?P<text>.*)", re.DOTALL)
+
+
+def cpp_main() -> int:
+    """Measure each run in a workspace of its own."""
+    runs = int(sys.argv[1]) if sys.argv[1:] else 3
+    print(f"{os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start")
+    rounds = [cpp_measure() for _ in range(runs)]
+    for seconds, alone in rounds:
+        steps = " + ".join(f"{step:.1f}" for step in seconds)
+        print(f"builds {steps} = {sum(seconds):.1f} s; the compiler alone, one file: {alone:.1f} s")
+    median = statistics.median(sum(seconds) for seconds, _ in rounds)
+    files = statistics.median(sum(seconds) / alone for seconds, alone in rounds)
+    print(f"median {median:.1f} s, as long as {files:.1f} files one by one")
+    print(f"bar {CPP_BAR:.0f} s: {'met' if median <= CPP_BAR else 'MISSED'}")
+    return 0
+
+
+def cpp_measure() -> tuple[list[float], float]:
+    """Return the seconds of each build from cold, and those of the compiler for one of the files."""
+    with tempfile.TemporaryDirectory(prefix="course-cpp-") as folder:
+        seconds = list(built(Path(folder)))
+        from course_pkg.workspace.cpp_support import compile_command  # `fresh` runs without the course
+
+        source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
+        return seconds, timed(compile_command(source, f"{folder}/alone"), folder)
+
+
+def built(folder: Path) -> Iterator[float]:
+    """Do what the cells do, and yield the seconds of each build."""
+    from course_pkg.authoring.cells import code_cells
+    from course_pkg.authoring.notebook_store import read
+
+    for cell in code_cells(read(SOLUTION)):
+        if found := WRITING.match(cell["source"]):
+            path = folder / found["path"]
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a" if found["more"] else "w") as file:
+                file.write(found["text"] + "\n")
+        for line in re.findall(r"^!(sed .*|catkin_make [^>;]*)", cell["source"], re.MULTILINE):
+            spent = timed(["bash", "-c", line], str(folder))
+            if line.startswith("catkin_make"):
+                yield spent
+
+
+def timed(command: list[str], folder: str) -> float:
+    """Return how long a command takes, in s; end the whole where it fails."""
+    started = time.perf_counter()
+    done = subprocess.run(
+        command, cwd=folder, env={**os.environ, "PWD": folder}, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        sys.exit(f"{' '.join(command)} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return time.perf_counter() - started
+
+
+if __name__ == "__main__":
+    run_command({"fresh": fresh_main, "imports": imports_main, "cpp": cpp_main})

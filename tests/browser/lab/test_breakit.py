@@ -1,0 +1,154 @@
+"""The fault lab in a real JupyterLab, and its saved state without a kernel."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+
+from course_pkg.faults import named
+from course_pkg.faults.fault import Fault
+from course_pkg.panels import BreakIt
+from course_pkg.panels.breakit.cases import CaseStore, cases
+from course_pkg.ros import MasterClient, PrivateMaster
+from tests.browser.jupyter import Lab, run_all, running_notebook
+from tests.browser.pages import new_page, panel, picture, save
+from tests.support import eventually
+
+SET_UP = "from course_pkg import BreakIt, join\nnode = join('NODE')\nnode.master"
+SHOW = "lab = BreakIt('stale', 'stopped', 'returns_none')\nlab"
+LABEL = "Break it"
+
+
+def number(name: str) -> int:
+    """Return the number of the case with this fault."""
+    return next(case.number for case in cases() if case.fault.name == name)
+
+
+def begin(lab: Locator, name: str) -> None:
+    """Open the case and wait for its symptom."""
+    lab.get_by_role("button", name=f"Case {number(name)},").click()
+    expect(lab.get_by_text(f"Case {number(name)}. ")).to_be_visible()
+    expect(lab.get_by_text("The fault is there.")).to_be_visible()
+
+
+def answer(lab: Locator, fault: Fault) -> None:
+    """Choose a diagnosis and a remedy, and check them."""
+    lab.get_by_label(fault.diagnosis.replace("`", "")).check()
+    lab.get_by_label(fault.remedy.replace("`", "")).check()
+    lab.get_by_role("button", name="Check").click()
+
+
+@pytest.fixture(scope="module")
+def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
+    """Open one notebook for the tests of this module."""
+    with (
+        new_page(context) as page,
+        running_notebook(page, lab, "breakit", SET_UP.replace("NODE", "breakit"), SHOW),
+    ):
+        yield page
+
+
+@pytest.fixture
+def form(shared: Page) -> Locator:
+    """Run all cells again, which gives a fresh panel."""
+    shared.set_viewport_size({"width": 1280, "height": 1600})
+    run_all(shared)
+    return panel(shared, LABEL)
+
+
+def test_a_case_is_seen_looked_into_and_answered(form: Locator) -> None:
+    """At first only the symptom is shown, then tools; each answer is shown with its reason."""
+    picture(form, "breakit-opened")
+    begin(form, "stale")
+    expect(form.get_by_label("What it printed")).to_contain_text("[Errno 111] Connection refused")
+    expect(form).not_to_contain_text(named("stale").reason[:40])
+    picture(form, "breakit-symptom")
+    form.get_by_role("button", name="rosservice list").click()
+    expect(form.locator(".ros-looks").get_by_label("What it printed")).to_contain_text("/lab/door")
+    wrong = next(case for case in cases() if case.fault.name == "stale").diagnoses
+    other = next(text for text in wrong if text != named("stale").diagnosis)
+    form.get_by_label(other.replace("`", "")).check()
+    form.get_by_label(named("stale").remedy.replace("`", "")).check()
+    form.get_by_role("button", name="Check").click()
+    expect(form.get_by_text("Not this.")).to_be_visible()
+    expect(form.get_by_text("If it were that")).to_be_visible()
+    picture(form, "breakit-wrong")
+    answer(form, named("stale"))
+    expect(form.get_by_text("Right.", exact=True)).to_be_visible()
+    expect(form.get_by_text("Taught in chapter 12")).to_be_visible()
+    expect(form.get_by_text("1 of 3 solved, 0 at the first try")).to_be_visible()
+    picture(form, "breakit-right")
+
+
+def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
+    """The row of cases is one tab stop with arrow keys inside; Enter begins, Space chooses, Enter checks."""
+    form.get_by_role("button", name=re.compile("^Case")).first.focus()
+    at = sorted(number(name) for name in ("stale", "stopped", "returns_none"))
+    for _ in range(at.index(number("returns_none"))):
+        shared.keyboard.press("ArrowRight")
+    expect(form.get_by_role("button", name=f"Case {number('returns_none')},")).to_be_focused()
+    shared.keyboard.press("Enter")
+    expect(form.get_by_text("The fault is there.")).to_be_visible()
+    form.get_by_label(named("returns_none").diagnosis).focus()
+    shared.keyboard.press("Space")
+    form.get_by_label(named("returns_none").remedy).focus()
+    shared.keyboard.press("Space")
+    form.get_by_role("button", name="Check").focus()
+    shared.keyboard.press("Enter")
+    expect(form.get_by_text("Right.", exact=True)).to_be_visible()
+    form.get_by_role("button", name="Undo the fault").focus()
+    shared.keyboard.press("Enter")
+    expect(form.get_by_text("The fault is undone.")).to_be_visible()
+
+
+def test_a_call_that_hangs_is_said_to_hang(form: Locator) -> None:
+    """A call without an answer within 2 s is described; at 560 px nothing overflows the panel."""
+    begin(form, "stopped")
+    expect(form.get_by_text("No answer within 2 s; still waiting.")).to_be_visible()
+    form.page.set_viewport_size({"width": 560, "height": 1600})
+    form.get_by_role("button", name="rosnode ping").click()
+    expect(form.locator(".ros-looks li")).to_have_count(1)
+    picture(form, "breakit-560")
+    assert form.evaluate("element => element.scrollWidth <= element.clientWidth + 1")
+
+
+def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) -> None:
+    """When no page shows the lab any more, nothing of it is left on the graph."""
+    with (
+        new_page(context) as page,
+        running_notebook(page, lab, "leaving", SET_UP.replace("NODE", "leaving"), SHOW),
+    ):
+        shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
+        master = MasterClient(shown.strip().strip("'"))
+        before = master.system_state().nodes  # among them those of another lab's fault
+        begin(panel(page, LABEL), "stale")
+        assert master.system_state().nodes != before
+        page.goto("about:blank")
+        eventually(lambda: master.system_state().nodes == before)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_saved_lab_shows_the_last_case(
+    page: Page, tmp_path: Path, master: PrivateMaster, theme: str
+) -> None:
+    """The last symptom and answer are shown, nothing can be pressed, and a sentence gives the reason."""
+    assert master.uri
+    widget = BreakIt("stopped", "returns_none", store=CaseStore(tmp_path / "cases.json"))
+    widget._model.open(number("returns_none"))
+    eventually(lambda: widget.case.get("phase") == "ready")
+    widget._model.answer(named("returns_none").diagnosis, named("returns_none").remedy)
+    page.set_viewport_size({"width": 560, "height": 1400})
+    page.goto(save(widget, tmp_path / "page.html", theme))
+    form = panel(page, LABEL)
+    expect(
+        form.get_by_text("No kernel answers: this is a saved panel. It shows the last case")
+    ).to_be_visible()
+    expect(form.get_by_label("What it printed")).to_contain_text("service handler returned None")
+    expect(form.get_by_text("Right.", exact=True)).to_be_visible()
+    expect(form.get_by_role("button", name="Undo the fault")).to_be_disabled()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 560
+    picture(page, f"breakit-saved-{theme}")

@@ -1,0 +1,75 @@
+"""Pages in the browser, with or without a kernel."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import BrowserContext, Error, Locator, Page, expect
+
+from course_pkg.panels.panel import Panel
+
+HERE = Path(__file__).parent
+# JupyterLab's own files in a stack; the course's scripts are at blob: addresses.
+JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
+READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
+HOST = (HERE / "host.html").read_text()
+
+# A function of the page: it returns the texts in an element whose contrast is too low.
+FAINT = (HERE / "contrast.js").read_text()
+
+
+@contextmanager
+def new_page(context: BrowserContext) -> Iterator[Page]:
+    """Open a page; an error of a script on it fails the test."""
+    page = context.new_page()
+    with no_errors(page):
+        yield page
+    page.close()
+
+
+@contextmanager
+def no_errors(page: Page) -> Iterator[None]:
+    """Fail if a script of the course raises an error in the block; JupyterLab's own errors are ignored."""
+    errors: list[str] = []
+
+    def keep(error: Error) -> None:
+        stack = error.stack or ""
+        if not JUPYTERLAB.search(stack) or "blob:" in stack:
+            errors.append(stack or str(error))
+
+    page.on("pageerror", keep)
+    yield
+    page.remove_listener("pageerror", keep)
+    assert errors == [], errors
+
+
+def panel(page: Page, label: str = "Service panel") -> Locator:
+    """Return the panel with this name."""
+    found = page.get_by_role("region", name=label, exact=True)
+    expect(found).to_be_visible(timeout=READY)
+    return found
+
+
+def picture(target: Page | Locator, name: str) -> None:
+    """Write a screenshot to the folder that COURSE_ARTIFACTS names, if it is set, for a person to look at."""
+    if folder := os.environ.get("COURSE_ARTIFACTS"):
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        target.screenshot(path=Path(folder) / f"{name}.png")
+
+
+def save(widget: Panel, path: Path, theme: str = "light") -> str:
+    """Write a page that draws the widget from its state without a kernel, and return its address."""
+    state = {
+        name: value
+        for name, value in widget.get_state().items()
+        if isinstance(value, str | list | dict | bool)
+    }
+    text = json.dumps(state).replace("</", "<\\/")
+    path.write_text(HOST.replace("THEME", theme).replace("CSS", state["_css"]).replace("STATE", text))
+    widget.close()
+    return path.as_uri()

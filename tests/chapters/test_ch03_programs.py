@@ -1,0 +1,324 @@
+"""The shop: a camera that sees customers, a detector that tells of them, a cashier who greets them."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from xmlrpc.client import ServerProxy
+
+import pytest
+import rospy
+from course_pkg.srv import (
+    CashierReport,
+    CashierReportResponse,
+    DetectCustomer,
+    DetectCustomerResponse,
+    LetIn,
+    LetInResponse,
+)
+
+from course_pkg.ros import BoundedProxy, MasterClient, NodeProcess, PrivateMaster
+from tests.kernel import Kernel
+from tests.support import eventually, program
+
+pytestmark = pytest.mark.usefixtures("master")
+
+FOR_GOOD = 600.0  # s that a customer stays, longer than any test
+SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "/cashier/report"}
+
+
+def run(name: str, *arguments: str) -> NodeProcess:
+    """Start a program of the shop, and return it once it answers."""
+    process = NodeProcess(["rosrun", "course_pkg", name, *arguments])
+    process.wait_for_service(SERVES[name])
+    return process
+
+
+@pytest.fixture(autouse=True)
+def settings_of_nobody(master: PrivateMaster) -> None:
+    """What a program was started with, such as _rate:=5, stays at the master for the next of its name."""
+    with ServerProxy(master.uri) as parameters:
+        for node in SERVES:
+            parameters.deleteParam("/tests", f"/{node}")
+
+
+@pytest.fixture
+def camera() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg shop_camera`, with nobody at the counter."""
+    with run("shop_camera") as process:
+        yield process
+
+
+@pytest.fixture
+def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
+    """`rosrun course_pkg detector`, with a camera."""
+    with run("detector") as process:
+        yield process
+
+
+def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
+    """Let customers in."""
+    return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
+
+
+def detect(after: int = 0, patience: float = 0.0) -> DetectCustomerResponse:
+    """Ask the detector."""
+    return BoundedProxy("/detect_customer", DetectCustomer, timeout=70.0)(after, patience)
+
+
+def report() -> CashierReportResponse:
+    """Ask the cashier what it has done."""
+    return BoundedProxy("/cashier/report", CashierReport)()
+
+
+@pytest.mark.usefixtures("detector")
+def test_a_look_says_who_is_there() -> None:
+    """With no patience there is an answer at once: nobody, or the customer who is there, and since when."""
+    assert (detect().detected, detect().number) == (False, 0)
+    came = let_in(0.0)
+    answer = detect(patience=10.0)
+    assert (answer.detected, answer.number) == (True, came.first)
+    assert 0.0 <= answer.arrived.to_sec() - came.comes[0].to_sec() < 5.0
+    assert detect().number == came.first
+    assert not detect(after=came.first).detected
+
+
+@pytest.mark.usefixtures("detector")
+def test_a_question_that_waits_is_answered_when_somebody_comes() -> None:
+    """The answer comes after the customer, and long before the patience is over."""
+    came = let_in(0.5)
+    answer = detect(patience=30.0)
+    assert came.comes[0].to_sec() <= time.time() < came.comes[0].to_sec() + 10.0
+    assert answer.number == came.first
+
+
+@pytest.mark.usefixtures("detector")
+def test_patience_ends() -> None:
+    """Where nobody comes, the answer is no, after the time that was given."""
+    started = time.monotonic()
+    assert not detect(patience=0.5).detected
+    assert 0.5 <= time.monotonic() - started < 5.0
+
+
+@pytest.mark.usefixtures("detector")
+def test_those_who_come_together_are_told_one_by_one() -> None:
+    """Each question goes on from the customer that its caller knows."""
+    first = let_in(0.0, 0.0, 0.0).first
+    numbers = [first - 1]
+    for _ in range(3):
+        numbers.append(detect(after=numbers[-1], patience=10.0).number)
+    assert numbers == [first - 1, first, first + 1, first + 2]
+
+
+@pytest.mark.usefixtures("detector")
+def test_everybody_who_waits_is_answered() -> None:
+    """Callers do not stand in line: one customer answers them all."""
+    with ThreadPoolExecutor(10) as pool:
+        answers = [pool.submit(detect, patience=30.0) for _ in range(10)]
+        first = let_in(0.5).first
+        assert {answer.result(20).number for answer in answers} == {first}
+
+
+@pytest.mark.parametrize("patience", [-1.0, math.nan, math.inf, 61.0])
+@pytest.mark.usefixtures("detector")
+def test_a_patience_that_cannot_be_is_refused(patience: float) -> None:
+    """It is refused with what is right, and the detector is well."""
+    words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
+    with pytest.raises(rospy.ServiceException, match=words):
+        detect(patience=patience)
+    assert not detect().detected
+
+
+@pytest.mark.usefixtures("detector")
+def test_a_flood_of_callers_is_bounded() -> None:
+    """At most 64 wait; the others are refused at once, and those who wait get their answer."""
+    with ThreadPoolExecutor(80) as pool:
+        waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
+        eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
+        refused = [future.exception() for future in waiting if future.done()]
+        assert len(refused) == 16
+        assert {"64 callers wait already" in str(error) for error in refused} == {True}
+        let_in(0.0)
+        assert sum(future.exception(20) is None for future in waiting) == 64
+
+
+def test_a_camera_that_is_gone_is_not_an_empty_shop(camera: NodeProcess, detector: NodeProcess) -> None:
+    """A call that waits gets an error long before its patience is over; it works again with a new camera.
+
+    The customers of the new one have higher numbers, so that those who wait for the next one get them.
+    """
+    first = let_in(0.0).first
+    assert detect(patience=10.0).number == first
+    with ThreadPoolExecutor(1) as pool:
+        waiting = pool.submit(detect, first, 60.0)
+        camera.kill()
+        assert "no message from the camera for 2 s" in str(waiting.exception(15))
+    with pytest.raises(rospy.ServiceException, match="customers cannot be detected: does shop_camera run"):
+        detect()
+    with run("shop_camera"):
+        eventually(lambda: _answers() and not detect().detected)
+        assert let_in(0.0).first == first + 1
+        assert detect(after=first, patience=10.0).number == first + 1
+
+
+def _answers() -> bool:
+    try:
+        detect()
+    except rospy.ServiceException:
+        return False
+    return True
+
+
+def test_a_detector_without_a_camera_says_so() -> None:
+    """It serves all the same, and refuses."""
+    with run("detector"), pytest.raises(rospy.ServiceException, match="customers cannot be detected"):
+        detect()
+
+
+@pytest.mark.parametrize(
+    ("after", "stay", "words"),
+    [
+        ([0.0, math.nan], 1.0, r"after\[1\]: nan s cannot be waited for"),
+        ([-1.0], 1.0, r"after\[0\]: -1 s cannot be waited for"),
+        ([0.0], math.inf, "stay: inf s"),
+        ([0.0] * 1001, 1.0, "1001 customers are too many"),
+    ],
+)
+@pytest.mark.usefixtures("camera")
+def test_customers_who_cannot_be_are_refused(after: list[float], stay: float, words: str) -> None:
+    """The camera names the field, and goes on."""
+    with pytest.raises(rospy.ServiceException, match=words):
+        let_in(*after, stay=stay)
+    assert len(let_in(5.0, 1.0).comes) == 2
+
+
+@pytest.mark.usefixtures("detector")
+def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) -> None:
+    """Also those who come together, and however often the camera repeats who is there."""
+    kernel.run("from course_pkg import join\nfrom std_msgs.msg import UInt32\nnode = join('listener')")
+    kernel.run("heard = node.subscribe('/customers', UInt32)")
+    with ServerProxy(MasterClient(master.uri).lookup_node("/detector") or "") as node:
+        eventually(lambda: any("/customers" in row for row in node.getBusInfo("/tests")[2]))
+    first = let_in(0.0, 0.0, 0.3, 0.6).first
+    heard = kernel.run("result = [message.data for message in heard.wait(4, timeout=15)]")
+    assert heard == [first, first + 1, first + 2, first + 3]
+    eventually(lambda: not detect(after=first + 3).detected)
+    assert kernel.run("result = heard.count") == 4
+
+
+@pytest.mark.parametrize(
+    "settings", [["_design:=poll", "_rate:=20"], ["_design:=topic"], ["_design:=wait", "_patience:=0.5"], []]
+)
+@pytest.mark.usefixtures("detector")
+def test_a_cashier_greets_everybody_once(settings: list[str]) -> None:
+    """In each design, in the order in which they come, and with the times of it."""
+    with run("cashier", *settings) as cashier:
+        came = let_in(0.2, 0.2, 0.9)
+        eventually(lambda: len(report().greeted) >= 3, timeout=20)
+        said = report()
+        assert list(said.greeted) == [came.first, came.first + 1, came.first + 2]
+        waits = [at.to_sec() - comes.to_sec() for at, comes in zip(said.greeted_at, came.comes, strict=True)]
+        assert min(waits) >= 0.0
+        assert len(said.learnt_at) >= 3
+        assert (said.asked > 0, said.heard) == ((False, 3) if "_design:=topic" in settings else (True, 0))
+        assert cashier.running
+
+
+def test_a_cashier_survives_a_detector_that_is_gone(camera: NodeProcess) -> None:
+    """It says once that there is no answer, asks on, and greets when there is a detector again."""
+    with run("cashier", "_design:=poll", "_rate:=50") as cashier:
+        eventually(lambda: "No answer, so the next call follows soon" in cashier.output())
+        with run("detector"):
+            first = let_in(0.0).first
+            eventually(lambda: list(report().greeted) == [first])
+        assert cashier.output().count("No answer") == 1
+
+
+@pytest.mark.parametrize("answer", ["(True, 1, rospy.Time())", "(False, 0, rospy.Time())"])
+@pytest.mark.parametrize("settings", [["_design:=wait", "_patience:=0.5"], ["_design:=poll", "_rate:=2"]])
+def test_a_cashier_does_not_hammer_a_detector_that_answers_at_once(
+    kernel: Kernel, answer: str, settings: list[str]
+) -> None:
+    """A detector that does not wait, or tells of one customer again, is asked twice a second all the same."""
+    kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
+    kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
+    started = time.monotonic()
+    with run("cashier", *settings):
+        eventually(lambda: report().asked >= 4)
+        asked, seconds = report().asked, time.monotonic() - started
+        assert asked <= 2 * seconds + 3
+        assert len(report().greeted) == answer.startswith("(True")
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (["_design:=hope"], "~design is 'hope', but it has to be one of poll, topic, wait"),
+        (["_rate:=0"], "/cashier/rate is 0, and has to be a number from 0.01 to 1000"),
+        (["_rate:=often"], "/cashier/rate is 'often'"),
+        (["_patience:=-1"], "/cashier/patience is -1"),
+    ],
+)
+def test_a_cashier_with_a_wrong_setting_ends_with_words(settings: list[str], words: str) -> None:
+    """One line that says what is right, exit status 1, and no traceback."""
+    done = program("cashier", *settings)
+    assert done.returncode == 1
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_customers_may_come_by_themselves() -> None:
+    """With _every:= the shop needs nobody who lets them in."""
+    with run("shop_camera", "_every:=0.1"), run("detector"):
+        assert detect(patience=20.0).detected
+
+
+def test_the_launch_file_runs_the_whole_shop() -> None:
+    """A camera, a detector and a cashier who greets those who come."""
+    with NodeProcess.roslaunch("course_pkg", "shop.launch", "every:=0.2", "design:=topic") as process:
+        process.wait_for_service("/cashier/report", timeout=20)
+        eventually(lambda: report().greeted, timeout=20)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_shop_closes_when_it_is_told(
+    number: signal.Signals, detector: NodeProcess, camera: NodeProcess, master: PrivateMaster
+) -> None:
+    """Each ends at once, without a traceback and without a registration left, even with callers who wait."""
+    with ThreadPoolExecutor(2) as pool, run("cashier", "_design:=wait", "_patience:=60") as cashier:
+        waiting = pool.submit(detect, patience=60.0)
+        eventually(lambda: report().asked)
+        for process in (cashier, detector, camera):
+            os.kill(process.pid, number)
+            assert process.wait(20) == 0
+            assert "Traceback" not in process.output()
+        assert isinstance(waiting.exception(10), rospy.ServiceException)
+    assert MasterClient(master.uri).system_state().nodes == ()
+
+
+@pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
+def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a master a node says that it waits for one, and Ctrl-C ends the wait."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+    with NodeProcess(["rosrun", "course_pkg", name]) as process:
+        eventually(lambda: "Waiting for one" in process.output())
+        process.interrupt()
+        assert process.wait(20) == 0
+        assert "Traceback" not in process.output()
+
+
+@pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
+def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) -> None:
+    """Ctrl-C before it serves ends it too, and leaves nothing behind."""
+    client = MasterClient(master.uri)
+    with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
+        eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)  # in the midst of init_node()
+        os.kill(process.pid, signal.SIGINT)
+        assert process.wait(20) == 0
+        assert "Traceback" not in process.output()
+    assert client.system_state().nodes == ()

@@ -1,0 +1,83 @@
+"""Chapter 07's check of an import: a script that never ends is told from a busy machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import cast
+
+import pytest
+
+from course_pkg.chapters.ch07_build_a_package.checks.program import Program, can_be_imported
+from course_pkg.checking.assertions import AssertionFailed
+from course_pkg.checking.channel import Channel
+from course_pkg.checking.commands.folder import Folder
+from course_pkg.checking.commands.workbench import CommandFolders
+from course_pkg.checking.context import CheckContext
+from course_pkg.checking.peers.node import Node
+from course_pkg.checking.plain_values import Reply
+from course_pkg.checking.result import Finished
+from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
+from course_pkg.errors import CheckError
+
+SCRIPT = Program("scripts/server.py")
+
+
+class Replying:
+    """A folder in which each command ends with the same reply."""
+
+    def __init__(self, reply: Reply) -> None:
+        self.reply = reply
+
+    def command(self, *_argv: str, within: float, worded: str) -> Finished:
+        """Return the result of a command; times in the reply are shares of the limit."""
+        times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
+        assert worded == "import server.py"
+        return Finished({**self.reply, **times, "took": within})
+
+
+def imported(**reply: float | int | str | None) -> CheckContext:
+    """Return the context of a check for which the import ended with `reply`."""
+    context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
+    folder = cast("Folder", Replying(dict(reply)))
+    can_be_imported(context, BuiltPackage(folder, Package("my_geometry", {})), SCRIPT)
+    return context
+
+
+def test_an_import_that_a_busy_machine_delays_is_no_mistake() -> None:
+    """It waits for a processor nearly all the time, or nothing is known about it: the check says so."""
+    for reply in ({"ran": 0.02, "queued": 0.9}, {}):
+        with pytest.raises(CheckError, match=r"the machine is busy\. Run this cell again"):
+            imported(status=None, **reply)
+
+
+def test_an_import_that_waits_or_computes_for_ever_is_one() -> None:
+    """It sleeps nearly all the time, or has computed for longer than any import does."""
+    for reply in ({"ran": 0.02, "queued": 0.05}, {"ran": 0.5, "queued": 0.5}):
+        with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
+            imported(status=None, **reply)
+
+
+def test_an_import_that_ends_is_accepted() -> None:
+    """Definitions only: nothing is printed, and the exit status is 0."""
+    assert [each.holds for each in imported(status=0).assertions] == [True]
+
+
+@pytest.fixture
+def folders(tmp_path: Path) -> Iterator[CommandFolders]:
+    """Return folders for commands."""
+    made = CommandFolders(lambda name: tmp_path / name)
+    yield made
+    made.close()
+
+
+def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
+    """A command that sleeps neither runs nor waits for a processor; one that computes does."""
+    number = folders.folder([], {})["folder"]
+    assert isinstance(number, int)
+    sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))
+    computing = Finished(folders.run(["python", "-c", "while True: pass"], number, 1.0))
+    ended = Finished(folders.run(["true"], number, 20.0))
+    assert sleeping.status is computing.status is None
+    assert sleeping.ran + sleeping.queued < 0.5 < computing.ran + computing.queued
+    assert ended.queued == float("inf")

@@ -1,0 +1,100 @@
+"""The server that adds up for each session, its client, and the bare echo."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.chapters.ch11_look_inside.programs.session_client import read_arguments
+from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster
+from course_pkg.ros.node.proxy import BoundedProxy
+from tests.support import eventually, program, terminal
+
+pytestmark = pytest.mark.usefixtures("master")
+KIND = "course_pkg/AddUp"
+
+
+@pytest.fixture
+def server() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg session_server`, answering."""
+    with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
+        process.wait_for_service("/add_up", timeout=20)
+        yield process
+
+
+def added(session: str, amount: int) -> tuple[int, int]:
+    """Add up in a session; return its total and its calls."""
+    answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
+    return answer.total, answer.calls
+
+
+@pytest.mark.usefixtures("server")
+def test_each_session_has_its_own_total() -> None:
+    """Two sessions from one node keep apart, and one goes on from another node."""
+    assert [added("alice", 5), added("bob", 100), added("alice", -7)] == [(5, 1), (100, 1), (-2, 2)]
+    assert program("session_client", "alice", "10", "10").stdout.splitlines() == [
+        "alice: 8 after 3 calls",
+        "alice: 18 after 4 calls",
+    ]
+
+
+@pytest.mark.usefixtures("server")
+def test_refusals_say_what_is_missing() -> None:
+    """Without a session, or beyond what an int32 holds, the reason is in words, and the total stays."""
+    done = terminal("rosservice", "call", "/add_up", "5")
+    assert done.returncode == 2
+    assert "cannot process request: the connection header has no field session" in done.stderr
+    assert added("large", 2**31 - 1) == (2**31 - 1, 1)
+    assert "more than an int32 can hold" in program("session_client", "large", "1").stderr
+    assert added("large", -1) == (2**31 - 2, 2)
+
+
+@pytest.mark.usefixtures("server")
+def test_a_rate_goes_on_until_it_is_ended() -> None:
+    """With a rate the amounts come again and again, over one connection."""
+    with NodeProcess(["rosrun", "course_pkg", "session_client", "steady", "1", "_rate:=20"]) as client:
+        client.wait_for_output("after 5 calls")
+    assert "Traceback" not in client.output()
+
+
+def test_the_line_is_read() -> None:
+    """A session and whole numbers that fit, or None."""
+    assert read_arguments(["alice", "5", "-3"]) == ("alice", [5, -3])
+    for words in ([], ["alice"], ["", "5"], ["alice", "five"], ["alice", str(2**31)]):
+        assert read_arguments(words) is None
+
+
+def test_the_client_alone() -> None:
+    """A wrong line is usage and status 2; nobody who serves is one line and status 1."""
+    done = program("session_client", "alice")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("usage: session_client")
+    done = program("session_client", "alice", "1")
+    assert (done.returncode, done.stderr) == (1, "timeout exceeded while waiting for service /add_up\n")
+
+
+def test_the_echo_says_what_it_was_told(master: PrivateMaster) -> None:
+    """Its port is a parameter, and it sends back every byte."""
+    with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
+        echo.wait_for_output("Echoing")
+        port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))
+        with socket.create_connection(("localhost", port), timeout=5) as sock:
+            sock.sendall(bytes(range(16)))
+            sock.shutdown(socket.SHUT_WR)
+            came = b"".join(iter(lambda: sock.recv(4096), b""))
+    assert came == bytes(range(16))
+
+
+@pytest.mark.usefixtures("server")
+def test_a_program_uses_the_master_of_its_argument() -> None:
+    """With __master:= server and client meet on another master, and the first server counts nothing."""
+    with PrivateMaster() as other:
+        there = f"__master:={other.uri}"
+        with NodeProcess(["rosrun", "course_pkg", "session_server", there]):
+            eventually(lambda: MasterClient(other.uri).lookup_service("/add_up"), timeout=20)
+            assert program("session_client", "alice", "5", there).stdout.splitlines() == [
+                "alice: 5 after 1 calls"
+            ]
+    assert added("alice", 1) == (1, 1)

@@ -1,0 +1,186 @@
+"""The robot cashier of the course follows the specification of chapter 15."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import rospy
+from course_pkg.srv import AwaitCustomer, LetIn, LetInResponse, TillSet, TillTotal
+from std_srvs.srv import Trigger
+
+from course_pkg.ros import BoundedProxy, NodeProcess
+from tests.kernel import Kernel
+from tests.support import eventually, terminal
+
+pytestmark = pytest.mark.usefixtures("master")
+
+LISTEN = """
+from course_pkg import join
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+node = join("student")
+"""
+FOR_GOOD = 600.0  # s that a customer stays, longer than any test
+LAUNCH = ("course_pkg", "robot_cashier.launch")
+
+
+def run(name: str, service: str) -> NodeProcess:
+    """Run a program of the system, and return it when it serves `service`."""
+    process = NodeProcess(["rosrun", "course_pkg", name])
+    process.wait_for_service(service)
+    return process
+
+
+@pytest.fixture
+def camera() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg counter_camera`, with nobody at the counter."""
+    with run("counter_camera", "/let_in") as process:
+        yield process
+
+
+@pytest.fixture
+def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
+    """`rosrun course_pkg customer_detector`, with a camera and a node that looks at its frames."""
+    with (
+        run("vision", "/vision/get_loggers"),
+        run("customer_detector", "/detect_customer") as process,
+    ):
+        eventually(lambda: answered() is False)
+        yield process
+
+
+@pytest.fixture
+def till() -> Iterator[NodeProcess]:
+    """`rosrun course_pkg till`, with a printer that has paper for twelve lines."""
+    with (
+        NodeProcess(["rosrun", "course_pkg", "receipt_printer", "_paper:=12"]) as printer,
+        run("till", "/till/reset") as process,
+    ):
+        printer.wait_for_service("/print_line")
+        yield process
+
+
+def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
+    """Let customers in."""
+    return BoundedProxy("/let_in", LetIn)(after=after, stay=stay)
+
+
+def detect(patience: float = 0.0) -> bool:
+    """Call the detector."""
+    return bool(BoundedProxy("/detect_customer", AwaitCustomer, timeout=70.0)(patience).found)
+
+
+def answered() -> bool | None:
+    """Return whether a customer is there now, None if the call is refused."""
+    try:
+        return detect()
+    except rospy.ServiceException:
+        return None
+
+
+@pytest.mark.usefixtures("detector")
+def test_all_waiting_calls_find_a_customer() -> None:
+    """One customer ends all waiting calls. Without a customer, a call with the patience 0 returns False."""
+    assert not detect()
+    with ThreadPoolExecutor(5) as pool:
+        waits = [pool.submit(detect, 30.0) for _ in range(5)]
+        let_in(0.3)
+        assert [wait.result(40) for wait in waits] == [True] * 5
+    assert detect()
+
+
+@pytest.mark.usefixtures("detector")
+def test_a_call_ends_when_its_patience_is_over() -> None:
+    """Without a customer the response is False, after the requested time."""
+    started = time.monotonic()
+    assert not detect(0.5)
+    assert 0.5 <= time.monotonic() - started < 10.0
+
+
+@pytest.mark.usefixtures("detector")
+@pytest.mark.parametrize("patience", [-0.1, 60.1, float("nan"), float("inf")])
+def test_impossible_patience_is_refused(patience: float) -> None:
+    """The call is refused at once, and the message names the patience."""
+    with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
+        detect(patience)
+
+
+@pytest.mark.usefixtures("detector")
+def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
+    """The customer in its last frame no longer counts after one second."""
+    let_in(0.0)
+    eventually(detect)
+    camera.kill()
+    eventually(lambda: answered() is None)
+    with pytest.raises(rospy.ServiceException, match=r"cannot process request: .*camera"):
+        detect(0.2)
+
+
+@pytest.mark.usefixtures("till")
+def test_a_till_adds_up_and_refuses() -> None:
+    """An item that is set again counts once. An impossible item is refused, and nothing changes."""
+    put = BoundedProxy("/till/set", TillSet)
+    assert [put(item, cents).total for item, cents in (("milk", 120), ("bread", 340), ("milk", 110))] == [
+        120,
+        460,
+        450,
+    ]
+    for item, cents, words in (("milk", -5, "milk: -5"), ("", 5, "name")):
+        with pytest.raises(rospy.ServiceException, match=f"cannot process request: .*{words}"):
+            put(item, cents)
+    total = BoundedProxy("/till/total", TillTotal)()
+    assert (total.cents, total.items) == (450, 2)
+
+
+@pytest.mark.usefixtures("till")
+def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
+    """The second reset succeeds, too, and says that the till was empty."""
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda number: BoundedProxy("/till/set", TillSet)(str(number), number), range(1, 9)))
+    reset = BoundedProxy("/till/reset", Trigger)
+    answers = [reset(), reset()]
+    assert [answer.success for answer in answers] == [True, True]
+    assert [answer.message for answer in answers] == ["paid 36 cents", "already empty"]
+    assert BoundedProxy("/till/total", TillTotal)().items == 0
+
+
+@pytest.mark.usefixtures("till")
+def test_an_item_that_is_not_printed_does_not_count() -> None:
+    """The printer has paper for twelve lines."""
+    put = BoundedProxy("/till/set", TillSet)
+    for number in range(12):
+        put(str(number), 1)
+    with pytest.raises(rospy.ServiceException, match=r"cannot process request: .*out of paper"):
+        put("bread", 340)
+    assert BoundedProxy("/till/total", TillTotal)().cents == 12
+
+
+def test_the_launch_file_leaves_the_hardware_out() -> None:
+    """With hardware:=false, another node can play the camera, the arm and the printer."""
+    nodes = [
+        set(terminal("roslaunch", "--nodes", *LAUNCH, *more).stdout.split())
+        for more in ([], ["hardware:=false"])
+    ]
+    assert nodes[0] - nodes[1] == {"/counter_camera", "/robot", "/receipt_printer"}
+    assert nodes[1] == {"/vision", "/customer_detector", "/robot_cashier", "/till"}
+
+
+def test_the_whole_system_greets_once_and_mirrors_meanwhile(kernel: Kernel) -> None:
+    """The arm is mirrored while a call waits. A customer is greeted once, and the till is reset."""
+    kernel.run(LISTEN)
+    with NodeProcess.roslaunch(*LAUNCH, "wait:=20") as system:
+        for service in ("/detect_customer", "/let_in", "/till/reset", "/robot_cashier/get_loggers"):
+            system.wait_for_service(service)
+        kernel.run("mirrored = node.subscribe('/mirrored_joints', JointState)")
+        kernel.run("greetings = node.subscribe('/greetings', String)")
+        kernel.run("mirrored.wait(20, timeout=20)")
+        eventually(lambda: answered() is False)
+        eventually(lambda: BoundedProxy("/till/set", TillSet)("milk", 120).total == 120)
+        let_in(0.0, stay=1.0)
+        kernel.run("greetings.wait(1, timeout=20)")
+        eventually(lambda: BoundedProxy("/till/total", TillTotal)().items == 0)
+        kernel.run("mirrored.wait(mirrored.count + 20, timeout=20)")
+        assert kernel.run("result = greetings.count") == 1

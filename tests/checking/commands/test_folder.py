@@ -1,0 +1,37 @@
+"""A check waits for the nodes of a launch file, and finds the one important line in roslaunch's output."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from course_pkg.checking.commands.folder import becomes, telling_line
+from course_pkg.checking.peers.node import closed_port
+from course_pkg.ros import PrivateMaster
+
+
+@pytest.mark.parametrize(
+    ("printed", "told"),
+    [
+        ("started\nERROR: cannot launch node\nprocess ended\n", "ERROR: cannot launch node"),
+        ("\x1b[31mValue error: yes is not a 'bool' type\x1b[0m\n", "Value error: yes is not a 'bool' type"),
+        ("one\n\ntwo\n\n", "two"),
+        ("", "nothing"),
+        (f"{os.getcwd()}/my.launch: Invalid\n", "/my.launch: Invalid"),
+    ],
+)
+def test_the_line_that_tells_of_the_error_is_told(printed: str, told: str) -> None:
+    """The line contains no terminal colours and no folder of this machine."""
+    assert telling_line(printed) == told
+
+
+def test_a_graph_becomes_what_is_waited_for(master: PrivateMaster) -> None:
+    """The wait ends when the condition holds for the graph of that master, or after the timeout."""
+    assert becomes(master.uri, lambda actual: actual.services is not None, within=10.0)
+    assert not becomes(master.uri, lambda actual: actual.service("/nobody"), within=0.2)
+
+
+def test_a_master_that_is_not_there_yet_is_waited_for() -> None:
+    """A missing master is not an error, because roslaunch starts one."""
+    assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

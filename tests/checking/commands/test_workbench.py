@@ -1,0 +1,123 @@
+"""A check works in its own folders, on copies, within a time limit, and leaves nothing behind."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from course_pkg.checking.commands.workbench import CommandFolders
+from tests.support import eventually
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[CommandFolders]:
+    """The command folders of a student whose files are in tmp_path."""
+    fresh = CommandFolders(lambda name: tmp_path / name)
+    yield fresh
+    fresh.close()
+
+
+def out(bench: CommandFolders, *argv: str, folder: int = 0, within: float = 10.0) -> str:
+    """Return the output of a command."""
+    return str(bench.run(argv, folder, within)["out"])
+
+
+def test_a_command_runs_on_copies(bench: CommandFolders, tmp_path: Path) -> None:
+    """Copies have the paths of the student's files; a change of a copy does not change the original."""
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "client.py").write_text("import sys; print(sys.argv[1:]); sys.exit(3)")
+    folder = bench.folder(["src/client.py"], {})["folder"]
+    answer = bench.run(["python", "src/client.py", "-1", "2"], folder, 10.0)
+    assert (answer["status"], answer["out"]) == (3, "['-1', '2']\n")
+    bench.run(["rm", "src/client.py"], folder, 10.0)
+    assert (tmp_path / "src" / "client.py").exists()
+
+
+def test_a_command_has_its_time_and_no_more(bench: CommandFolders) -> None:
+    """A command that hangs is ended, together with all processes that it started."""
+    folder = bench.folder([], {})["folder"]
+    answer = bench.run(["bash", "-c", "sleep 60 & sleep 60"], folder, 0.1)
+    assert answer["status"] is None
+    assert answer["took"] < 5
+
+
+def test_a_folder_is_copied_with_its_run_bits(bench: CommandFolders, tmp_path: Path) -> None:
+    """The exercise asks the student to make a script executable, so a copy keeps this permission."""
+    (tmp_path / "scripts").mkdir()
+    for name, mode in (("yes", 0o755), ("no", 0o644)):
+        (tmp_path / "scripts" / name).write_text("#!/bin/sh\necho hello\n")
+        (tmp_path / "scripts" / name).chmod(mode)
+    folder = bench.folder(["scripts"], {})["folder"]
+    assert out(bench, "scripts/yes", folder=folder) == "hello\n"
+    with pytest.raises(PermissionError):
+        bench.run(["scripts/no"], folder, 10.0)
+
+
+def test_the_texts_of_the_check_go_over_the_copies(bench: CommandFolders, tmp_path: Path) -> None:
+    """The check's own files replace copies, so that one mistake does not lead to failures in two parts."""
+    (tmp_path / "package.xml").write_text("the student's")
+    folder = bench.folder(["package.xml"], {"package.xml": "the check's", "srv/A.srv": "---"})["folder"]
+    assert out(bench, "cat", "package.xml", "srv/A.srv", folder=folder) == "the check's---"
+
+
+@pytest.mark.parametrize("name", ["/etc/hostname", "../hostname"])
+def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name: str) -> None:
+    """A copy stays in the folder, whatever its path is."""
+    (tmp_path / "hostname").write_text("x")
+    bench = CommandFolders(lambda _: tmp_path / "hostname")
+    folder = bench.folder([name], {})["folder"]
+    assert out(bench, "ls", folder=folder) == "hostname\n"
+    bench.close()
+
+
+def test_what_the_student_has_sourced_does_not_count(
+    bench: CommandFolders, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A module of an older build on the kernel's path does not replace the checked one."""
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
+    folder = bench.folder([], {})["folder"]
+    assert str(tmp_path) not in out(bench, "bash", "-c", "echo $PYTHONPATH", folder=folder)
+
+
+def test_the_folder_is_where_the_command_believes_to_be(bench: CommandFolders) -> None:
+    """catkin_make builds in $PWD, not in the working directory."""
+    folder = bench.folder([], {})["folder"]
+    there, believed = out(bench, "python", "-c", "import os; print(os.getcwd(), os.environ['PWD'])").split()
+    assert folder == 0
+    assert there == believed
+
+
+def test_a_command_that_goes_on_is_ended(bench: CommandFolders) -> None:
+    """stop() interrupts the command as Ctrl-C does, and keeps the output so far."""
+    script = "trap 'echo bye; exit 0' INT; echo hello; echo > ready; while :; do sleep 0.01; done"
+    folder = bench.folder([], {})["folder"]
+    process = bench.start(["bash", "-c", script], folder)["process"]
+    eventually(lambda: bench.run(["cat", "ready"], folder, 10.0)["status"] == 0)
+    answer = bench.stop(process)
+    assert answer["status"] is None
+    assert answer["out"] == "hello\nbye\n"
+    assert bench.stop(process) == answer
+
+
+def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> None:
+    """The status distinguishes a command that has ended from one that is still running."""
+    folder = bench.folder([], {})["folder"]
+    process = bench.start(["bash", "-c", "echo no; exit 3"], folder)["process"]
+    eventually(lambda: bench.poll(process)["status"] is not None)
+    assert bench.stop(process)["status"] == 3
+
+
+def test_nothing_is_left(tmp_path: Path) -> None:
+    """After close(), no folder and no process is left."""
+    bench = CommandFolders(lambda name: tmp_path / name)
+    folder = bench.folder([], {})["folder"]
+    path = Path(out(bench, "pwd").strip())
+    bench.start(["sleep", "1000"], folder)
+    pid = bench._running[0]._process.pid
+    bench.close()
+    assert not path.exists()
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)

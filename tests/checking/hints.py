@@ -1,0 +1,74 @@
+"""The hints in the code of checks, as far as they can be found without running a check.
+
+A hint is a sentence. The only other sentences in a check are docstrings, goals and error messages.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from course_pkg.checking.parts import folder_of
+from tests.checking.example_answers import Answer
+
+# a text of several lines is a program or a file, not a hint
+SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
+
+
+@dataclass(frozen=True)
+class Hint:
+    """A hint as a list of pieces: the fixed texts between the values that an f-string inserts."""
+
+    place: str  # file and line, for error messages
+    pieces: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"{self.place}: {'…'.join(self.pieces)}"
+
+    def contains(self, text: str) -> bool:
+        """Return whether `text` is a part of one fixed piece of this hint."""
+        return any(text in piece for piece in self.pieces)
+
+
+def hints_in(path: Path) -> list[Hint]:
+    """Return the hints in the module at `path`."""
+    texts = _strings(ast.parse(path.read_text("utf-8")))
+    return [Hint(f"{path}:{line}", pieces) for line, pieces in texts if SENTENCE.fullmatch("…".join(pieces))]
+
+
+def hints_of(chapter: str) -> list[Hint]:
+    """Return the hints in all checks of a chapter, such as "05"."""
+    return [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
+
+
+def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
+    """Return the hints of which no header in `answers` quotes a part."""
+    shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
+    return [hint for hint in hints if hint.pieces not in shown]
+
+
+def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
+    """Return the pieces of the hint that contains `text`; nothing if several hints contain it.
+
+    If `text` is a whole hint, this hint is returned, even if other hints contain the text.
+    """
+    found = {hint.pieces for hint in hints if hint.contains(text)}
+    return found & {(text,)} or (found if len(found) == 1 else set())
+
+
+def _strings(node: ast.AST) -> Iterator[tuple[int, tuple[str, ...]]]:
+    """Yield the line and the pieces of each string below `node` that may be a hint."""
+    match node:
+        case ast.Expr(ast.Constant()) | ast.Raise() | ast.keyword("goal"):
+            return
+        case ast.Constant(str(text)):
+            yield node.lineno, (text,)
+        case ast.JoinedStr(values):
+            texts = (each.value if isinstance(each, ast.Constant) else "\0" for each in values)
+            yield node.lineno, tuple("".join(map(str, texts)).split("\0"))
+        case _:
+            for child in ast.iter_child_nodes(node):
+                yield from _strings(child)

@@ -1,0 +1,154 @@
+"""The kernel agent follows each request within a time limit, and replies with the result."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+
+import pytest
+
+from course_pkg.checking.kernel.agent import KernelAgent
+from course_pkg.checking.plain_values import Reply, Value
+
+
+def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Value) -> Reply:
+    """Return the reply to one request."""
+    return KernelAgent(namespace, folder).reply({"ask": 1, **question})
+
+
+def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Reply:
+    """Return the reply to a call of `f`."""
+    return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
+
+
+def test_a_value_comes_with_what_was_printed() -> None:
+    """The value is plain data, and printed text does not appear in the cell's output."""
+    answer = call({"f": lambda a: (print("hello"), a + 1)[1]}, 2)  # noqa: T201
+    assert (answer["value"], answer["printed"]) == (3, "hello\n")
+
+
+@pytest.mark.parametrize(("error", "kind"), [(ValueError("no"), "ValueError"), (SystemExit(3), "SystemExit")])
+def test_an_error_is_an_outcome(error: BaseException, kind: str) -> None:
+    """sys.exit() in an exercise is an error, too, and does not end the kernel."""
+
+    def f() -> None:
+        raise error
+
+    assert call({"f": f})["error"]["type"] == kind
+
+
+def test_an_interrupt_is_passed_on() -> None:
+    """A KeyboardInterrupt is raised for the reader of the notebook; it is not a result of the call."""
+
+    def f() -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        call({"f": f})
+
+
+def test_a_function_that_hangs_is_broken_off() -> None:
+    """A function that catches every exception is interrupted, too."""
+
+    def stubborn() -> None:
+        until = time.monotonic() + 0.5
+        while time.monotonic() < until:
+            try:
+                while True:
+                    pass
+            except BaseException:  # noqa: BLE001, S110 -- as a student would
+                pass
+        while True:
+            pass
+
+    started = time.monotonic()
+    assert call({"f": stubborn}, within=0.1)["error"]["type"] == "TimesUp"
+    assert time.monotonic() - started < 3
+
+
+def test_a_name_that_is_not_there_comes_with_one_that_is_like_it() -> None:
+    """Most often, a name is missing because it is misspelt."""
+    assert ask({"mesure": len}, do="look", name="measure") == {
+        "answer": 1,
+        "kind": "missing",
+        "alike": ["mesure"],
+    }
+
+
+def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
+    """In a new kernel, the only similar names are imported ones, so the student has not misspelt a name."""
+    assert ask({"Patch": Path}, do="look", name="Path")["alike"] == []
+
+
+def test_the_traceback_of_a_handler_is_kept_once() -> None:
+    """Rospy logs an exception of a handler; the check gets the student's line that raised it."""
+    agent = KernelAgent({})
+    try:
+        try:
+            raise KeyError("width")
+        except KeyError:
+            logging.getLogger("rosout").error("Error processing request: 'width'")
+        first, second = (str(agent.reply({"ask": 1, "do": "traceback"})["text"]) for _ in range(2))
+    finally:
+        agent.close()
+    assert "test_agent.py, line" in first
+    assert first.endswith("KeyError: 'width'")
+    assert second == ""
+
+
+def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
+    """A handler with a wrong number of parameters never begins; the error message is enough."""
+    agent = KernelAgent({})
+    try:
+        logging.getLogger("rosout").error("Error processing request: takes 0 positional arguments")
+        assert agent.reply({"ask": 1, "do": "traceback"})["text"] == ""
+    finally:
+        agent.close()
+
+
+def test_what_the_check_prepares_can_be_an_argument() -> None:
+    """The check's own code creates an object in the kernel that is not plain data."""
+    agent = KernelAgent({"f": lambda items: len(items)})
+    agent.reply({"ask": 1, "do": "prepare", "code": "made = {1, 2, 3}", "within": 1.0})
+    question = {"ask": 2, "do": "call", "name": "f", "args": [{"its": "made"}], "kwargs": {}, "within": 1.0}
+    assert agent.reply(question)["value"] == 3
+
+
+@pytest.mark.parametrize(
+    "question",
+    [{"do": "fly"}, {"do": "look"}, {"do": "read", "name": "x"}, {}, {"do": "read", "name": "f.x"}],
+)
+def test_what_cannot_be_answered_is_said(question: dict[str, Value]) -> None:
+    """An invalid request gets an error as its reply; it does not raise an exception that ends the check."""
+    assert "wrong" in KernelAgent({"f": len}).reply({"ask": 1, **question})
+
+
+def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
+    """A file with only comments and `...` is blank."""
+    (tmp_path / "client.py").write_text("#!/usr/bin/env python3\n...\n")
+    (tmp_path / "server.py").write_text("print(1)\n")
+    kinds = [
+        ask({}, tmp_path, do="look", name=f"file:{name}.py")["kind"] for name in ("client", "server", "none")
+    ]
+    assert kinds == ["blank", "file", "missing"]
+
+
+def test_a_file_that_is_not_there_comes_with_one_that_is_like_it(tmp_path: Path) -> None:
+    """A wrong upper-case or lower-case letter in a file name is a common mistake."""
+    (tmp_path / "lamp.srv").write_text("---\n")
+    assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
+        "answer": 1,
+        "kind": "missing",
+        "alike": ["lamp.srv"],
+    }
+
+
+def test_a_file_is_looked_for_in_the_workspace_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a restart, the kernel's working directory is not the workspace, which still has the file."""
+    monkeypatch.setenv("COURSE_WORKSPACE", str(tmp_path / "ws"))
+    (tmp_path / "ws" / "src").mkdir(parents=True)
+    (tmp_path / "ws" / "src" / "Lamp.srv").write_text("bool on\n---\n")
+    (tmp_path / "elsewhere").mkdir()
+    answer = ask({}, tmp_path / "elsewhere", do="source", name="file:src/Lamp.srv")
+    assert answer["text"] == "bool on\n---\n"

@@ -1,0 +1,140 @@
+"""A faulty server fails as planned, and then recovers; a client sees each fault like a real one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import rospy
+from course_pkg.srv import geometry
+
+from course_pkg.checking.peers.faulty_server import Crash, Fault, FaultyServer, Frozen, Stumble
+from course_pkg.checking.peers.node import Node
+from course_pkg.checking.peers.scripted_server import HangUp, Late, Refuse
+from course_pkg.checking.plain_values import Message
+from course_pkg.errors import CallTimeout
+from course_pkg.ros import BoundedProxy, MasterClient, PrivateMaster
+from course_pkg.ros.protocol.json_channel import Json
+from tests.support import eventually
+
+# rospy's client leaves its sockets to the garbage collector
+pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+AWAY = 0.2  # s until a crashed server runs again
+
+
+@pytest.fixture
+def node(master: PrivateMaster) -> Node:
+    """Return the node of the check."""
+    return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
+
+
+@pytest.fixture
+def server(node: Node) -> Iterator[FaultyServer]:
+    """A server whose work is to double a length."""
+    with FaultyServer(node, "/f", geometry, lambda request: {"area": 2 * request.length}) as serving:
+        yield serving
+    assert node.master.lookup_service("/f") is None
+
+
+def ask(length: float, timeout: float = 5.0) -> float:
+    """Call within a time limit, and return the area."""
+    return float(BoundedProxy("/f", geometry, timeout=timeout).call(length, 0, 0).area)
+
+
+def answered(length: float) -> bool:
+    """Return whether a call gets the right response; the server may not have restarted yet."""
+    try:
+        return ask(length) == 2 * length
+    except rospy.ServiceException:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("fault", "text"),
+    [
+        (Refuse("too small"), "responded with an error: b'service cannot process request: too small'"),
+        (Stumble("no paper"), "responded with an error: b'error processing request: no paper'"),
+        (HangUp(), "transport error completing service call"),
+    ],
+)
+def test_a_planned_fault_befalls_one_call(server: FaultyServer, fault: Json, text: str) -> None:
+    """The client gets the error message of the real fault, and the next call succeeds."""
+    server.plan.append(Fault(fault))
+    with pytest.raises(rospy.ServiceException) as error:
+        ask(1.0)
+    assert text in str(error.value)
+    assert ask(2.0) == 4.0
+    assert (len(server.requests), len(server.arrivals)) == (2, 2)
+
+
+def test_a_slow_answer_is_that_of_the_work(server: FaultyServer) -> None:
+    """A client that waits long enough gets the right response."""
+    server.plan.append(Fault(Late(0.05, {}), worked=True))
+    assert ask(3.0) == 6.0
+
+
+def test_a_frozen_server_takes_connections_and_says_nothing(server: FaultyServer) -> None:
+    """A probe finds the server, as with a stopped process; a call gets no answer, and uses up the fault."""
+    server.plan.append(Fault(Frozen()))
+    rospy.wait_for_service("/f", timeout=2)
+    with pytest.raises(CallTimeout, match="takes connections and does not speak"):
+        ask(1.0, timeout=0.2)
+    assert (server.requests, len(server.arrivals)) == ([], 1)
+    assert ask(2.0) == 4.0
+
+
+@pytest.mark.parametrize(
+    ("unregisters", "text"), [(False, "Connection refused"), (True, r"service \[/f\] unavailable")]
+)
+def test_a_crash_leaves_what_the_real_one_leaves(server: FaultyServer, unregisters: bool, text: str) -> None:
+    """A killed server stays registered; a server that was shut down does not. Both run again later."""
+    before = server._uri
+    server.plan.append(Fault(Crash(AWAY, unregisters)))
+    with pytest.raises(rospy.ServiceException, match="transport error"):
+        ask(1.0)
+    with pytest.raises(rospy.ServiceException, match=text):
+        ask(1.0)
+    eventually(lambda: answered(2.0))
+    assert server._uri != before
+
+
+@pytest.mark.parametrize("worked", [True, False])
+def test_work_is_done_before_a_fault_where_the_plan_says_so(node: Node, worked: bool) -> None:
+    """The plan decides whether the work of a failed call is done."""
+    done: list[float] = []
+
+    def work(request: Message) -> dict[str, Json]:
+        done.append(request.length)
+        return {}
+
+    with FaultyServer(node, "/f", geometry, work) as server:
+        server.plan.append(Fault(HangUp(), worked=worked))
+        with pytest.raises(rospy.ServiceException):
+            ask(1.0)
+    assert done == ([1.0] if worked else [])
+
+
+def test_a_server_that_left_while_it_was_away_stays_away(node: Node) -> None:
+    """A server that has left does not restart after the check."""
+    with FaultyServer(node, "/f", geometry, lambda _: {}) as server:
+        server.plan.append(Fault(Crash(AWAY)))
+        with pytest.raises(rospy.ServiceException):
+            ask(1.0)
+        (returning,) = server._restarts
+    returning.join(5)
+    assert node.master.lookup_service("/f") is None
+
+
+def test_calls_at_once_use_up_one_fault_each(server: FaultyServer) -> None:
+    """Of eight simultaneous calls, as many fail as there are planned faults."""
+    server.plan.extend([Fault(Refuse("busy"))] * 3)
+
+    def fails(length: float) -> bool:
+        try:
+            return ask(length) != 2 * length
+        except rospy.ServiceException:
+            return True
+
+    with ThreadPoolExecutor(8) as pool:
+        assert sum(pool.map(fails, [float(number) for number in range(8)])) == 3

@@ -1,0 +1,125 @@
+"""A scripted server follows its script, and restores the former registration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import rospy
+from course_pkg.srv import AddTwoInts, geometry
+
+from course_pkg.checking.peers.node import Node
+from course_pkg.checking.peers.scripted_server import (
+    Absent,
+    Act,
+    HangUp,
+    Late,
+    Refuse,
+    ScriptedServer,
+    Silence,
+)
+from course_pkg.ros import MasterClient, PrivateMaster
+from tests.support import eventually
+
+# rospy's client leaves its sockets to the garbage collector.
+pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+
+
+@pytest.fixture
+def node(master: PrivateMaster) -> Node:
+    """Return the node of the check."""
+    return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
+
+
+def ask(name: str, *sides: float) -> tuple[float, float]:
+    """Call as a student's client does."""
+    response = rospy.ServiceProxy(name, geometry)(*sides)
+    return response.area, response.volume
+
+
+def test_it_answers_and_keeps_what_it_was_asked(node: Node) -> None:
+    """Rospy's client gets the response, and the request is stored."""
+    with ScriptedServer(node, "/a", geometry, lambda r: {"area": r.length, "volume": 2.0}) as server:
+        rospy.wait_for_service("/a", timeout=2)
+        assert ask("/a", 1.5, 2.0, 3.0) == (1.5, 2.0)
+        assert server.requests == [{"length": 1.5, "width": 2.0, "height": 3.0}]
+        assert server.received.probes == 1
+    assert node.master.lookup_service("/a") is None
+
+
+def test_a_persistent_client_stays_connected(node: Node) -> None:
+    """A persistent client makes all calls over one connection."""
+    with ScriptedServer(node, "/p", geometry, lambda _: {}) as server:
+        proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
+        for _ in range(3):
+            proxy(1, 2, 3)
+        proxy.close()
+        assert (len(server.requests), len(server.received.headers)) == (3, 1)
+
+
+def test_whoever_stays_connected_is_left(node: Node) -> None:
+    """When the server leaves, idle connections are closed, too."""
+    with ScriptedServer(node, "/p", geometry, lambda _: {}):
+        proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
+        proxy(1, 2, 3)
+    with pytest.raises((rospy.ServiceException, rospy.exceptions.TransportException)):
+        proxy(1, 2, 3)
+    proxy.close()
+
+
+@pytest.mark.parametrize(
+    ("act", "text"),
+    [
+        (Refuse("too small"), "responded with an error: b'service cannot process request: too small'"),
+        (HangUp(), "transport error completing service call"),
+    ],
+)
+def test_misbehaviour_is_what_rospy_words_it(node: Node, act: Act, text: str) -> None:
+    """After a refused or an interrupted call, the client gets the same error message as from rospy."""
+    with ScriptedServer(node, "/m", geometry, lambda _: act), pytest.raises(rospy.ServiceException) as error:
+        ask("/m", 1, 2, 3)
+    assert text in str(error.value)
+
+
+def test_another_definition_is_refused(node: Node) -> None:
+    """The error message contains both MD5 sums, like that of rospy's server."""
+    with (
+        ScriptedServer(node, "/d", AddTwoInts, lambda _: {"sum": 1}),
+        pytest.raises(rospy.ServiceException, match="md5sums do not match"),
+    ):
+        ask("/d", 1, 2, 3)
+
+
+def test_late_and_silent(node: Node) -> None:
+    """A late response arrives; a call without a response lasts until the server leaves."""
+    with ScriptedServer(node, "/l", geometry, lambda _: Late(0.05, {"area": 4.0})):
+        assert ask("/l", 1, 2, 3) == (4.0, 0.0)
+    with ScriptedServer(node, "/s", geometry, lambda _: Silence()) as server:
+        asked = ThreadPoolExecutor(1).submit(ask, "/s", 1, 2, 3)
+        eventually(lambda: server.requests)
+        assert not asked.done()
+    with pytest.raises(rospy.ServiceException):
+        asked.result(5)
+
+
+@pytest.mark.parametrize(
+    "take", [lambda node: ScriptedServer(node, "/t", geometry, lambda _: {}), lambda node: Absent(node, "/t")]
+)
+def test_the_former_server_serves_again(node: Node, take: Callable[[Node], ScriptedServer | Absent]) -> None:
+    """The master does not store a former server, but the check does, and registers it again."""
+    former = Node("/student", "http://localhost:2/", node.master)
+    node.master.register_service(former.name, "/t", "rosrpc://localhost:3", former.uri)
+    with take(node):
+        assert node.master.lookup_service("/t") != "rosrpc://localhost:3"
+    registration = node.registration("/t")
+    assert registration
+    assert (registration.node, registration.uri) == ("/student", "rosrpc://localhost:3")
+    node.master.unregister_service("/student", "/t", "rosrpc://localhost:3")
+
+
+def test_a_stale_entry_leads_nowhere(node: Node) -> None:
+    """The master lists a server, but its port is closed, as after a kill."""
+    with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
+        ask("/x", 1, 2, 3)
+    assert node.master.lookup_service("/x") is None

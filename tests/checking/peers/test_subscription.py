@@ -1,0 +1,202 @@
+"""A check's subscription returns messages, times, publishers and types within a time limit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.checking.peers.subscription import Arrival, rate
+from course_pkg.ros import MasterClient, PrivateMaster
+from tests.kernel import Kernel
+from tests.support import eventually
+
+CHECK_RUNNER = """
+from contextlib import ExitStack
+from course_pkg.checking.peers.subscription import Subscription, rate
+from course_pkg.checking.assertions import Results, AssertionFailed
+from course_pkg.checking.peers.node import on_the_graph
+from course_pkg.checking.peers.publisher import Publisher
+from std_msgs.msg import Float64, UInt32
+
+opened = ExitStack()
+node = opened.enter_context(on_the_graph("02.1"))
+results = Results()
+
+def subscribe(topic, kind=UInt32):
+    return opened.enter_context(Subscription(results, node, topic, kind, topic))
+
+def publish(topic, kind, messages):
+    publisher = Publisher(results, topic, kind, messages, every=0.01, once=True, label=topic)
+    return opened.enter_context(publisher)
+
+def broken(one, **how):
+    try:
+        one.published(**how) if isinstance(one, Subscription) else one.listened(**how)
+    except AssertionFailed:
+        assertion = results.assertions[-1]
+        return [assertion.text, assertion.actual, assertion.hint]
+"""
+STUDENT = """
+import rospy
+from course_pkg import join
+from std_msgs.msg import Float64, UInt32
+
+node = join("student")
+
+def connected(publisher, count=1):
+    while publisher.get_num_connections() < count:
+        rospy.sleep(0.01)
+"""
+
+
+@pytest.fixture
+def student(master: PrivateMaster) -> Iterator[Kernel]:
+    """A kernel that has joined the graph."""
+    with Kernel() as kernel:
+        kernel.run(STUDENT)
+        yield kernel
+
+
+@pytest.fixture
+def check(master: PrivateMaster) -> Iterator[Kernel]:
+    """A process with the check's side of the topics: `subscribe`, `publish` and `broken`."""
+    with Kernel() as kernel:
+        kernel.run(CHECK_RUNNER)
+        yield kernel
+        kernel.run("opened.close()")
+    eventually(lambda: not MasterClient(master.uri).system_state().subscribers)
+
+
+def test_messages_come_with_their_time_and_their_publisher(check: Kernel, student: Kernel) -> None:
+    """All messages arrive as plain data, in the order in which they were published."""
+    check.run("subscription = subscribe('/count')")
+    student.run("p = rospy.Publisher('/count', UInt32, queue_size=100); connected(p)")
+    student.run("for number in range(50): p.publish(number)")
+    arrivals = check.run("result = [[a.fields, a.by, a.latched] for a in subscription.wait(50)]")
+    assert arrivals == [[{"data": number}, "/student", False] for number in range(50)]
+    assert check.run("subscription.published(); result = [a.at for a in subscription.arrivals]") == sorted(
+        check.run("result = [a.at for a in subscription.arrivals]")
+    )
+    checked = "result = [subscription.count, [each.holds for each in results.assertions]]"
+    assert check.run(checked) == [50, [True]]
+
+
+def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
+    """A wait for a message that is never published ends after its time limit."""
+    reply = check.ask(
+        "subscription = subscribe('/nothing'); result = [subscription.wait(1, 0.3), subscription.during(0.2)]"
+    )
+    assert reply.value == [[], []]
+    assert check.run("result = subscription.until(lambda arrivals: len(arrivals) > 3, 0.1)") is False
+
+
+def test_nobody_publishes(check: Kernel, student: Kernel) -> None:
+    """The report contains that the topic has no publisher, and the name of a similar topic."""
+    assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
+        "/joint_states is published as std_msgs/UInt32",
+        "nobody who publishes it",
+        "Run the cell that publishes it. Do this after each restart of the kernel, too.",
+    ]
+    student.run("p = rospy.Publisher('/joint_state', UInt32, queue_size=1)")
+    report = check.run("result = broken(subscribe('/joint_states'), within=0.1)")
+    assert report[2] == "There is /joint_state: compare the names letter by letter."
+
+
+@pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
+def test_a_topic_of_another_type_is_heard_of(check: Kernel, student: Kernel, publish: str) -> None:
+    """The wrong type is reported, before and after the first message."""
+    student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
+    _, seen, hint = check.run("result = broken(subscribe('/level'))")
+    assert seen == "std_msgs/Float64"
+    assert hint == "Publish it with the type in the exercise: std_msgs/UInt32."
+    report = check.run("result = broken(subscribe('/level'), hints=[('std_msgs/Float64', 'Whole numbers.')])")
+    assert report[2] == "Whole numbers."
+
+
+def test_a_definition_that_differs_is_told_from_a_type_that_does(check: Kernel, student: Kernel) -> None:
+    """A type with the right name but another definition is reported as such."""
+    student.run(
+        "from course_pkg.types import message_type\n"
+        "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"
+        "p = rospy.Publisher('/other', Other, queue_size=10)"
+    )
+    assert check.run("result = broken(subscribe('/other'))")[1] == "std_msgs/UInt32 with another definition"
+
+
+def test_a_published_topic_is_heard_from_then_on(check: Kernel, student: Kernel) -> None:
+    """`published` returns after the connection is made, so that the next message is not lost."""
+    student.run("p = rospy.Publisher('/late', UInt32, queue_size=10)")
+    check.run("subscription = subscribe('/late'); subscription.published()")
+    student.run("connected(p); p.publish(7)")
+    assert check.run("result = [a.fields['data'] for a in subscription.wait(1)]") == [7]
+
+
+def test_who_comes_late_hears_what_is_latched_and_only_that(check: Kernel, student: Kernel) -> None:
+    """After `leave`, a new subscription receives the latched message again, but not the other one."""
+    student.run(
+        "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
+        "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
+    )
+    for _ in range(2):
+        check.run("kept, lost = subscribe('/kept'), subscribe('/lost'); kept.published(); lost.published()")
+        arrivals = check.run("result = [[a.fields['data'], a.latched] for a in kept.wait(1)]")
+        assert arrivals == [[2, True]]
+        assert check.run("kept.leave(); lost.leave(); result = lost.arrivals") == []
+
+
+def test_a_loop_without_its_sleep_is_heard_in_bounded_memory(check: Kernel, student: Kernel) -> None:
+    """Only the first KEPT messages are stored, but all are counted."""
+    check.run("import course_pkg.checking.peers.subscription as module; module.KEPT = 5")
+    check.run("subscription = subscribe('/flood')")
+    student.run("p = rospy.Publisher('/flood', UInt32, queue_size=0); connected(p)")
+    student.run("for number in range(30): p.publish(number)")
+    check.run("subscription.until(lambda _: subscription.count == 30)")
+    assert check.run("result = [subscription.count, [a.fields['data'] for a in subscription.arrivals]]") == [
+        30,
+        [0, 1, 2, 3, 4],
+    ]
+
+
+def test_messages_that_are_published_once_wait_for_a_listener(check: Kernel, student: Kernel) -> None:
+    """A late subscriber receives every message; `sent` contains the times of publishing."""
+    check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
+    assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
+    student.run("subscription = node.subscribe('/few', UInt32)")
+    assert check.run("result = [p.has_subscriber(5), p.finish(5), len(p.sent)]") == [True, True, 3]
+    assert student.run("result = [message.data for message in subscription.wait(3)]") == [3, 1, 2]
+
+
+def test_that_nobody_listens_is_told(check: Kernel, student: Kernel) -> None:
+    """A subscriber of another type does not count as a subscriber; the hint names the right type."""
+    student.run("subscription = node.subscribe('/few', Float64)")
+    assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
+        "somebody listens to /few",
+        "nobody",
+        "Make a rospy.Subscriber for it, of type std_msgs/UInt32.",
+    ]
+    student.run("subscription = node.subscribe('/few', UInt32)")
+    check.run("p.listened()")
+    assert student.run("result = subscription.wait(1)[0].data") == 1
+
+
+def test_a_message_in_a_message_is_a_dict(check: Kernel) -> None:
+    """A check receives the same values that were published, including a header with its time."""
+    check.run("from sensor_msgs.msg import JointState; subscription = subscribe('/joints', JointState)")
+    check.run(
+        "said = {'header': {'stamp': {'secs': 5, 'nsecs': 6}}, 'name': ['a'], 'position': [0.5]}\n"
+        "publish('/joints', JointState, [said])"
+    )
+    arrivals = check.run("result = [arrival.fields for arrival in subscription.wait(1)]")[0]
+    assert (arrivals["header"]["stamp"], arrivals["name"]) == ({"secs": 5, "nsecs": 6}, ["a"])
+    assert (arrivals["position"], arrivals["velocity"]) == ([0.5], [])
+
+
+def test_the_rate_of_arrivals() -> None:
+    """The rate is the number of intervals per second, and 0 for fewer than two messages."""
+
+    def at(*times: float) -> list[Arrival]:
+        return [Arrival({}, time, "/student", latched=False) for time in times]
+
+    assert rate(at(1.0, 1.1, 1.2, 1.5)) == pytest.approx(6.0)
+    assert [rate(at()), rate(at(1.0)), rate(at(1.0, 1.0))] == [0.0, 0.0, 0.0]

@@ -1,0 +1,131 @@
+"""Every check is tested with right and wrong answers."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+from _pytest.mark import ParameterSet
+
+from course_pkg.authoring.blank import handed_out
+from course_pkg.authoring.cells import check_of, code_cells
+from course_pkg.authoring.notebook_store import NotebookStore, read
+from course_pkg.checking.parts import Part, every_part
+from course_pkg.checking.report import Report, Verdict
+from course_pkg.sandbox.job import PartJob
+from tests.checking.example_answers import Answer, every_answer
+from tests.checking.workers import WorkerPool
+
+PARTS = {part.check: part for part in every_part()}
+# The answers with the longest deadlines run first, so that all sandboxes are busy until the end.
+ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadline)
+# the first answer of each part
+RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
+pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
+# The numbers of the right and the wrong answers of a part in a usual run; the others are slow. The first
+# right answer is the solution's, whose check test_validation.py runs.
+USUAL = {True: (2,), False: (1, 2, 3)}
+# parts that build or start programs
+BUILDS = ("04.1", "04.3", "04.4", "04.5", "07.", "09.", "13.", "14.", "15.")
+# number of answers of such a part in a usual run
+BUILT: dict[bool, tuple[int, ...]] = {True: (), False: (1,)}
+A_CORE = 2  # sandboxes per core: answers often wait for nodes and messages
+STORED = {
+    check: cell["outputs"][0]["data"]
+    for path in NotebookStore().solutions()
+    for cell in code_cells(read(path))
+    if (check := check_of(cell))
+}
+
+
+@cache
+def _job(case: Answer | Part) -> PartJob:
+    """Return the job of an answer, or of a part whose exercise is blank."""
+    answer = RIGHT[case.check] if isinstance(case, Part) else case
+    source = handed_out(case.check, answer.source) if isinstance(case, Part) else answer.source
+    deadline = PARTS[case.check].deadline
+    return PartJob(case.check, answer.before, (source,), answer.after, secrets.randbits(32), deadline)
+
+
+@pytest.fixture(scope="session")
+def pool(request: pytest.FixtureRequest) -> Iterator[WorkerPool]:
+    """The sandboxes that run answers as they run submissions; all answers of this run are in their queue."""
+    with WorkerPool(A_CORE * (os.cpu_count() or 1)) as pool:
+        pool.submit(_job(case) for item in request.session.items if (case := _case(item)) is not None)
+        yield pool
+
+
+@pytest.fixture
+def report(request: pytest.FixtureRequest, pool: WorkerPool) -> Report:
+    """Return the check runner's record of the answer or of the blank exercise."""
+    case = _case(request.node)
+    assert case is not None
+    outcome = pool.result(_job(case))
+    assert not [message for message in outcome.messages if message["cell"] == "before"], outcome
+    assert outcome.report is not None, outcome.ending
+    return outcome.report
+
+
+def _case(item: pytest.Item) -> Answer | Part | None:
+    """Return what a test of this file runs in a sandbox, or None for any other test."""
+    if not isinstance(item, pytest.Function) or item.path != Path(__file__):
+        return None
+    if "report" not in item.fixturenames:
+        return None
+    case: Answer | Part = item.callspec.params.get("answer") or item.callspec.params["part"]
+    return case
+
+
+def _params() -> Iterator[ParameterSet]:
+    """Yield the answers; the answers that are too many for a usual run are marked as slow."""
+    count: Counter[tuple[str, bool]] = Counter()
+    for answer in ANSWERS:
+        count[answer.check, answer.right] += 1
+        usual = BUILT if answer.check.startswith(BUILDS) else USUAL
+        chosen = count[answer.check, answer.right] in usual[answer.right]
+        yield pytest.param(answer, marks=() if chosen else pytest.mark.slow, id=_name(answer))
+
+
+def _name(answer: Answer) -> str:
+    return f"{answer.check} {'right' if answer.right else 'wrong'}: {answer.title}"
+
+
+@pytest.mark.parametrize("answer", list(_params()))
+def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report: Report) -> None:
+    """A right answer passes; a wrong one fails, and the report contains the hint for its mistake.
+
+    The text and the HTML of a pass are stored in the solution, and nbval compares both. So they must not
+    contain the drawn inputs.
+    """
+    assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
+    text = " ".join(str(report).split())
+    assert [part for part in answer.quotes if part not in text] == []
+    if answer.right:
+        stored = STORED[answer.check]
+        assert str(report) == stored["text/plain"]
+        assert report.html() == stored["text/html"]
+
+
+@pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)
+def test_exercise_left_as_it_is_reads_not_attempted(part: Part, report: Report) -> None:
+    """A blank exercise is neither a failure nor an error: its result is "not attempted"."""
+    assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
+
+
+@pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)
+def test_part_has_enough_answers(part: Part) -> None:
+    """Each part has two right answers and four wrong ones, and each wrong answer has a hint."""
+    right = [answer for answer in ANSWERS if answer.check == part.check and answer.right]
+    hints = {answer.hint for answer in ANSWERS if answer.check == part.check and not answer.right}
+    assert len(right) >= 2
+    assert len(hints) >= 4
+
+
+def test_every_answer_belongs_to_a_part() -> None:
+    """Each answer belongs to an existing check."""
+    assert {answer.check for answer in ANSWERS} <= set(PARTS)

@@ -1,0 +1,162 @@
+"""check() in a notebook's kernel: plain rospy, older versions, and functions that do not end."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from course_pkg.ros import PrivateMaster
+from tests.notebook_kernel import NotebookKernel, Shown
+from tests.support import eventually
+
+SETUP = """
+import rospy
+from std_srvs.srv import SetBool, Trigger
+from course_pkg import check, join
+from course_pkg.srv import AddTwoInts, geometry
+node = join("student")
+"""
+HANDLER = """
+def handle_geometry(request):
+    area = request.width * request.length
+    return area, area * request.height
+"""
+SERVICE = "service = rospy.Service('/getGeometry', geometry, handle_geometry)"
+SWITCH = """
+class Switch:
+    def __init__(self):
+        self.on = False
+        self.service = rospy.Service("/switch", SetBool, self.handle_switch)
+
+    def handle_switch(self, request):
+        moved, self.on = request.data != self.on, request.data
+        return moved, "on" if self.on else "off"
+"""
+
+
+@pytest.fixture
+def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
+    """A kernel that has joined the graph; its student's record is in a folder of its own."""
+    with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
+        assert not kernel.run(SETUP, "setup").ename
+        yield kernel
+
+
+def report(notebook: NotebookKernel, part: str = "05.1") -> str:
+    """Return the text of the report on a part."""
+    shown = notebook.run(f"check({part!r})", f"check {part}")
+    assert not shown.ename, shown
+    return shown.results[0]
+
+
+def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
+    """A check that creates a second object passes, and the student's object continues to serve."""
+    notebook.run(SWITCH, "class")
+    notebook.run("switch = Switch()", "object")
+    for _ in range(2):
+        assert report(notebook, "05.4").startswith("05.4 passed")
+    response = "response = rospy.ServiceProxy('/switch', SetBool)(True)\n(response.success, switch.on)"
+    assert notebook.run(response).results == ["(True, True)"]
+
+
+def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
+    """The old handler still answers: the report contains this, and the corrected cell passes."""
+    notebook.run(HANDLER, "handler")
+    notebook.run(SERVICE, "service")
+    assert report(notebook).startswith("05.1 passed")
+    assert notebook.run(HANDLER.replace("return", "return return"), "handler").ename == "SyntaxError"
+    assert " ".join(report(notebook).split()) == (
+        "05.1 not examined handle_geometry is older than the last run of its cell, which ended with "
+        "SyntaxError. Correct that cell and run it, then this one."
+    )
+    notebook.run(HANDLER, "handler")
+    notebook.run(SERVICE, "service")
+    assert report(notebook).startswith("05.1 passed")
+
+
+def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
+    """The cell of the handler ran again, but the cell that creates the service did not."""
+    notebook.run(HANDLER, "handler")
+    notebook.run(SERVICE, "service")
+    notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")
+    text = " ".join(report(notebook).split())
+    assert text == (
+        "05.1 not examined /getGeometry is answered by a version of handle_geometry that is older than the "
+        "last run of its cell. Run the cell that creates the service, then this one."
+    )
+    notebook.run(SERVICE, "service")
+    assert report(notebook).startswith("05.1 not yet")
+
+
+def test_handler_that_did_not_change(notebook: NotebookKernel) -> None:
+    """Another part of the handler's cell changed, so the running handler is not an older version."""
+    notebook.run(HANDLER, "handler")
+    notebook.run(SERVICE, "service")
+    notebook.run(HANDLER + "print('ready')", "handler")
+    assert report(notebook).startswith("05.1 passed")
+
+
+def test_function_that_its_cell_no_longer_defines(notebook: NotebookKernel) -> None:
+    """The student renamed the function, so the old name still belongs to the former version."""
+    notebook.run(HANDLER, "handler")
+    notebook.run(HANDLER.replace("handle_geometry", "handle_box"), "handler")
+    assert "which does not define it" in " ".join(report(notebook).split())
+
+
+ENDLESS = """
+def measure():
+    while True:
+        try:
+            rospy.sleep(0.01)
+        except:
+            pass
+
+def count_missed(topic, pause):
+    measure()
+"""
+
+
+def test_function_that_never_ends(notebook: NotebookKernel) -> None:
+    """In a loop with a bare except, the deadline ends the check."""
+    notebook.run(ENDLESS, "count_missed")
+    started = time.monotonic()
+    text = report(notebook, "00.3")
+    assert text.startswith("00.3 not yet")
+    assert "TimesUp" in text
+    assert time.monotonic() - started < 20
+
+
+def test_stop_button_during_such_a_function(notebook: NotebookKernel, tmp_path: Path) -> None:
+    """The Stop button ends the check, and the kernel still works."""
+    begun = tmp_path / "begun"
+    notebook.run(
+        ENDLESS.replace("    measure(", f"    open({str(begun)!r}, 'w').close()\n    measure("),
+        "count_missed",
+    )
+    number = notebook.begin("check('00.3')", "check")
+    eventually(begun.exists, 20)
+    notebook.manager.interrupt_kernel()
+    shown = notebook.shown(number, patience=10)
+    assert shown.ename == "KeyboardInterrupt"
+    assert notebook.run("node.name").results == ["'/student'"]
+
+
+def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None:
+    """An error of the handler during a check is shown with the report, not below another cell."""
+    notebook.run(HANDLER.replace("request.width *", "request.wide *"), "handler")
+    notebook.run(SERVICE, "service")
+    shown = notebook.run("result = check('05.1')\nresult.printed")
+    assert shown.err == ""
+    assert "has no attribute 'wide'" in shown.results[0]
+    assert "area = request.wide * request.length" in shown.results[0]
+
+
+def test_check_leaves_nothing(notebook: NotebookKernel) -> None:
+    """Everything that the student's code creates during a check ends with the check, without printed text."""
+    notebook.run(SWITCH, "class")
+    notebook.run("switch = Switch()", "object")
+    shown = notebook.run("passed = check('05.4')", "check")
+    assert shown == Shown()

@@ -1,0 +1,71 @@
+"""Any value of a student's code is converted to plain data."""
+
+from __future__ import annotations
+
+import enum
+import json
+from array import array
+
+import pytest
+from course_pkg.srv import geometryResponse
+from geometry_msgs.msg import Point
+from rospy import Duration
+
+from course_pkg.checking.plain_values import Value, plain
+from course_pkg.ros.protocol.json_channel import Json
+
+
+class Everything(float):
+    """An object that is equal to every value."""
+
+    def __eq__(self, other: object) -> bool:
+        """Return True for every value."""
+        return True
+
+    __hash__ = float.__hash__
+
+
+class Colour(enum.IntEnum):
+    """A number that is an enumeration member."""
+
+    RED = 3
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (None, None),
+        (True, True),
+        ((1, "a", 2.5), [1, "a", 2.5]),
+        (b"\x01\xff", [1, 255]),
+        (geometryResponse(area=1.5, volume=2.0), {"area": 1.5, "volume": 2.0}),
+        ([Point(1.0, 2.0, 3.0)], [{"x": 1.0, "y": 2.0, "z": 3.0}]),
+        (Duration(2, 5), {"secs": 2, "nsecs": 5}),
+        (array("f", [0.5, 1.5]), [0.5, 1.5]),
+        (Colour.RED, 3),
+        ({1: {2: 3}}, {"1": {"2": 3}}),
+        (object(), {"object": "object"}),
+        (..., {"object": "ellipsis"}),
+    ],
+)
+def test_values_become_plain(value: Value, expected: Json) -> None:
+    """Messages become dicts, sequences become lists, NumPy numbers become numbers.
+
+    Other values become the name of their type.
+    """
+    assert plain(value) == expected
+    json.dumps(plain(value))
+
+
+def test_an_object_equal_to_everything_loses_that() -> None:
+    """A number with a wrong __eq__ becomes a plain number, which compares correctly."""
+    assert type(plain(Everything(3.0))) is float
+    assert plain(Everything(3.0)) != 4.0
+
+
+def test_what_has_no_end_is_cut() -> None:
+    """A list that contains itself is cut, and a long string is cut."""
+    endless: list[Value] = []
+    endless.append(endless)
+    assert "nested too deeply" in json.dumps(plain(endless))
+    assert len(plain("x" * 10**6)) < 10**5

@@ -1,0 +1,45 @@
+"""The other cells that an answer needs, found by their names, within limits."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from course_pkg.grading.rebuild.context import needed
+
+ABOVE = ("import math", "def area(box):\n    return math.prod(box)", "side = 2", "unused = area([1])")
+
+
+def test_what_gives_a_name_comes_along_with_what_it_needs() -> None:
+    """The nearest cell above that defines the name, and the cells that it needs, in the notebook's order."""
+    assert needed("def double(box):\n    return 2 * area(box)", "", ABOVE) == ABOVE[:2]
+
+
+def test_what_is_given_is_not_brought_again() -> None:
+    """Builtins, the answer's own names, and names of the course's cells need no other cell."""
+    assert needed("import math\nprint(math.pi, len([1]))", "", ABOVE) == ()
+    assert needed("def f():\n    return side", "side = 3", ABOVE) == ()
+
+
+def test_magics_are_read_as_ipython_reads_them() -> None:
+    """A line that only IPython understands does not hide names."""
+    assert needed("%time x = side", "", ABOVE) == ()
+    assert needed("!ls\nx = side", "", ABOVE) == ("side = 2",)
+
+
+@pytest.mark.parametrize(
+    ("answer", "above"),
+    [
+        ("\n".join(f"u{n}" for n in range(9000)), ["x=[" + "1," * 45000 + "]"] * 20),
+        ("%lsmagic\n" * 20_000, []),
+        ("if a: pass\n" + "elif a: pass\n" * 100_000, []),
+        ("(" * 100_000, ["-" * 100_000 + "1"]),
+    ],
+    ids=["many names and long cells", "many magics", "a long ladder", "deep"],
+)
+def test_nonsense_takes_no_time(answer: str, above: list[str]) -> None:
+    """The text is read outside of the sandbox, so the time for it is limited."""
+    began = time.process_time()
+    assert needed(answer, "", above) == ()
+    assert time.process_time() - began < 10.0  # minutes, without the limit

@@ -1,0 +1,120 @@
+"""An answer cannot decide how it is run."""
+
+from __future__ import annotations
+
+import pytest
+from IPython.core.inputtransformer2 import TransformerManager
+from nbval.plugin import comment_markers, find_comment_markers, metadata_tags
+
+from course_pkg.grading.rebuild.defusing import MARKERS, TAGS, defuse, magic_of
+
+DEF = "def f():\n    return 1"
+
+
+def test_the_markers_are_those_of_nbval() -> None:
+    """This test fails if a new nbval knows another marker."""
+    assert set(MARKERS) == set(comment_markers)
+    assert set(metadata_tags) < set(TAGS)
+
+
+@pytest.mark.parametrize("marker", MARKERS)
+@pytest.mark.parametrize(
+    "shape",
+    [
+        "# {}\n" + DEF,
+        "#{}\n" + DEF,
+        DEF + "\n    # {}",
+        "  ###   {}  \n" + DEF,
+        'x = """\n# {}\n"""',
+        DEF + "\x0c# {}",
+        DEF + "\r# {}\r",
+        DEF + "\u2028# {}",
+        DEF + "\x1c#{}\x1d",
+        "# x\r\n# {}\r\n# {}",
+        "#\x00 {}",
+        "# {}\ud800\n# {}",
+    ],
+)
+def test_markers_have_no_effect(marker: str, shape: str) -> None:
+    """No marker is left for nbval in the rebuilt answer, in any spelling; a note reports it."""
+    made = defuse(shape.replace("{}", marker))
+    assert list(find_comment_markers(made.source)) == []
+    assert any(marker in note for note in made.notes)
+
+
+MAGICS = [
+    *("%%script true", "%%bash", "%%javascript", "%%capture", "%%time", "%%writefile x.py", "%%html"),
+    *("%%bash?", "%%x"),
+]
+BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
+
+
+@pytest.mark.parametrize("magic", MAGICS)
+@pytest.mark.parametrize("before", BEFORE)
+def test_no_magic_takes_the_cell(magic: str, before: str) -> None:
+    """The rest of the answer is run as Python, even if IPython would have removed text before the magic."""
+    made = defuse(f"{before}{magic}\n{DEF}")
+    code = TransformerManager().transform_cell(made.source)
+    assert "run_cell_magic" not in code
+    names: dict[str, object] = {}
+    exec(code, names)  # noqa: S102 -- it is a test's own
+    assert "f" in names
+    assert "was removed" in made.notes[0]
+
+
+def test_a_magic_below_a_magic() -> None:
+    """Removing one magic does not enable the next: IPython reads only the first line."""
+    made = defuse("%%time\n%%script true\n" + DEF)
+    assert magic_of(made.source) == ""
+
+
+def test_an_indented_cell_with_a_magic() -> None:
+    """IPython removes the indentation, so this is a magic."""
+    assert "was removed" in defuse("  %%script true\n  x = 1").notes[0]
+
+
+WRITES = "%%writefile src/a.srv"
+
+
+@pytest.mark.parametrize(
+    ("source", "notes"),
+    [
+        (f"{WRITES}\nint8 a", 0),
+        ("\n%%writefile   src/a.srv \nint8 a", 0),
+        ("int8 a", 1),
+        ("%%writefile /etc/passwd\nint8 a", 1),
+        ("%%writefile -a src/a.srv\nint8 a", 1),
+        ("%%bash\nint8 a", 1),
+        ("%%script true\nint8 a", 1),
+    ],
+)
+def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> None:
+    """The first line comes from the reference; the student's lines follow."""
+    made = defuse(source, WRITES)
+    assert made.source == f"{WRITES}\nint8 a"
+    assert len(made.notes) == notes
+
+
+def test_what_is_no_text() -> None:
+    """Null bytes and single surrogates are removed, and line ends become those of Unix."""
+    made = defuse("x = 1\x00\r\ny = '\ud800'\rz = 2")
+    assert made.source == "x = 1\ny = '?'\nz = 2"
+    made.source.encode()
+    assert made.notes
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        DEF,
+        "",
+        "%time f()\n" + DEF,
+        "x = 5 %% 3",
+        "# %%bash\n" + DEF,
+        "# NBVAL_SKIPPED\n" + DEF,
+        "x = 1 # NBVAL_SKIP",
+    ],
+)
+def test_an_ordinary_answer_is_left_alone(source: str) -> None:
+    """A harmless answer keeps every byte and gets no note."""
+    assert defuse(source) == type(defuse(""))(source)

@@ -1,0 +1,165 @@
+"""JupyterLab's terminals: the commands that a student types on a robot's computer work there, too."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
+from urllib.request import Request, urlopen
+
+import pexpect
+import psutil
+import pytest
+
+from course_pkg.ros import MasterClient
+from tests.lab.commands import ROOT, all_gone, below, having, lab
+from tests.support import eventually
+from tests.workspace.packages import GOOD, write
+
+pytestmark = pytest.mark.timeout(600)
+
+PROMPT = "(lab) "
+SCRIPT = (
+    "#!/usr/bin/env python3\nimport my_services.srv\nprint('area:', my_services.srv.BoxResponse(3).area)\n"
+)
+INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
+TAB, CTRL_C = "\t", "\x03"
+BUSY = 240.0  # s, for commands that take 3 s on an idle machine, such as catkin_make
+
+
+class Terminal:
+    """A terminal with the same command, environment and folder as one that JupyterLab started."""
+
+    def __init__(self, pid: int) -> None:
+        model = psutil.Process(pid)
+        program, *arguments = model.cmdline()
+        self.environment = model.environ()
+        self._shell = pexpect.spawn(
+            program, arguments, env=self.environment, cwd=model.cwd(), timeout=BUSY, encoding="utf-8"
+        )
+        self._shell.setecho(False)
+        self.type(f"PS1='{PROMPT}'; bind 'set enable-bracketed-paste off'; PROMPT_COMMAND=")
+        self.run("stty -echo")
+
+    def type(self, line: str) -> None:
+        """Type a line and the Enter key."""
+        self._shell.sendline(line)
+
+    def keys(self, text: str) -> None:
+        """Press keys."""
+        self._shell.send(text)
+
+    def wait_for(self, text: str) -> str:
+        """Wait until `text` is printed; return what was printed before it."""
+        self._shell.expect_exact(text)
+        return str(self._shell.before)
+
+    def run(self, line: str) -> str:
+        """Run a command and return what it prints."""
+        self.type(f"{line}; echo en''d")
+        printed = self.wait_for("end\r\n").replace(PROMPT, "")
+        return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", printed)
+
+    def close(self) -> None:
+        """End the shell and the processes in it."""
+        self._shell.close(force=True)
+
+
+def listening(pid: int) -> set[str]:
+    """Return the addresses on which a process, or a process that it has started, listens."""
+    family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
+    sockets = [each for process in family for each in process.net_connections("inet")]
+    return {each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN}
+
+
+@pytest.fixture(scope="module")
+def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
+    """Start `course lab` with a temporary folder for own packages; yield a terminal of it."""
+    state = tmp_path_factory.mktemp("state")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(state)  # a user types `course lab` in any folder
+        with lab(COURSE_STATE=str(state)) as (process, address):
+            parts = urlsplit(address)
+            headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
+            request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
+            urlopen(request, timeout=20).close()  # noqa: S310
+            [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
+            terminal = Terminal(shell)
+            try:
+                yield terminal
+            finally:
+                terminal.close()
+                family = below(process)
+                process.kill()
+                assert having(b"rosout/rosout\0", family)
+                assert all_gone(family)
+
+
+def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
+    """The chapters tell the reader to go to the folder that contains `notebooks`."""
+    assert Path(terminal.run("pwd").strip()) == ROOT
+
+
+def test_the_graph_is_what_roscore_starts(terminal: Terminal) -> None:
+    """The node, the services and the parameters are the same as after roscore."""
+    assert terminal.run("rosnode list").split() == ["/rosout"]
+    assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
+    assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]
+    assert terminal.run("rosversion roslaunch").strip() in terminal.run("rosparam get /rosversion")
+
+
+def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
+    """ROS_MASTER_URI is the address of the lab's master, so a second roscore refuses to start, as usual."""
+    printed = terminal.run("roscore")
+    assert "roscore cannot run as another roscore/master is already running" in printed
+    assert terminal.environment["ROS_MASTER_URI"] in printed
+
+
+def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None:
+    """The XML-RPC server of roscpp listens on all addresses by default.
+
+    The terminal's settings prevent that.
+    """
+    node = re.findall(
+        r"\d+$", terminal.run("rosrun rosout rosout __name:=of_mine > /dev/null & echo $!").strip()
+    )
+    assert eventually(lambda: "/of_mine" in terminal.run("rosnode list"), timeout=BUSY)
+    addresses = listening(int(node[0]))
+    terminal.run("kill %1; wait")
+    assert addresses == {"127.0.0.1"}
+
+
+def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
+    """These commands work: catkin_make, source devel/setup.bash, rossrv, roscd, rosrun, and the Tab key."""
+    root = Path(terminal.environment["COURSE_STATE"], "workspace")
+    assert (root / "src").is_dir()
+    lists = GOOD["CMakeLists.txt"] + INSTALLED
+    write(root, {**GOOD, "CMakeLists.txt": lists, "scripts/area": SCRIPT})
+    terminal.run(f"cd {root}")
+    assert "not found" in terminal.run("rospack find my_services")
+    assert "[100%]" in terminal.run("catkin_make")
+    assert "not found" in terminal.run("rospack find my_services")
+    terminal.run("source devel/setup.bash")
+    assert "float32 area" in terminal.run("rossrv show my_services/Box")
+    assert terminal.run("rosrun my_services area").strip() == "area: 3"
+    assert terminal.run("roscd my_services && pwd").strip() == str(root / "src" / "my_services")
+    assert terminal.run("rosrun course_pkg client 1 2 3 4").startswith("usage")
+    terminal.keys(f"rosrun my_ser{TAB}ar{TAB}; echo en''d\n")
+    assert "area: 3" in terminal.wait_for("end\r\n")
+
+
+def test_roscore_starts_where_no_master_is(terminal: Terminal) -> None:
+    """After the end of the lab's master, roscore starts a new one at the same address, with /rosout."""
+    uri = terminal.environment["ROS_MASTER_URI"]
+    former = MasterClient(uri).pid()
+    os.kill(former, signal.SIGKILL)
+    assert all_gone([former])
+    terminal.type("roscore")
+    terminal.wait_for("started core service [/rosout]")
+    assert MasterClient(uri).pid() != former
+    assert "/rosout" in eventually(lambda: MasterClient(uri).system_state().nodes)
+    terminal.keys(CTRL_C)
+    terminal.wait_for("done")

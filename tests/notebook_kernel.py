@@ -1,0 +1,93 @@
+"""A real IPython kernel that receives an id with each cell, as front ends of Jupyter send one."""
+
+from __future__ import annotations
+
+import os
+import queue
+import textwrap
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import TracebackType
+
+from jupyter_client import BlockingKernelClient, KernelManager
+
+PATIENCE = 30.0  # s for a cell
+
+
+@dataclass
+class Shown:
+    """The outputs of a cell: its streams, the text of its results, and the traceback of its error."""
+
+    out: str = ""
+    err: str = ""
+    results: list[str] = field(default_factory=list)
+    ename: str = ""
+    evalue: str = ""
+    traceback: list[str] = field(default_factory=list)
+    others: str = ""  # what other cells printed meanwhile
+
+    @property
+    def error_lines(self) -> list[str]:
+        """The lines of the traceback as a front end shows them."""
+        return "\n".join(self.traceback).splitlines()
+
+
+class NotebookKernel:
+    """A process with an IPython kernel, and the client of this kernel."""
+
+    def __init__(self, env: Mapping[str, str] | None = None, **options: str) -> None:
+        self.manager = KernelManager(kernel_name="python3", **options)
+        self.manager.start_kernel(env={**os.environ, **(env or {})})
+        self.client: BlockingKernelClient = self.manager.client()
+        self.client.start_channels()
+        self.client.wait_for_ready(timeout=PATIENCE)
+
+    def __enter__(self) -> NotebookKernel:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.client.stop_channels()
+        self.manager.shutdown_kernel(now=True)
+
+    def begin(self, code: str, cell: str | None = None) -> str:
+        """Send a cell, with its id unless it is None, and return the id of the message."""
+        content = {
+            "code": textwrap.dedent(code).strip("\n"),
+            "silent": False,
+            "store_history": True,
+            "user_expressions": {},
+            "allow_stdin": False,
+            "stop_on_error": True,
+        }
+        metadata = {} if cell is None else {"cellId": cell}
+        message = self.client.session.msg("execute_request", content, metadata=metadata)
+        self.client.shell_channel.send(message)
+        return str(message["header"]["msg_id"])
+
+    def run(self, code: str, cell: str | None = None, patience: float = PATIENCE) -> Shown:
+        """Run a cell and return what it showed."""
+        return self.shown(self.begin(code, cell), patience)
+
+    def shown(self, number: str, patience: float = PATIENCE) -> Shown:
+        """Return the outputs of the cell of the message `number` at its end; fail after `patience` s."""
+        shown, deadline = Shown(), time.monotonic() + patience
+        while True:
+            try:
+                message = self.client.get_iopub_msg(timeout=max(deadline - time.monotonic(), 0.01))
+            except queue.Empty:
+                raise AssertionError(f"the cell did not end within {patience:g} s: {shown}") from None
+            kind, content = message["msg_type"], message["content"]
+            if message["parent_header"].get("msg_id") != number:
+                shown.others += str(content.get("text", ""))
+            elif kind == "status" and content["execution_state"] == "idle":
+                return shown
+            elif kind == "stream":
+                setattr(shown, content["name"][3:], getattr(shown, content["name"][3:]) + content["text"])
+            elif kind in ("execute_result", "display_data"):
+                shown.results.append(content["data"].get("text/plain", ""))
+            elif kind == "error":
+                shown.ename, shown.evalue = content["ename"], content["evalue"]
+                shown.traceback = content["traceback"]

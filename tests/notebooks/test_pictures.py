@@ -1,0 +1,59 @@
+"""A viewer without widgets and without a kernel shows a picture for each panel and plot of a solution."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import fromstring
+
+import pytest
+from nbconvert.exporters.html import HTMLExporter
+
+from course_pkg import panels
+from course_pkg.authoring.cells import Output, code_cells
+from course_pkg.authoring.notebook_store import read
+from course_pkg.authoring.pictures import SVG
+
+ROOT = Path(__file__).parents[2]
+SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
+NAMES = "|".join([*panels.__all__, "predictions"])
+OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
+LIMIT = 1_000_000  # bytes; GitHub shows no larger notebook
+
+
+def outputs(path: Path) -> Iterator[tuple[str, Output]]:
+    """Yield the outputs of a stored notebook that have a form as text, with this text."""
+    for cell in code_cells(read(path)):
+        for output in cell["outputs"]:
+            if "text/plain" in output.get("data", {}):
+                yield str(output["data"]["text/plain"]), output
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=lambda path: path.stem)
+def test_each_panel_and_plot_has_a_picture(path: Path) -> None:
+    """The picture of a panel is well-formed and has a title."""
+    for text, output in outputs(path):
+        if text.startswith("<Figure"):
+            assert SVG in output["data"], text
+        elif OF_A_PANEL.fullmatch(text):
+            root = fromstring(str(output["data"].get(SVG, "<none/>")))  # noqa: S314 - it is our own
+            assert root.findtext("{http://www.w3.org/2000/svg}title"), text
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=lambda path: path.stem)
+def test_a_stored_notebook_is_small(path: Path) -> None:
+    """With all its pictures a notebook stays below 1 MB."""
+    assert path.stat().st_size < LIMIT
+
+
+def test_a_plain_page_shows_the_pictures_and_not_the_text() -> None:
+    """`jupyter nbconvert --to html` starts no kernel and uses no template of the course."""
+    path = next(path for path in SOLUTIONS if path.name.startswith("05"))
+    page, _ = HTMLExporter().from_filename(str(path))  # type: ignore[no-untyped-call]
+    drawn = [output for _, output in outputs(path) if SVG in output["data"]]
+    assert len(drawn) > 10
+    for output in drawn:
+        assert base64.b64encode(str(output["data"][SVG]).encode()).decode() in page
+    assert "<pre>GraphPanel()</pre>" not in page

@@ -1,0 +1,334 @@
+"""The activity of the graph as text: rates of topics, callers of services, and never an invented number."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from course_pkg.panels.graph.activity import LONG, SHOWN, RateMeter, Rates, plainest, rate_text
+from course_pkg.panels.graph.model import GraphModel
+from course_pkg.ros import Activity, NodeSeen, ServiceCaller, ServiceSeen, Snapshot, TopicSeen, Traffic
+from course_pkg.types import Plain
+
+TOPICS = (
+    TopicSeen("/chatter", "std_msgs/String", ("/talker",), ("/listener",)),
+    TopicSeen("/unheard", "std_msgs/String", ("/talker",), ()),
+    TopicSeen("/unsaid", "std_msgs/String", (), ("/listener",)),
+)
+SERVICES = (
+    ServiceSeen("/robot/ask", "std_srvs/Trigger", "/server", "rosrpc://localhost:1", "answered"),
+    ServiceSeen("/robot/tell", "std_srvs/Trigger", "/server", "rosrpc://localhost:1", "answered"),
+)
+
+
+def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
+    """Return a snapshot in which one node may be dead."""
+    names = ("/client", "/listener", "/server", "/talker")
+    nodes = tuple(
+        NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
+    )
+    return Snapshot("http://localhost:11311", nodes, topics, SERVICES)
+
+
+class Wall:
+    """A model of a graph, and the texts that it shows."""
+
+    def __init__(self, snapshot: Snapshot | None = None) -> None:
+        self.said: list[dict[str, Plain]] = []
+        self.drawn = 0
+        self.model = GraphModel(self.hear)
+        self.model.see(snapshot or graph())
+
+    def hear(self, **parts: Plain) -> None:
+        """Store the state."""
+        self.said.append(parts)
+        self.drawn += "drawing" in parts
+
+    @property
+    def now(self) -> dict[str, Plain]:
+        """Return what the page shows now."""
+        return next(each for each in reversed(self.said) if "activity" in each)["activity"]
+
+
+def counts(*messages: int, every: float = 2.0) -> list[Activity]:
+    """Return the counts of /chatter at several times."""
+    return [
+        Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
+        for turn, count in enumerate(messages)
+    ]
+
+
+def test_a_rate_is_told_at_its_topic_and_by_connection() -> None:
+    """The rate is below the name of the topic; the details name the publisher and the subscriber."""
+    wall = Wall()
+    for activity in counts(100, 120, 140):
+        wall.model.count(activity)
+    assert wall.now["notes"]["topic /chatter"] == "10 Hz"
+    assert wall.now["details"]["topic /chatter"] == [["/talker → /listener", "10 Hz"]]
+
+
+def test_nobody_listens_and_nobody_speaks() -> None:
+    """Without a publisher or a subscriber there is no rate, and the details give the reason."""
+    wall = Wall()
+    wall.model.count(Activity(0.0))
+    assert wall.now["notes"]["topic /unheard"] == "no listener"
+    assert wall.now["details"]["topic /unheard"] == [["rate", "no listener, nothing is sent"]]
+    assert wall.now["notes"]["topic /unsaid"] == "no publisher"
+
+
+def test_before_the_second_count_there_is_no_rate() -> None:
+    """After one count the details show the number of messages, and no rate."""
+    wall = Wall()
+    wall.model.count(counts(1)[0])
+    assert wall.now["notes"]["topic /chatter"] == ""
+    assert wall.now["details"]["topic /chatter"] == [["/talker → /listener", "1 message since it connected"]]
+
+
+def test_silence_is_told_with_what_was_sent() -> None:
+    """A topic without messages has a rate of 0 Hz."""
+    wall = Wall()
+    for activity in counts(3, 3, 3):
+        wall.model.count(activity)
+    assert wall.now["details"]["topic /chatter"] == [
+        ["/talker → /listener", "0 Hz, 3 messages since it connected"]
+    ]
+
+
+def test_ends_that_are_not_connected() -> None:
+    """A publisher and a subscriber of different types never connect; the details name this reason."""
+    wall = Wall()
+    wall.model.count(Activity(0.0))
+    assert wall.now["notes"]["topic /chatter"] == "unconnected"
+    assert "same type?" in wall.now["details"]["topic /chatter"][0][1]
+
+
+def test_a_publisher_that_does_not_tell() -> None:
+    """A node that does not count messages has no rate; the panel does not report it as silent."""
+    wall = Wall()
+    wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
+    assert wall.now["notes"]["topic /chatter"] == "not counted"
+    assert wall.now["details"]["topic /chatter"][0][1] == "its publisher does not tell what it sends"
+
+
+def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
+    """The rate of a topic is the rate of the subscriber that receives most messages."""
+    topic = TopicSeen("/chatter", "std_msgs/String", ("/talker", "/server"), ("/listener", "/client"))
+    wall = Wall(graph(topics=(topic,)))
+    for turn in range(3):
+        ends = [(who, whom) for who in topic.publishers for whom in topic.subscribers]
+        carried = tuple(Traffic("/chatter", *each, 1, 20 * turn) for each in ends)
+        wall.model.count(Activity(2.0 * turn, carried))
+    assert wall.now["notes"]["topic /chatter"] == "20 Hz"
+
+
+def test_numbers_never_draw_anew_and_are_told_only_when_they_change() -> None:
+    """If nothing changes on the graph, the panel sends nothing more after the rates are known."""
+    wall = Wall()
+    for activity in counts(*range(0, 800, 20)):
+        wall.model.count(activity)
+    assert wall.drawn == 1
+    assert len(wall.said) < 5
+
+
+def test_notes_are_short_enough_for_their_place() -> None:
+    """The text below the name of a topic has at most 12 characters."""
+    wall = Wall()
+    for activity in [*counts(0, 20, 40), Activity(6.0), Activity(8.0, silent=frozenset({"/talker"}))]:
+        wall.model.count(activity)
+    notes = {note for each in wall.said for note in each["activity"]["notes"].values()}
+    assert {"10 Hz", "unconnected", "not counted", "no listener", "no publisher"} <= notes
+    assert max(map(len, notes)) <= 12
+
+
+def test_a_topic_of_many_is_shortened() -> None:
+    """A hundred connections appear as one summary instead of a hundred lines."""
+    listeners = tuple(f"/listener_{number}" for number in range(100))
+    wall = Wall(graph(topics=(TopicSeen("/chatter", "a/B", ("/talker",), listeners),)))
+    wall.model.count(Activity(0.0))
+    details = wall.now["details"]["topic /chatter"]
+    assert len(details) == SHOWN
+    assert details[-1] == ["…", "89 more connections"]
+
+
+CALLERS = {
+    "/robot/ask": (ServiceCaller("/client", 12, 1000.04, 0), ServiceCaller("/gone_1", 1, 990.0, 0)),
+    "/robot/tell": (),
+}
+
+
+def test_callers_are_told_and_those_who_are_gone() -> None:
+    """Each service lists its callers, the latest first; a caller that has left the graph is marked."""
+    wall = Wall()
+    wall.model.count(Activity(0.0, callers=CALLERS))
+    assert wall.now["callers"]["service /robot/ask"] == [
+        {"node": "/client", "calls": 12, "last": 1000.0, "running": 0, "gone": False},
+        {"node": "/gone_1", "calls": 1, "last": 990.0, "running": 0, "gone": True},
+    ]
+    assert wall.now["callers"]["service /robot/tell"] == []
+    assert wall.now["calls"] == [
+        {"tail": "node /client", "head": "service /robot/ask", "last": 1000.0, "running": 0}
+    ]
+
+
+def test_a_killed_caller_is_gone() -> None:
+    """A node that is registered but does not run any more is shown as ended."""
+    wall = Wall(graph(dead="/client"))
+    wall.model.count(Activity(0.0, callers=CALLERS))
+    assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
+    assert wall.now["calls"] == []
+
+
+def test_a_server_that_does_not_tell_is_not_one_that_nobody_calls() -> None:
+    """A service without counts has no text about its calls."""
+    wall = Wall()
+    wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
+    assert set(wall.now["callers"]) == {"service /robot/tell"}
+
+
+def test_the_line_of_a_call_leads_to_the_box_that_its_service_is_in() -> None:
+    """A folded namespace has one line for all its services: that of the latest call."""
+    wall = Wall()
+    later = {**CALLERS, "/robot/tell": (ServiceCaller("/client", 1, 2000.0, 1),)}
+    wall.model.count(Activity(0.0, callers=later))
+    assert [each["head"] for each in wall.now["calls"]] == ["service /robot/ask", "service /robot/tell"]
+    wall.model.fold("/robot/", fold=True)
+    assert wall.now["calls"] == [
+        {"tail": "node /client", "head": "namespace /robot/", "last": 2000.0, "running": 1}
+    ]
+
+
+def test_a_hidden_caller_is_not_gone() -> None:
+    """The kernel's own node can be hidden from the picture; the list still contains it."""
+    said: list[dict[str, Plain]] = []
+    model = GraphModel(lambda **parts: said.append(parts), own="/client")
+    model.see(graph())
+    model.choose(noise=False, show_own=False)
+    model.count(Activity(0.0, callers=CALLERS))
+    assert not said[-1]["activity"]["callers"]["service /robot/ask"][0]["gone"]
+
+
+def test_a_type_is_told_with_its_fields() -> None:
+    """A click on a topic or a service shows the fields of its type."""
+    wall = Wall()
+    facts = {each["key"]: dict(each["facts"]) for each in wall.said[-1]["facts"]}
+    assert facts["topic /chatter"]["fields"] == "string data"
+    assert (facts["service /robot/ask"]["request"], facts["service /robot/ask"]["response"]) == (
+        "none",
+        "bool success, string message",
+    )
+    assert facts["node /talker"]["publishes"] == "/chatter, /unheard"
+
+
+@pytest.mark.parametrize("kind", ["nowhere/Thing", "nonsense", ""])
+def test_a_type_that_is_not_here(kind: str) -> None:
+    """A type that this machine does not know, or that no node has registered, causes no error."""
+    wall = Wall(graph(topics=(TopicSeen("/t", kind, ("/talker",), ()),)))
+    facts = dict(next(each for each in wall.said[-1]["facts"] if each["key"] == "topic /t")["facts"])
+    assert facts.get("fields", "").startswith("nowhere/Thing: no message type" if "/" in kind else "")
+
+
+def test_a_still_picture_has_its_colours_its_rates_and_its_words_in_it() -> None:
+    """A saved picture needs no other file and has no buttons."""
+    wall = Wall()
+    for activity in counts(100, 120, 140):
+        wall.model.count(activity)
+    drawn = wall.model.still()
+    assert ">10 Hz<" in drawn
+    assert "@media print" in drawn
+    assert 'role="img"' in drawn
+    assert 'aria-label="The ROS graph: 4 nodes, 3 topics, 2 services"' in drawn
+    assert "/talker\n  publishes  /chatter  (std_msgs/String)" in drawn
+    assert "tabindex" not in drawn
+
+
+def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
+    """Read a steady rate every 2 s, each time up to `late` s after the count was taken."""
+    meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
+    for turn in range(int(seconds / 2) + 1):
+        meter.read(2.0 * turn + chance.uniform(0, late), int(rate * 2 * turn))
+    return meter
+
+
+@pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
+def test_a_steady_rate_is_found_and_stands_still(rate: float) -> None:
+    """After 30 s the panel shows the publisher's rate, no matter when it reads the counts."""
+    seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
+    assert len(seen) == 1
+    assert seen.pop() == pytest.approx(rate, rel=0.06 if rate > 1 else 0.2)
+
+
+def test_two_counts_are_enough_for_a_first_number() -> None:
+    """One count gives no rate; two counts that are 2 s apart do."""
+    assert counted(10, 0).rate is None
+    assert counted(10, 2).rate == pytest.approx(10, abs=1)
+
+
+def test_silence_and_a_new_rate_are_seen_soon() -> None:
+    """A publisher that stops is at 0 Hz after two looks; after a change of rate, old counts are left out."""
+    meter = counted(10, 30)
+    for at in (32.0, 34.0, 36.0):
+        meter.read(at, 300)
+    assert meter.rate == 0
+    for turn in range(1, 4):
+        meter.read(36.0 + 2 * turn, 300 + 80 * turn)
+    assert meter.rate == pytest.approx(40, rel=0.05)
+
+
+def test_a_publisher_that_began_anew_is_counted_anew() -> None:
+    """A count that decreases belongs to a new connection; the rate is never negative."""
+    meter = counted(10, 30)
+    meter.read(32.0, 4)
+    assert meter.rate is not None
+    assert meter.rate >= 0
+    meter.read(34.0, 24)
+    assert meter.rate == pytest.approx(10, abs=1)
+
+
+def test_the_memory_is_bounded() -> None:
+    """Counts older than 30 s are deleted."""
+    meter = counted(10, 600)
+    assert len(meter._counts) <= LONG / 2 + 1
+
+
+@pytest.mark.parametrize(
+    ("rate", "doubt", "shown"),
+    [
+        (9.75, 0.25, 10),
+        (10.25, 0.25, 10),
+        (12.3, 0.05, 12.3),
+        (12.3, 0.5, 12),
+        (0.033, 0.03, 0.03),
+        (0, 1, 0),
+    ],
+)
+def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
+    """The panel shows the number with the fewest digits within the uncertainty."""
+    assert plainest(rate, doubt) == pytest.approx(shown)
+
+
+@pytest.mark.parametrize(
+    ("rate", "shown"),
+    [
+        (0, "0 Hz"),
+        (0.03, "< 0.1 Hz"),
+        (0.5, "0.5 Hz"),
+        (10.0, "10 Hz"),
+        (999.7, "1 kHz"),
+        (12300, "12.3 kHz"),
+    ],
+)
+def test_a_rate_in_words(rate: float, shown: str) -> None:
+    """The rate has a unit, and fits below the name of a topic."""
+    assert rate_text(rate) == shown
+    assert len(shown) <= 12
+
+
+def test_a_connection_that_is_gone_is_forgotten() -> None:
+    """A topic that is no longer counted has no rate."""
+    rates, carried = Rates(), Traffic("/t", "/a", "/b", 1, 10)
+    rates.read(Activity(0.0, (carried,)))
+    rates.read(Activity(2.0, (Traffic("/t", "/a", "/b", 1, 30),)))
+    assert rates.of(carried) == pytest.approx(10, abs=1)
+    rates.read(Activity(4.0))
+    assert rates.of(carried) is None

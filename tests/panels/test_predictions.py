@@ -1,0 +1,287 @@
+"""Predictions and choices: kept on disk, compared with the result, the same text for every student."""
+
+from __future__ import annotations
+
+import json
+import threading
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import InvalidPredictions, NotAChoice
+from course_pkg.panels.choices.model import ChoicesModel, ChoiceStore
+from course_pkg.panels.choices.view import Choices
+from course_pkg.panels.prediction.model import PredictionModel, PredictionStore
+from course_pkg.panels.prediction.view import Predictions, Question
+from course_pkg.panels.store import of_chapter
+
+OPTIONS = ("a topic", "a service")
+CASES = [
+    ("Joint values, 100 times a second", "a topic", "A lost one is replaced at once."),
+    ("One picture, on demand", "a service", "Somebody waits for it."),
+    ("`/cmd_vel`", "a topic", "It is a stream."),
+]
+CHOICES = ("an empty reply", "an error", "it waits for ever")
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> PredictionStore:
+    """Return a store of predictions in a folder that does not exist yet."""
+    return PredictionStore(tmp_path / "state" / "predictions.json")
+
+
+@pytest.fixture
+def model(store: PredictionStore) -> PredictionModel:
+    """Return the prediction of chapter 05."""
+    return PredictionModel("05.reply_none", "What does the client see?", CHOICES, store)
+
+
+def test_an_answer_outlives_the_kernel(model: PredictionModel, store: PredictionStore) -> None:
+    """A model that is created later reads the stored answer."""
+    model.answer("an error")
+    again = PredictionModel(model.key, model.question, CHOICES, PredictionStore(store.path))
+    assert again.record.answer == "an error"
+    assert again.record.answered
+
+
+def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
+    """The answer at the time of the comparison is the prediction; the page marks a later change."""
+    model.answer("an empty reply")
+    record = model.compare("an error")
+    assert record.first == "an empty reply"
+    assert "otherwise" in record.verdict
+    late = model.answer("an error")
+    assert late.changed_after
+    assert late.first == "an empty reply"
+    assert "changed it to 'an error' after" in late.verdict
+
+
+def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
+    """If the cell runs again, a later answer does not replace the prediction."""
+    model.compare("an error")
+    model.answer("an error")
+    record = model.compare("an error")
+    assert record.first == ""
+    assert "no prediction" in record.verdict
+    assert "came after the result" in record.verdict
+
+
+@pytest.mark.parametrize(
+    ("predicted", "actual", "stretch"),
+    [("2.50", 2.5, "so it was"), ("Two", "two", "so it was"), ("3", 2, "otherwise")],
+)
+def test_numbers_and_texts_are_compared_by_what_they_say(
+    model: PredictionModel, predicted: str, actual: object, stretch: str
+) -> None:
+    """2.50 equals 2.5, and upper case does not matter."""
+    model.answer(predicted)
+    assert stretch in model.compare(actual).verdict
+
+
+def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
+    """Chapter 05 lists its own predictions by key, in the same order for all answers."""
+    for key in ("05.b", "06.a", "05.a"):
+        PredictionModel(key, "?", (), store).answer("yes")
+    assert [record.key for record in of_chapter(store.read().values(), "05")] == ["05.a", "05.b"]
+    assert len(of_chapter(store.read().values(), "")) == 3
+
+
+def test_a_broken_file_says_which_and_what_to_do(store: PredictionStore) -> None:
+    """A file of another program is not changed, and the error names it."""
+    store.path.parent.mkdir()
+    store.path.write_text("{")
+    with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file away"):
+        store.read()
+    assert store.path.read_text() == "{"
+
+
+def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
+    """A reader never gets a half-written file while another thread writes."""
+    stop = threading.Event()
+    store.write(PredictionModel("05.x", "?" * 5000, (), store).record)
+
+    def write() -> None:
+        model = PredictionModel("05.x", "?" * 5000, (), store)
+        while not stop.is_set():
+            model.answer("yes")
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    try:
+        for _ in range(200):
+            assert json.loads(store.path.read_text())
+    finally:
+        stop.set()
+        writer.join()
+    assert sorted(path.name for path in store.path.parent.iterdir()) == [".lock", "predictions.json"]
+
+
+def test_predictions_lie_with_the_state_of_the_course(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """The store is in the course's state folder by default."""
+    monkeypatch.setenv("COURSE_STATE", str(tmp_path))
+    assert PredictionStore().path == tmp_path / "predictions-2.json"
+
+
+def test_answers_of_the_first_edition_belong_to_other_questions(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """First-edition files are kept and not read, because their keys have the old chapter numbers."""
+    monkeypatch.setenv("COURSE_STATE", str(tmp_path))
+    prediction = {"key": "08.once", "question": "Where is the turtle?", "answer": "one metre"}
+    choice = {"key": "08.cases", "question": "Which fits?", "cases": 1, "chosen": {CASES[0][0]: "a service"}}
+    kept = {"predictions.json": {"08.once": prediction}, "choices.json": {"08.cases": choice}}
+    for name, records in kept.items():
+        (tmp_path / name).write_text(json.dumps(records))
+    question = Question("08.once", "What does the client see?", CHOICES)
+    assert question.answer == ""
+    assert Choices("08.cases", "Which fits?", OPTIONS, CASES).chosen == ["", "", ""]
+    assert Predictions("08").records == []
+    question.received("answer", {"answer": "an error"})
+    assert [row["predicted"] for row in Predictions("08").records] == ["an error"]
+    assert {name: json.loads((tmp_path / name).read_text()) for name in kept} == kept
+
+
+def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
+    """text/plain contains the result only; it does not depend on the answer."""
+    texts = []
+    for answer in ("", "an error", "an empty reply"):
+        prediction = Question("05.reply_none", "What?", CHOICES, store=store)
+        if answer:
+            prediction.received("answer", {"answer": answer})
+        comparison = prediction.compare("an error")
+        texts.append([repr(prediction), repr(comparison), comparison._repr_mimebundle_()[0]["text/plain"]])
+    assert texts == [["predict('05.reply_none')", *["What really happened: an error"] * 2]] * 3
+    assert repr(Predictions("05", store=store)) == "predictions('05')"
+
+
+def test_the_widgets_show_what_is_kept(store: PredictionStore) -> None:
+    """The prediction shows the stored answer, the comparison both values, and the summary one row."""
+    Question("05.x", "What?", CHOICES, store=store).received("answer", {"answer": "an error"})
+    prediction = Question("05.x", "What?", CHOICES, store=store)
+    assert prediction.answer == "an error"
+    comparison = prediction.compare("an error")
+    assert (comparison.record["predicted"], comparison.record["state"]) == ("an error", "right")
+    assert [row["state"] for row in Predictions("05", store=store).records] == ["right"]
+
+
+@pytest.fixture
+def choice_store(tmp_path: Path) -> ChoiceStore:
+    """Return a store of choices in a folder that does not exist yet."""
+    return ChoiceStore(tmp_path / "state" / "choices.json")
+
+
+@pytest.fixture
+def choices_model(choice_store: ChoiceStore) -> ChoicesModel:
+    """Return a choice for three cases of chapter 03."""
+    return ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, choice_store)
+
+
+def decide(choices_model: ChoicesModel, *options: str) -> None:
+    """Choose an option for each case."""
+    for number, option in enumerate(options):
+        choices_model.choose(number, option)
+
+
+def test_a_choice_outlives_the_kernel(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
+    """A choices_model that is created later reads the stored choice, which can still be changed."""
+    decide(choices_model, "a topic", "a topic")
+    again = ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, ChoiceStore(choice_store.path))
+    assert again.chosen == ["a topic", "a topic", ""]
+    again.choose(1, "a service")
+    assert choices_model.chosen == ["a topic", "a service", ""]
+
+
+def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesModel) -> None:
+    """The reasons are hidden until the student has chosen an option for each case."""
+    decide(choices_model, "a topic", "a topic")
+    choices_model.compare()
+    assert choices_model.verdicts == []
+    choices_model.choose(2, "a topic")
+    choices_model.compare()
+    assert [verdict.fits for verdict in choices_model.verdicts] == [True, False, True]
+    assert choices_model.verdicts[1].answer == "a service"
+    assert choices_model.verdicts[1].reason == "Somebody waits for it."
+
+
+def test_what_is_compared_stays_as_it_is(choices_model: ChoicesModel) -> None:
+    """A choice that is made while the reasons are visible is not stored."""
+    decide(choices_model, *["a topic"] * 3)
+    choices_model.compare()
+    choices_model.choose(1, "a service")
+    assert choices_model.chosen == ["a topic"] * 3
+
+
+def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
+    """A second attempt is possible and shown; the stored first choice does not change."""
+    decide(choices_model, "a topic", "a topic", "a service")
+    assert choices_model.compare().fit == 1
+    assert choices_model.again().shown is False
+    assert choices_model.chosen == ["", "", ""]
+    decide(choices_model, "a topic", "a service", "a topic")
+    record = choices_model.compare()
+    assert all(verdict.fits for verdict in choices_model.verdicts)
+    assert (record.fit, list(record.first.values())) == (1, ["a topic", "a topic", "a service"])
+
+
+def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
+    """A stored choice is used only for the same text of the case and for an existing option."""
+    decide(choices_model, *["a topic"] * 3)
+    others = [("Another case", "a topic", "Because."), CASES[1], CASES[2]]
+    assert ChoicesModel("03.cases", "?", OPTIONS, others, choice_store).chosen == ["", "a topic", "a topic"]
+    fewer = ("a service", "an action")
+    assert ChoicesModel("03.cases", "?", fewer, CASES[1:2], choice_store).chosen == [""]
+
+
+@pytest.mark.parametrize(
+    ("cases", "stretch"),
+    [
+        ([("One", "a topci", "So.")], "case 1 expects 'a topci'"),
+        ([CASES[0], CASES[0]], "stands there twice"),
+        ([("One", "a topic")], r"Give \(case, answer, reason\)"),
+    ],
+)
+def test_a_slip_of_the_author_is_named(
+    cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
+) -> None:
+    """A prediction whose right answer is not among its options raises an error."""
+    with pytest.raises(NotAChoice, match=stretch):
+        ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
+
+
+def test_a_broken_file_of_choices_says_which_and_what_to_do(choice_store: ChoiceStore) -> None:
+    """A file of another program is not changed, and the error names it."""
+    choice_store.path.parent.mkdir()
+    choice_store.path.write_text('{"03.cases": {"colour": 3}}')
+    with pytest.raises(InvalidPredictions, match=r"choices\.json does not hold choices.*Move the file away"):
+        choice_store.read()
+
+
+def test_a_page_learns_the_answers_only_when_they_are_shown(choice_store: ChoiceStore) -> None:
+    """Neither the widget's state nor its text contains an answer before the button is pressed."""
+    panel = Choices("03.cases", "Which fits?", OPTIONS, CASES, store=choice_store)
+    assert "Somebody waits" not in str(panel.get_state())
+    for number in range(3):
+        panel.received("choose", {"case": number, "option": "a topic"})
+    panel.received("compare", {})
+    assert panel.verdicts[1]["reason"] == "Somebody waits for it."
+    assert panel.first == {"fit": 2, "of": 3, "now": True}
+    panel.received("again", {})
+    assert (panel.verdicts, panel.chosen) == ([], ["", "", ""])
+    assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "choose('03.cases')"
+
+
+def test_the_summary_of_a_chapter_lists_them(
+    choices_model: ChoicesModel, choice_store: ChoiceStore, tmp_path: Path
+) -> None:
+    """predictions("03") shows how many predictions were right, and which are not compared yet."""
+    none = PredictionStore(tmp_path / "none.json")
+    decide(choices_model, "a topic", "a topic")
+    row = Predictions("03", store=none, choices=choice_store).records[0]
+    assert (row["state"], row["predicted"]) == ("open", "2 of 3 cases decided")
+    choices_model.choose(2, "a topic")
+    choices_model.compare()
+    row = Predictions("03", store=none, choices=choice_store).records[0]
+    assert (row["result"], row["fit"], row["cases"]) == ("2 of 3 fit", 2, 3)
+    assert Predictions("05", store=none, choices=choice_store).records == []

@@ -1,0 +1,112 @@
+"""The rows that the turtle panel draws from poses and colours, without a page."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from course_pkg.panels.turtles.pen import HOME, USUAL, Colour, Observation
+from course_pkg.panels.turtles.recording import BACKGROUND, MOST, UP, TurtleRecording
+
+RED: Colour = (255, 0, 0)
+LOOK = 50  # ms
+
+
+def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: float = 2.0) -> Observation:
+    """Return a pose of a turtle that moves to the right."""
+    return Observation(x, y, 0.0, speed, colour)
+
+
+def filmed(*snapshots: Observation) -> TurtleRecording:
+    """Return the recording of one turtle, with a pose every 50 ms."""
+    recording = TurtleRecording()
+    for number, seen in enumerate(snapshots):
+        recording.see(number * LOOK, "turtle1", seen)
+    return recording
+
+
+def test_a_turtle_that_rests_makes_one_row() -> None:
+    """A turtle that stands still for a minute adds no rows."""
+    recording = filmed(*[at(3.0, speed=0.0)] * 1200)
+    assert recording.rows == [(0, 0, 3000, 2000, 0, UP)]
+    assert recording.length == 1199 * LOOK
+
+
+def test_a_start_after_a_rest_is_not_a_creep() -> None:
+    """The last pose before a movement has its own row, so that the replay does not glide during the pause."""
+    recording = filmed(*[at(3.0, speed=0.0)] * 10, at(3.1))
+    assert [row[:3] for row in recording.rows] == [(0, 0, 3000), (9 * LOOK, 0, 3000), (10 * LOOK, 0, 3100)]
+
+
+def test_the_usual_pen_until_more_is_known() -> None:
+    """A turtle begins to draw in the initial pen colour."""
+    recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL))
+    assert recording.palette[recording.rows[-1][5]] == USUAL
+
+
+def test_a_colour_read_twice_while_it_is_slow_is_its_pens() -> None:
+    """The colour sensor reads the turtle's own line; from then on the line has that colour."""
+    recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
+    assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
+
+
+def test_a_line_that_is_crossed_is_not_its_pen() -> None:
+    """A single pose with another colour changes nothing."""
+    recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, RED), at(3.3, USUAL))
+    assert {row[5] for row in recording.rows[1:]} == {recording.palette.index(USUAL)}
+
+
+def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
+    """Rows since the last certain colour are corrected afterwards."""
+    recording = filmed(at(3.0, speed=0.0), at(3.05), at(3.1), at(3.15))
+    assert [row[2] for row in recording.rows if isinstance(row[2], str)] == ["undrawn"]
+    assert recording.rows[-1][5] == UP
+
+
+def test_a_fast_turtle_on_plain_paper_may_draw_all_the_same() -> None:
+    """A moving turtle reads the paper in front of its line; its pen colour is known only at rest."""
+    fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
+    recording = filmed(*fast)
+    assert recording.rows[-1][5] != UP
+    for number in range(8, 13):
+        recording.see(number * LOOK, "turtle1", at(4.75, speed=0.0))
+    assert any(row[2] == "undrawn" for row in recording.rows)
+
+
+def test_clear_is_seen_by_a_turtle_on_its_line() -> None:
+    """If the colour of a resting turtle becomes that of the paper, the paper was cleared."""
+    resting = [at(3.1, USUAL, speed=0.0)] * 3
+    recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), *resting, at(3.1, speed=0.0))
+    assert recording.rows[-1][1:] == (UP, "cleared")
+
+
+def test_reset_is_seen_by_the_first_turtle() -> None:
+    """After a reset the turtle is at its home, faces right, and all lines are gone."""
+    home = Observation(HOME, HOME, 0.0, 0.0, BACKGROUND)
+    recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL), home, home)
+    assert (UP, "cleared") in [row[1:] for row in recording.rows]
+    assert recording.rows[-1][5] == UP
+
+
+def test_a_turtle_that_leaves_and_comes_back() -> None:
+    """A turtle that appears again keeps its number, and no line joins the two lives."""
+    recording = filmed(at(3.0))
+    recording.miss(100, "turtle1")
+    recording.see(200, "turtle1", at(9.0))
+    assert [row[1:3] for row in recording.rows] == [(0, 3000), (0, "gone"), (0, 9000)]
+    assert recording.names == ["turtle1"]
+
+
+@pytest.mark.parametrize("turtles", [1, 5])
+def test_a_recording_is_bounded(turtles: int) -> None:
+    """At most MOST rows are kept, the newest among them, so that the saved panel stays small."""
+    recording = TurtleRecording()
+    for number in range(3 * MOST):
+        seen = at(1 + (number % 900) / 100)
+        recording.see(number * LOOK, f"turtle{number % turtles}", seen)
+    assert len(recording.rows) <= MOST
+    assert recording.edition > 0
+    assert recording.rows[-1][0] == (3 * MOST - 1) * LOOK
+    assert [row[0] for row in recording.rows] == sorted(row[0] for row in recording.rows)
+    assert len(json.dumps(recording.state())) < 250_000

@@ -1,0 +1,376 @@
+"""A kernel becomes a node, stays this node when cells run again, and recovers when the master was lost."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from course_pkg.ros import MasterClient, PrivateMaster, look
+from tests.kernel import Kernel
+from tests.support import eventually, stopped
+
+JOIN = "from course_pkg.ros import join\nnode = join('student')"
+
+
+def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
+    """The set-up cell returns the same node each time, and the kernel is registered once."""
+    kernel.run(JOIN)
+    assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
+        True,
+        "/student",
+        "<node /student>",
+    ]
+
+
+def test_private_master_where_none_is_named() -> None:
+    """Without ROS_MASTER_URI a kernel starts its own master, and the tools that it starts find it."""
+    with Kernel({"ROS_MASTER_URI": None}) as kernel:
+        kernel.run(JOIN)
+        names = "import subprocess; result = subprocess.check_output(['rosnode', 'list'], text=True).split()"
+        assert kernel.run(names) == ["/rosout", "/student"]
+
+
+def test_workspace_is_found_where_nobody_sourced_it() -> None:
+    """In an environment without ROS, such as an editor's, the course's types can be imported."""
+    bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
+    with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
+        kernel.run(JOIN)
+        assert (
+            kernel.run("from course_pkg.srv import geometry; result = geometry._type")
+            == "course_pkg/geometry"
+        )
+
+
+@pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
+def test_malformed_uri(uri: str) -> None:
+    """A malformed ROS_MASTER_URI is named at once, with an example; once corrected, the kernel joins."""
+    with Kernel({"ROS_MASTER_URI": uri}) as kernel:
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MalformedMasterUri"
+        assert repr(uri) in reply.words
+        assert "http://localhost:11311" in reply.words
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']")
+        assert kernel.run(JOIN + "; result = node.name") == "/student"
+
+
+def test_nobody_at_the_uri() -> None:
+    """An address without a master is named at once; after the correction, the kernel joins."""
+    with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MasterUnreachable"
+        assert "http://localhost:1" in reply.words
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']")
+        assert kernel.run(JOIN + "; result = node.name") == "/student"
+
+
+def test_mute_at_the_uri() -> None:
+    """An address that accepts connections and sends nothing costs two seconds."""
+    with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
+        uri = f"http://localhost:{mute.getsockname()[1]}"
+        kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")
+        reply = kernel.ask(JOIN)
+        assert reply.error == "MasterSilent"
+        assert reply.took < 4
+
+
+def test_another_program_at_the_uri(tmp_path: Path) -> None:
+    """A web server is not mistaken for a master."""
+    command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
+        assert web.stdout is not None
+        port = web.stdout.readline().split(b"port ")[1].split()[0].decode()
+        with Kernel({"ROS_MASTER_URI": f"http://localhost:{port}"}) as kernel:
+            assert kernel.ask(JOIN).error == "NotAMaster"
+        web.terminate()
+
+
+def test_two_kernels_with_one_name(kernel: Kernel) -> None:
+    """The second kernel learns that the name is taken, and the first one is not disturbed."""
+    kernel.run(JOIN)
+    with Kernel() as second:
+        reply = second.ask(JOIN)
+        assert reply.error == "NodeNameTaken"
+        assert "/student" in reply.words
+        assert second.run("node = join('student_2'); result = node.name") == "/student_2"
+    assert kernel.run("import rospy; result = rospy.is_shutdown()") is False
+
+
+def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
+    """A kernel that starts again after SIGKILL gets its name, and its old registrations are gone."""
+    former = Kernel()
+    former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
+    former.kill()
+    former.exit()
+    with Kernel() as kernel:
+        kernel.run(JOIN)
+        assert "/former" not in MasterClient(master.uri).system_state().services
+
+
+def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
+    """One process is one node: a second name is refused, and the node does not change."""
+    kernel.run(JOIN)
+    reply = kernel.ask("join('other')")
+    assert reply.error == "NotJoined"
+    assert "join('student')" in reply.words
+    assert kernel.run("result = node.name") == "/student"
+
+
+@pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
+def test_illegal_name(kernel: Kernel, name: str) -> None:
+    """An invalid name is refused before anything is started."""
+    assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
+
+
+def test_joining_on_a_thread_spoils_nothing(kernel: Kernel) -> None:
+    """join() on another thread is refused before it calls rospy, so that the main thread can still join."""
+    kernel.run("""
+        import threading
+        from course_pkg.errors import NotJoined
+        from course_pkg.ros import join
+        result = []
+        def attempt():
+            try:
+                join("student")
+            except NotJoined as error:
+                result.append(str(error))
+        thread = threading.Thread(target=attempt)
+        thread.start()
+        thread.join()
+        assert result, "not refused"
+        node = join("student")
+    """)
+
+
+def test_private_master_killed() -> None:
+    """When the kernel's own master was killed, the set-up cell starts another one and registers again."""
+    with Kernel({"ROS_MASTER_URI": None}) as kernel:
+        kernel.run(JOIN)
+        uri = kernel.run("""
+            import rospy
+            from std_msgs.msg import UInt32
+            from std_srvs.srv import Trigger
+            node.serve("/served", Trigger, lambda request: (True, "here"))
+            raw = rospy.Service("/raw", Trigger, lambda request: (True, "raw"))
+            publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
+            publisher.publish(7)
+            heard = node.subscribe("/numbers", UInt32)
+            heard.wait(1)
+            result = node.master
+        """)
+        os.kill(MasterClient(uri).pid(), signal.SIGKILL)
+        reply = kernel.ask("node.call('/served', Trigger)")
+        assert (reply.error, reply.words) == ("ServiceException", "unable to contact master")
+        assert kernel.ask("node.serve('/more', Trigger, print)").error == "MasterUnreachable"
+        assert kernel.ask("node.subscribe('/more', UInt32)").error == "MasterUnreachable"
+        kernel.run("node = join('student')")
+        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
+            "here",
+            "raw",
+        ]
+        seen = look(uri)
+        assert [topic.name for topic in seen.topics if topic.subscribers] == ["/numbers", "/rosout"]
+        published = [topic.name for topic in seen.topics if topic.publishers]
+        assert published == ["/numbers", "/rosout", "/rosout_agg"]
+        assert (
+            kernel.run(
+                "raw2 = rospy.Service('/raw2', Trigger, lambda r: (True, '2'))\n"
+                "result = node.call('/raw2', Trigger).message"
+            )
+            == "2"
+        )
+
+
+def test_shared_master_restarted() -> None:
+    """When a shared master was restarted, the set-up cell registers everything again."""
+    with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
+        kernel.run(JOIN)
+        kernel.run(
+            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+        )
+        master.stop()
+        assert kernel.ask("join('student')").error == "MasterUnreachable"
+        with PrivateMaster(master.port):
+            kernel.run("join('student')")
+            assert kernel.run("result = node.call('/served', Trigger).message") == "here"
+
+
+def test_moving_to_another_master() -> None:
+    """When a shared master is gone, the set-up cell moves the node, and rospy, to a private one."""
+    with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
+        kernel.run(JOIN)
+        kernel.run(
+            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+        )
+        master.stop()
+        kernel.run("import os; del os.environ['ROS_MASTER_URI']; join('student')")
+        assert kernel.run("result = node.master") != master.uri
+        kernel.run("import rospy; raw = rospy.Service('/raw', Trigger, lambda request: (True, 'raw'))")
+        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
+            "here",
+            "raw",
+        ]
+
+
+def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
+    """While the master is stopped, calls to it fail within their deadline; afterwards they work."""
+    kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
+    with stopped(master.pid):
+        for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
+            reply = kernel.ask(cell)
+            assert reply.error == "MasterSilent", (cell, reply)
+            assert reply.took < 4
+    kernel.run("node.serve('/x', Trigger, print)")
+
+
+def test_exit_while_the_master_is_stopped() -> None:
+    """A kernel ends in bounded time even if its master does not answer; its registrations may then remain."""
+    with PrivateMaster() as own:
+        kernel = Kernel({"ROS_MASTER_URI": own.uri})
+        kernel.run(JOIN)
+        kernel.run("""
+            from std_msgs.msg import UInt32
+            from std_srvs.srv import Trigger
+            heard = node.subscribe("/numbers", UInt32)
+            served = [node.serve(f"/served_{number}", Trigger, print) for number in range(5)]
+            processes = [node.run("course_pkg", "pulse", name=f"pulse_{number}") for number in range(3)]
+            processes[-1].wait_for_service("/pulse_2/get_loggers")
+        """)
+        with stopped(own.pid):
+            kernel.exit(patience=12)
+
+
+def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
+    """leave() unregisters everything and ends every process; join() registers it again."""
+    kernel.run(
+        JOIN
+        + """
+from std_srvs.srv import Trigger
+from std_msgs.msg import UInt32
+node.serve("/mine", Trigger, lambda request: (True, "here"))
+node.subscribe("/numbers", UInt32)
+server = node.run("course_pkg", "server")
+server.wait_for_service("/getGeometry")
+node.leave()
+result = server.running
+"""
+    )
+    assert MasterClient(master.uri).system_state().nodes == ()
+    kernel.run("node = join('student'); node.serve('/mine', Trigger, lambda request: (True, 'again'))")
+    assert kernel.run("result = node.call('/mine', Trigger).message") == "again"
+
+
+def test_leaving_is_prompt(kernel: Kernel) -> None:
+    """Neither leave() nor the end of the process waits for rospy's threads."""
+    kernel.run(JOIN)
+    assert kernel.ask("node.leave()").took < 0.3
+    started = time.monotonic()
+    kernel.exit()
+    assert time.monotonic() - started < 2
+
+
+def test_root_logger_is_left_alone(kernel: Kernel) -> None:
+    """join() neither removes handlers from the root logger nor adds any."""
+    assert kernel.run("""
+        import logging
+        logging.basicConfig(level=logging.ERROR)
+        before = logging.getLogger().handlers[:]
+        from course_pkg.ros import join
+        join("student")
+        root = logging.getLogger()
+        result = root.handlers == before, root.level == logging.ERROR
+    """) == [True, True]
+
+
+def test_log_of_a_handler_stays_out_of_the_cell(master: PrivateMaster) -> None:
+    """What rospy logs on a handler's thread goes to the node's file; what the cell logs is printed."""
+    kernel = Kernel()
+    kernel.run(
+        JOIN
+        + """
+import rospy
+from std_srvs.srv import Trigger
+raw = rospy.Service("/raw", Trigger, lambda request: rospy.logerr("from the handler") or 1 / 0)
+try:
+    node.call("/raw", Trigger)
+except rospy.ServiceException:
+    pass
+rospy.loginfo("from the cell")
+"""
+    )
+    log = Path(os.environ["ROS_LOG_DIR"]) / "student.log"
+    eventually(lambda: "division by zero" in log.read_text())
+    printed = kernel.exit()
+    assert "from the cell" in printed
+    assert "from the handler" not in printed
+    assert "division by zero" not in printed
+    assert "from the handler" in log.read_text()
+
+
+SPIN = """
+import os, signal, threading
+threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+rospy.spin()
+"""
+
+
+@pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
+def test_node_that_was_shut_down_begins_anew(kernel: Kernel, master: PrivateMaster, how: str) -> None:
+    """After a shutdown each method raises an error, and the set-up cell restores everything."""
+    kernel.run(
+        JOIN
+        + """
+import rospy
+from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
+served = node.serve("/served", Trigger, lambda request: (True, "here"))
+heard = node.subscribe("/numbers", UInt32)
+"""
+    )
+    kernel.run(how)
+    assert kernel.run("result = rospy.is_shutdown()") is True
+    for cell in ("node.serve('/x', Trigger, print)", "node.run('course_pkg', 'server')"):
+        reply = kernel.ask(cell)
+        assert reply.error == "NotJoined"
+        assert "Run the set-up cell" in reply.words
+    assert kernel.run("result = join('student') is node, rospy.is_shutdown()") == [True, False]
+    assert kernel.run("result = node.call('/served', Trigger).message, len(served.calls)") == ["here", 1]
+    kernel.run("""
+        publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
+        publisher.publish(7)
+        assert heard.wait(1)[0].data == 7
+        raw = rospy.Service("/raw", Trigger, lambda request: (True, "raw"))
+        assert node.call("/raw", Trigger).message == "raw"
+    """)
+    kernel.exit()
+    assert MasterClient(master.uri).system_state().nodes == ()
+
+
+def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
+    """A forked child is not the node; its end unregisters nothing of its parent."""
+    assert kernel.run(
+        JOIN
+        + """
+import os
+from course_pkg.errors import NotJoined
+from std_srvs.srv import Trigger
+node.serve("/served", Trigger, lambda request: (True, "here"))
+child = os.fork()
+if child == 0:
+    try:
+        node.call("/served", Trigger)
+    except NotJoined:
+        import atexit
+        atexit._run_exitfuncs()
+        os._exit(7)
+    os._exit(1)
+status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+result = status, node.call("/served", Trigger).message
+"""
+    ) == [7, "here"]

@@ -1,0 +1,270 @@
+"""Calls that hang with plain rospy end within their deadline, with a message; one thread serves all."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+from course_pkg.ros import MasterClient, PrivateMaster
+from course_pkg.ros.node import watchdog
+from course_pkg.ros.node.watchdog import Watchdog
+from course_pkg.ros.process.node_process import NodeProcess
+from tests.kernel import Kernel
+from tests.support import eventually, stopped
+
+CALL = """
+from std_srvs.srv import Trigger
+node.call({name!r}, Trigger, timeout=0.5)
+"""
+LONGEST = 2.0  # s; the deadline is 0.5 s, and the machine may be busy
+
+RAW_SERVER = """
+import rospy, sys, threading
+from std_srvs.srv import Trigger
+rospy.init_node("raw", anonymous=True)
+def stop(request):
+    print('sleeping')
+    threading.Event().wait()
+services = [
+    rospy.Service("raw/sleeps", Trigger, stop),
+    rospy.Service("raw/exits", Trigger, lambda request: sys.exit()),
+    rospy.Service("raw/dies", Trigger, lambda request: __import__("os")._exit(1)),
+    rospy.Service("raw/well", Trigger, lambda request: (True, "well")),
+]
+rospy.spin()
+"""
+
+
+@pytest.fixture
+def raw() -> Iterator[NodeProcess]:
+    """Run a node of plain rospy, without the course."""
+    with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
+        process.wait_for_service("/raw/well")
+        yield process
+
+
+@pytest.fixture
+def joined(kernel: Kernel) -> Kernel:
+    """Return a kernel that is a node."""
+    kernel.run("from course_pkg.ros import join; node = join('caller')")
+    return kernel
+
+
+@contextmanager
+def listening(accept: bool = True) -> Iterator[int]:
+    """Return a port that accepts connections, or not even that, and never sends anything."""
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.listen(0)
+        held = []
+        if not accept:  # a full queue of connections: further ones get no answer to their SYN
+            for _ in range(4):
+                held.append(socket.socket())
+                held[-1].setblocking(False)
+                held[-1].connect_ex(listener.getsockname())
+        yield listener.getsockname()[1]
+        for sock in held:
+            sock.close()
+
+
+@contextmanager
+def registered(name: str, uri: str) -> Iterator[None]:
+    """Register a service at the master that no node serves."""
+    master = MasterClient(os.environ["ROS_MASTER_URI"])
+    master.register_service("/pretender", name, uri, "http://localhost:1/")
+    yield
+    master.unregister_service("/pretender", name, uri)
+
+
+def times_out(kernel: Kernel, name: str) -> str:
+    """Call from the kernel within the deadline, check that the kernel still works, and return the message."""
+    reply = kernel.ask(CALL.format(name=name), patience=20)
+    assert reply.error == "CallTimeout", reply
+    assert 0.5 <= reply.took < LONGEST
+    return reply.words
+
+
+@pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
+def test_handler_without_end(joined: Kernel, raw: NodeProcess, name: str) -> None:
+    """A handler that never returns, or that ended by sys.exit, costs its client only the deadline."""
+    assert "its handler is still working" in times_out(joined, name)
+    assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
+
+
+def test_stopped_server(joined: Kernel, raw: NodeProcess) -> None:
+    """A stopped server accepts connections and sends nothing; when it continues, calls work again."""
+    with stopped(raw.pid):
+        assert "does not speak" in times_out(joined, "/raw/well")
+    assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
+
+
+def test_idle_connection_hogs_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
+    """A server of plain rospy that is blocked by an idle connection does not block its client."""
+    uri = MasterClient(os.environ["ROS_MASTER_URI"]).lookup_service("/raw/well")
+    assert uri is not None
+    with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
+        times_out(joined, "/raw/well")
+    assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
+
+
+def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster) -> None:
+    """The error distinguishes a stopped master from a stopped server."""
+    with stopped(master.pid):
+        assert "the master" in times_out(joined, "/raw/well")
+    assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
+
+
+@pytest.mark.parametrize("accept", [True, False], ids=["accepts", "does not even accept"])
+def test_mute_address(joined: Kernel, accept: bool) -> None:
+    """An address that does not answer, or to which packets are lost, costs the deadline."""
+    with listening(accept) as port, registered("/mute", f"rosrpc://localhost:{port}"):
+        times_out(joined, "/mute")
+
+
+def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
+    """A server that disappears during the call causes rospy's error at once."""
+    reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/dies', Trigger, timeout=20)")
+    assert reply.error == "ServiceException"
+    assert reply.words.startswith(
+        "transport error completing service call: unable to receive data from sender"
+    )
+    assert reply.took < LONGEST
+
+
+def test_dead_server(joined: Kernel, raw: NodeProcess) -> None:
+    """A killed server stays registered, and a call raises rospy's error."""
+    raw.kill()
+    reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/well', Trigger)")
+    assert (reply.error, reply.words) == (
+        "ServiceException",
+        "unable to connect to service: [Errno 111] Connection refused",
+    )
+
+
+def test_no_such_service(joined: Kernel) -> None:
+    """A name without a service raises rospy's error."""
+    reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/nope', Trigger)")
+    assert (reply.error, reply.words) == ("ServiceException", "service [/nope] unavailable")
+
+
+def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
+    """Another thread can cancel a running call, and the proxy can be used again."""
+    reply = joined.ask("""
+        import threading
+        from std_srvs.srv import Trigger
+        proxy = node.caller("/raw/sleeps", Trigger, timeout=20)
+        threading.Timer(0.3, proxy.cancel).start()
+        proxy()
+    """)
+    assert reply.error == "CallCancelled"
+    assert reply.took < LONGEST
+    assert joined.ask("proxy.call(timeout=0.2)").error == "CallTimeout"
+
+
+def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
+    """Interrupting the cell ends its call, and the node continues."""
+    joined.begin("from std_srvs.srv import Trigger\nnode.call('/raw/sleeps', Trigger, timeout=20)")
+    eventually(lambda: "sleeping" in raw.output())
+    joined.interrupt()
+    reply = joined.reply()
+    assert reply.error == "KeyboardInterrupt"
+    assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
+
+
+def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
+    """A persistent proxy reconnects after its server was replaced, without an error."""
+    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
+    for _ in range(2):
+        with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
+            process.wait_for_service("/raw/well")
+            assert joined.run("result = [proxy().message for _ in range(3)]") == ["well"] * 3
+
+
+def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
+    """A deadline on a persistent connection closes this connection, and the next call opens another."""
+    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
+    joined.run("proxy()")
+    with stopped(raw.pid):
+        reply = joined.ask("proxy.call(timeout=0.5)")
+        assert reply.error == "CallTimeout"
+        assert reply.took < LONGEST
+    assert joined.run("result = proxy().message") == "well"
+
+
+@contextmanager
+def switching_often() -> Iterator[None]:
+    """Make Python switch threads as often as possible, so that races happen."""
+    kept = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(kept)
+
+
+def watching() -> list[threading.Thread]:
+    """Return the watchdog threads of this test and of the process."""
+    return [thread for thread in threading.enumerate() if thread.name == "call-watchdog"]
+
+
+def test_an_action_is_repeated_until_it_is_disarmed() -> None:
+    """An overdue action is repeated, and is never called after disarm()."""
+    guard, done = Watchdog(), list[float]()
+    number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
+    eventually(lambda: len(done) >= 3)
+    guard.disarm(number)
+    _round(guard)
+    counted = len(done)
+    _round(guard)
+    assert len(done) == counted
+
+
+def _round(guard: Watchdog) -> None:
+    """Return when the thread has begun another round and ended the one before."""
+    told = threading.Event()
+    number = guard.arm(time.monotonic(), told.set)
+    assert told.wait(5)
+    guard.disarm(number)
+
+
+def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The thread ends some time after the last call, and the next call starts another."""
+    monkeypatch.setattr(watchdog, "LINGER", 0.05)
+    before = set(watching())
+    guard = Watchdog()
+    for _ in range(2):
+        guard.disarm(guard.arm(time.monotonic() + 60, lambda: None))
+        assert set(watching()) - before
+        eventually(lambda: not set(watching()) - before)
+    rung = threading.Event()
+    guard.arm(time.monotonic() + 0.01, rung.set)
+    assert rung.wait(5)
+
+
+def test_no_deadline_is_missed_while_the_thread_comes_and_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A deadline is kept even if it is set at the moment at which the thread ends."""
+    monkeypatch.setattr(watchdog, "LINGER", 0.0005)
+    guard, missed = Watchdog(), list[int]()
+
+    def caller() -> None:
+        for turn in range(150):
+            rung = threading.Event()
+            number = guard.arm(time.monotonic() + turn % 7 * 0.0003, rung.set)
+            if not rung.wait(5):
+                missed.append(turn)
+            guard.disarm(number)
+
+    with switching_often():
+        callers = [threading.Thread(target=caller) for _ in range(4)]
+        for thread in callers:
+            thread.start()
+        for thread in callers:
+            thread.join(60)
+    assert missed == []

@@ -1,0 +1,172 @@
+"""A publisher of the kernel can be created again and again, and counts what happens to its messages."""
+
+from __future__ import annotations
+
+import pytest
+
+from course_pkg.ros import PrivateMaster, look
+from tests.kernel import Kernel
+from tests.support import eventually, stopped
+
+START = """
+import rospy
+from std_msgs.msg import String, UInt32
+from course_pkg.ros import join
+from course_pkg.waiting import wait_until
+node = join("speaker")
+"""
+LISTEN = """
+from std_msgs.msg import String, UInt32
+from course_pkg.ros import join
+node = join("listener")
+heard = node.subscribe("/numbers", UInt32)
+"""
+
+
+@pytest.fixture
+def joined(kernel: Kernel) -> Kernel:
+    """Return a kernel that is a node and has imported some types."""
+    kernel.run(START)
+    return kernel
+
+
+def test_a_message_reaches_who_is_connected(joined: Kernel) -> None:
+    """wait() returns when a subscriber is connected, and the next message is sent to it by name."""
+    assert joined.run("""
+        heard = node.subscribe("/numbers", UInt32)
+        spoken = node.advertise("/numbers", UInt32)
+        spoken.wait(1)
+        spoken.publish(7)
+        spoken.publish(data=8)
+        heard.wait(2)
+        counts = spoken.published, spoken.unheard, spoken.dropped
+        result = [message.data for message in heard.messages], counts, spoken.deliveries[0].peer, repr(spoken)
+    """) == [[7, 8], [2, 0, 0], "/speaker", "</numbers of type std_msgs/UInt32, published>"]
+
+
+def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
+    """A message that is published before a subscriber connects is lost, and counted as lost."""
+    assert joined.run("""
+        heard = node.subscribe("/numbers", UInt32)
+        spoken = node.advertise("/numbers", UInt32)
+        spoken.publish(1)
+        spoken.wait(1)
+        spoken.publish(2)
+        heard.wait(1)
+        result = [m.data for m in heard.messages], spoken.published, spoken.unheard
+    """) == [[2], 2, 1]
+    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts it as sent
+
+
+def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
+    """With latch, the last message is sent to later subscribers, and counted as sent."""
+    assert joined.run("""
+        spoken = node.advertise("/numbers", UInt32, latch=True)
+        spoken.publish(1)
+        spoken.publish(2)
+        heard = node.subscribe("/numbers", UInt32)
+        heard.wait(1)
+        wait_until(lambda: spoken.sent, 5)  # a message may arrive before it is counted
+        result = [m.data for m in heard.messages], spoken.unheard, spoken.sent
+    """) == [[2], 2, 1]
+
+
+def test_a_cell_that_is_run_again_replaces_its_publisher(joined: Kernel, master: PrivateMaster) -> None:
+    """The earlier publisher ends together with its latch and its type; the later one publishes."""
+    reply = joined.ask("""
+        old = node.advertise("/numbers", UInt32, latch=True)
+        old.publish(1)
+        new = node.advertise("numbers", String)
+        heard = node.subscribe("/numbers", String)
+        new.wait(1)
+        new.publish("two")
+        assert [message.data for message in heard.wait(1)] == ["two"]
+        assert repr(old) == "</numbers of type std_msgs/UInt32, stopped>"
+        old.publish(3)
+    """)
+    assert (reply.error, "was stopped" in reply.words) == ("PublisherStopped", True)
+    assert [topic.type for topic in look(master.uri).topics if topic.name == "/numbers"] == [
+        "std_msgs/String"
+    ]
+
+
+def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
+    """A full queue drops its oldest message; each message is counted as sent, waiting or dropped."""
+    with Kernel() as other:
+        other.run(LISTEN + 'heard = node.subscribe("/long", String)')
+        kernel.run(START + 'spoken = node.advertise("/long", String, queue_size=2); spoken.wait(1)')
+        counts = "[(each.sent, each.waiting, each.dropped) for each in spoken.deliveries][0]"
+        with stopped(other.pid):
+            sent, waiting, dropped = kernel.run(f"""
+                for number in range(30):
+                    spoken.publish(f"{{number:03d}}" + "x" * 1_000_000)
+                result = {counts}
+            """)
+            assert sent + waiting + dropped == 30
+            assert dropped >= 10
+        eventually(lambda: kernel.run(f"result = {counts}")[1] == 0, timeout=30)
+        sent, _, now = kernel.run(f"result = {counts}")
+        assert (sent, now) == (30 - dropped, dropped)
+        eventually(lambda: other.run("result = heard.count") == sent, timeout=30)
+        assert other.run("result = heard.messages[-1].data[:3]") == "029"
+        assert kernel.run("result = spoken.dropped, spoken.sent") == [dropped, sent]
+
+
+def test_counts_outlive_the_subscriber(joined: Kernel) -> None:
+    """Messages to a node that has gone stay counted; the node is no longer listed."""
+    assert joined.run("""
+        from tests.support import eventually
+        spoken = node.advertise("/numbers", UInt32)
+        for number in range(3):
+            heard = node.subscribe("/numbers", UInt32)
+            spoken.wait(1)
+            spoken.publish(number)
+            heard.wait(1)
+            heard.stop()
+            eventually(lambda: not spoken.deliveries)
+        result = spoken.published, spoken.sent, spoken.dropped
+    """) == [3, 3, 0]
+
+
+def test_nobody_listens_is_said_in_time(joined: Kernel) -> None:
+    """A wait for subscribers ends with an error that names what to check."""
+    reply = joined.ask("""
+        spoken = node.advertise("/numbers", UInt32)
+        spoken.wait(1, timeout=0.2)
+    """)
+    assert reply.error == "TooFewSubscribers"
+    assert "rostopic info /numbers" in reply.words
+
+
+def test_leaving_withdraws_it_and_joining_again_does_not_bring_it_back(
+    joined: Kernel, master: PrivateMaster
+) -> None:
+    """leave() ends publishers, too."""
+    joined.run("""
+        spoken = node.advertise("/numbers", UInt32)
+        node.leave()
+        node = join("speaker")
+    """)
+    assert "/numbers" not in {topic.name for topic in look(master.uri).topics}
+    assert joined.ask("spoken.publish(1)").error == "PublisherStopped"
+
+
+def test_a_publisher_comes_back_when_rospy_begins_anew(joined: Kernel) -> None:
+    """After a shutdown, join() advertises the node's topics again."""
+    assert joined.run("""
+        spoken = node.advertise("/numbers", UInt32)
+        spoken.publish(1)
+        rospy.signal_shutdown("the student did it")
+        node = join("speaker")
+        heard = node.subscribe("/numbers", UInt32)
+        spoken.wait(1)
+        spoken.publish(2)
+        result = [m.data for m in heard.wait(1)], spoken.published
+    """) == [[2], 2]
+
+
+def test_no_master_is_said_at_once(joined: Kernel, master: PrivateMaster) -> None:
+    """rospy.Publisher would wait for ever for a master that does not answer."""
+    with stopped(master.pid):
+        reply = joined.ask("node.advertise('/numbers', UInt32)")
+        assert (reply.error, reply.took < 4) == ("MasterSilent", True)

@@ -1,0 +1,108 @@
+"""%rosrun and %roslaunch start programs that end with their cell, and with the kernel."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+
+import pytest
+
+from course_pkg.ros import MasterClient, PrivateMaster
+from tests.notebook_kernel import NotebookKernel, Shown
+from tests.ros.notebook.conftest import SETUP
+from tests.support import eventually, process_state
+
+
+def value(notebook: NotebookKernel, code: str) -> str:
+    """Return the repr of the last value of a cell."""
+    shown = notebook.run(code)
+    assert not shown.ename, shown.evalue
+    return shown.results[-1]
+
+
+def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster) -> None:
+    """The handle waits for a service, provides the output, and stops the program."""
+    notebook.run("server = %rosrun course_pkg server", "rosrun")
+    assert notebook.run("server.wait(service='/getGeometry')") == Shown()
+    assert value(notebook, "server") == "<rosrun course_pkg server: running>"
+    assert "measure boxes" in value(notebook, "server.wait(line='Ready'); server.output")
+    assert value(notebook, "server.stop(); server") == "<rosrun course_pkg server: ended with exit status 0>"
+    assert "/getGeometry" not in MasterClient(master.uri).system_state().services
+
+
+def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
+    """The words after the program are its arguments, also in quotes; wait() returns the exit status."""
+    shown = notebook.run("client = %rosrun course_pkg client 1 2 'not a number'\nclient.wait()")
+    assert shown.results == ["2"], shown
+    assert value(notebook, "client").endswith("'not a number': ended with exit status 2>")
+    assert "usage: client" in value(notebook, "client.output")
+
+
+def test_cell_that_runs_again_starts_the_program_again(notebook: NotebookKernel) -> None:
+    """The program of the previous run is ended first."""
+    cell = "%rosrun course_pkg server __name:=again &"
+    assert notebook.run(cell, "again").results == ["<rosrun course_pkg server __name:=again: running>"]
+    notebook.run("first = _\nfirst.wait(service='/getGeometry')")
+    notebook.run(cell, "again")
+    assert value(notebook, "first.running") == "False"
+    notebook.run("pass", "again")
+
+
+def test_roslaunch(notebook: NotebookKernel, master: PrivateMaster) -> None:
+    """A launch file is named by package and file, with arguments, and its nodes end with the handle."""
+    notebook.run("launched = %roslaunch course_pkg geometry.launch")
+    assert notebook.run("launched.wait(service='/getGeometry')") == Shown()
+    assert value(notebook, "launched.stop(); launched.running") == "False"
+    eventually(lambda: "/getGeometry" not in MasterClient(master.uri).system_state().services)
+
+
+def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
+    """`--core` starts a master on the given port, as roscore does, and it ends with the handle."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    notebook.run(f"core = %roslaunch --core -p {port}")
+    assert notebook.run("core.wait(line='started core service')") == Shown()
+    eventually(lambda: "/rosout" in MasterClient(f"http://localhost:{port}").system_state().nodes)
+    assert value(notebook, "core.stop(); core.running") == "False"
+
+
+@pytest.mark.parametrize(
+    ("line", "error", "words"),
+    [
+        ("%rosrun course_pgk server", "UnknownExecutable", "There is no package 'course_pgk'"),
+        ("%rosrun course_pkg servr", "UnknownExecutable", "Did you mean 'server'?"),
+        ("%roslaunch course_pgk geometry.launch", "UnknownExecutable", "There is no package 'course_pgk'"),
+        ("%roslaunch course_pkg geometri.launch", "UnknownExecutable", "Did you mean 'geometry.launch'?"),
+        ("%roslaunch missing.launch", "UnknownExecutable", "There is no launch file 'missing.launch'"),
+    ],
+)
+def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: str) -> None:
+    """A misspelt name gives one message below the line of the cell."""
+    shown = notebook.run(line)
+    assert shown.ename == error
+    assert words in shown.evalue
+    assert shown.error_lines[:3] == [
+        "Traceback (most recent call last; %tb shows all of it):",
+        shown.error_lines[1],
+        f"    {line}",
+    ]
+    assert len(shown.error_lines) == 4
+
+
+@pytest.mark.parametrize("line", ["%rosrun course_pkg", "%roslaunch", "%roslaunch course_pkg"])
+def test_usage(notebook: NotebookKernel, line: str) -> None:
+    """A missing argument shows the usage, as in a terminal."""
+    assert notebook.run(line).err.startswith(f"UsageError: usage: {line.split()[0]} PACKAGE")
+
+
+def test_nothing_is_left_after_a_killed_kernel(master: PrivateMaster) -> None:
+    """After SIGKILL of the kernel, its program ends and is unregistered."""
+    with NotebookKernel() as kernel:
+        kernel.run(SETUP.replace("student", "killed"))
+        kernel.run("server = %rosrun course_pkg server\nserver.wait(service='/getGeometry')")
+        pids = kernel.run("import os\n(os.getpid(), server._process.pid)").results[0]
+        pid, program = (int(number) for number in pids.strip("()").split(","))
+        os.kill(pid, signal.SIGKILL)
+        eventually(lambda: process_state(program) == "Z")
+        eventually(lambda: "/getGeometry" not in MasterClient(master.uri).system_state().services)

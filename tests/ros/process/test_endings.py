@@ -1,0 +1,231 @@
+"""Each process that was started ends with its owner, even if the owner is killed."""
+
+from __future__ import annotations
+
+import os
+import pty
+import select
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster, SupervisedProcess
+from course_pkg.ros.process.supervised import listening_ports
+from course_pkg.ros.process.supervisor import descendants
+from tests.kernel import Kernel
+from tests.support import eventually, process_state, stopped
+
+EVERYTHING = """
+from course_pkg.ros import join
+node = join("owner")
+server = node.run("course_pkg", "server", "getGeometry:=other", name="other")
+launched = node.launch("course_pkg", "geometry.launch")
+launched.wait_for_service("/getGeometry")
+server.wait_for_service("/other")
+result = node.master
+"""
+
+
+def family(pid: int) -> list[int]:
+    """Return the process and all its descendants."""
+    return [pid, *descendants(pid)]
+
+
+def gone(pids: list[int]) -> bool:
+    """Return whether none of the processes runs; a zombie counts as ended."""
+    return all(process_state(pid) == "Z" for pid in pids)
+
+
+def port_is_free(uri: str) -> bool:
+    """Return whether no process listens at the port of the address."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", int(uri.rstrip("/").rpartition(":")[2]))) != 0
+
+
+def test_killed_owner_of_a_private_master() -> None:
+    """After SIGKILL of a kernel no process below it is left, roslaunch's nodes included, and no port held."""
+    kernel = Kernel({"ROS_MASTER_URI": None})
+    uri = kernel.run(EVERYTHING)
+    pids = family(kernel.pid)
+    assert len(pids) >= 8
+    kernel.kill()
+    eventually(lambda: gone(pids))
+    assert port_is_free(uri)
+    kernel.exit()
+
+
+def test_killed_owner_on_a_shared_master(master: PrivateMaster) -> None:
+    """After SIGKILL of a kernel, a master that continues has none of its registrations."""
+    kernel = Kernel()
+    kernel.run(EVERYTHING)
+    pids = family(kernel.pid)
+    kernel.kill()
+    eventually(lambda: gone(pids))
+    assert eventually(lambda: MasterClient(master.uri).system_state().nodes == ())
+    kernel.exit()
+
+
+DEAF = """
+import signal, rospy
+from std_msgs.msg import Empty as Message
+from std_srvs.srv import Empty
+rospy.init_node("deaf")
+service = rospy.Service("/deaf", Empty, lambda request: [])
+publisher, subscriber = rospy.Publisher("/said", Message), rospy.Subscriber("/heard", Message)
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+rospy.Service("/deafened", Empty, lambda request: [])
+while True:
+    signal.pause()
+"""
+
+
+def test_deaf_node_on_a_shared_master(master: PrivateMaster) -> None:
+    """A node that ignores SIGTERM is killed soon after its owner, and its registrations are removed."""
+    kernel = Kernel()
+    kernel.run(f"""
+import sys
+from course_pkg.ros import NodeProcess
+node = NodeProcess([sys.executable, "-c", {DEAF!r}])
+node.wait_for_service("/deafened")
+""")
+    pids = family(kernel.pid)
+    with NodeProcess.rosrun("course_pkg", "server") as other:
+        other.wait_for_service("/getGeometry")
+        kernel.kill()
+        eventually(lambda: gone(pids))
+        eventually(lambda: not MasterClient(master.uri).lookup_node("/deaf"))
+        assert MasterClient(master.uri).system_state().nodes == ("/SERVER_NODE",)
+    kernel.exit()
+
+
+def test_graceful_end_leaves_nothing(master: PrivateMaster) -> None:
+    """A kernel that ends normally leaves no registration and no process, and ends quickly."""
+    kernel = Kernel()
+    kernel.run(EVERYTHING)
+    pids = family(kernel.pid)
+    kernel.exit(patience=5)
+    assert MasterClient(master.uri).system_state().nodes == ()
+    assert gone(pids)
+
+
+def test_interrupt_leaves_the_nodes_alone(kernel: Kernel) -> None:
+    """An interrupt of the kernel goes to its process group, which does not contain its nodes."""
+    kernel.run(
+        "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
+    )
+    kernel.run("server.wait_for_service('/getGeometry')")
+    kernel.begin("import time; time.sleep(20)")
+    kernel.interrupt()
+    assert kernel.reply().error == "KeyboardInterrupt"
+    assert kernel.run("result = server.running, repr(node)") == [True, "<node /owner>"]
+
+
+def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
+    """A node that a thread has started continues after the thread has ended."""
+    kernel.run("""
+        import threading
+        from course_pkg.ros import NodeProcess, join
+        join("owner")
+        held = []
+        thread = threading.Thread(target=lambda: held.append(NodeProcess.rosrun("course_pkg", "server")))
+        thread.start()
+        thread.join()
+        held[0].wait_for_service("/getGeometry")
+    """)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_stubborn_descendants_are_killed(number: signal.Signals) -> None:
+    """A grandchild in its own session that ignores signals is killed when its parent has ended."""
+    stubborn = "import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)]; time.sleep(1000)"
+    parent = f"""
+import subprocess, sys, time
+subprocess.Popen([sys.executable, "-c", {stubborn!r}], start_new_session=True)
+time.sleep(1000)
+"""
+    process = SupervisedProcess([sys.executable, "-c", parent])
+    pids = eventually(lambda: len(found := family(process.pid)) == 2 and found)
+    process.signal(number)
+    assert process.wait(8)
+    assert gone(pids)
+
+
+def test_exit_status_is_passed_on() -> None:
+    """The owner sees the exit status of a command, or the signal that ended it."""
+    for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
+        process = SupervisedProcess(["sh", "-c", command])
+        assert process.wait(5)
+        assert process.returncode == status
+
+
+OWNER = """
+import signal, sys
+from course_pkg.ros import SupervisedProcess
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGCHLD])
+process = SupervisedProcess(sys.argv[1:], foreground=True)
+assert process.wait(20)
+sys.exit(process.returncode)
+"""
+
+
+def test_what_a_foreground_command_leaves_in_the_background_ends(tmp_path: Path) -> None:
+    """A command in the foreground uses the owner's input and output; what it leaves behind is ended."""
+    line = f"sleep 1000 & echo $! > {tmp_path}/pid; setsid sleep 1000 & cat; exit 4"
+    done = subprocess.run(
+        [sys.executable, "-c", OWNER, "sh", "-c", line],
+        input="typed",
+        capture_output=True,
+        text=True,
+        timeout=20,
+        check=False,
+    )
+    assert (done.stdout, done.returncode) == ("typed", 4)
+    assert process_state(int((tmp_path / "pid").read_text())) == "Z"
+
+
+def test_a_terminal_interrupts_a_foreground_command_once() -> None:
+    """Each Ctrl-C reaches the command once, and the command decides what to do."""
+    command = (
+        "import signal\n"
+        "came = []\n"
+        "signal.signal(signal.SIGINT, lambda *_: (came.append(1), print('interrupted', flush=True)))\n"
+        "print('ready', flush=True)\n"
+        "while not came: signal.sigtimedwait([], 0.02)\n"
+        "signal.sigtimedwait([], 0.3); print('end', flush=True)"
+    )
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.execv(sys.executable, [sys.executable, "-c", OWNER, sys.executable, "-c", command])  # noqa: S606
+    printed, deadline = b"", time.monotonic() + 20
+    while b"end" not in printed and time.monotonic() < deadline:
+        if select.select([terminal], [], [], 0.1)[0]:
+            printed += os.read(terminal, 1024)
+            if printed.endswith(b"ready\r\n"):
+                os.write(terminal, b"\x03")
+    assert printed.count(b"interrupted") == 1
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0
+    os.close(terminal)
+
+
+def test_stopped_node_is_ended(master: PrivateMaster) -> None:
+    """A node that is stopped by SIGSTOP ends when it is ended, and is unregistered."""
+    with NodeProcess.rosrun("course_pkg", "server") as server:
+        server.wait_for_service("/getGeometry")
+        with stopped(server.pid):
+            server.stop()
+    assert MasterClient(master.uri).lookup_service("/getGeometry") is None
+
+
+def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
+    """All sockets of a kernel, its master, its nodes and a launch listen on 127.0.0.1 only."""
+    kernel.run(EVERYTHING)
+    ports = listening_ports(kernel.pid)
+    assert len(ports) >= 7
+    tables = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
+    listeners = [line.split()[1].split(":") for line in tables.splitlines() if " 0A " in line]
+    assert {address for address, port in listeners if int(port, 16) in ports} == {"0100007F"}

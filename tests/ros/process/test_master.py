@@ -1,0 +1,132 @@
+"""A private master: on a free port, on loopback, and removed completely."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import threading
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import MalformedMasterUri, MasterSilent, MasterUnreachable, NotAMaster, PortBusy
+from course_pkg.ros import MasterClient, PrivateMaster, find_or_start_master
+from tests.support import eventually, stopped
+
+
+def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Inside the block the master answers; afterwards it is gone; its log is in ROS_LOG_DIR."""
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    with PrivateMaster() as master:
+        client = MasterClient(master.uri)
+        assert client.pid() == master.pid
+    assert not master.running
+    with pytest.raises(MasterUnreachable, match=master.uri):
+        client.pid()
+    assert [path.name for path in tmp_path.iterdir()] == [f"master-{master.port}.log"]
+
+
+def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without ROS_LOG_DIR, the logs are removed with the master."""
+    monkeypatch.delenv("ROS_LOG_DIR")
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    with PrivateMaster():
+        assert list(tmp_path.iterdir())
+    assert not list(tmp_path.iterdir())
+
+
+def test_busy_port() -> None:
+    """A port that is taken is refused at once, with its number."""
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(PortBusy, match=str(port)):
+            PrivateMaster(port).start()
+
+
+def test_port_can_be_had_again(master: PrivateMaster) -> None:
+    """The port of a killed master can be used again at once."""
+    with PrivateMaster() as former:
+        MasterClient(former.uri).system_state()
+        os.kill(former.pid, signal.SIGKILL)
+        eventually(lambda: not former.running)
+        with PrivateMaster(former.port) as latter:
+            assert MasterClient(latter.uri).pid() == latter.pid
+
+
+def test_a_master_that_is_named_is_used(master: PrivateMaster) -> None:
+    """If ROS_MASTER_URI is set, no other master is started."""
+    assert find_or_start_master().uri == master.uri
+
+
+def test_stopped_master_is_silent(master: PrivateMaster) -> None:
+    """A stopped master costs the time limit, and works again when it continues."""
+    client = MasterClient(master.uri, timeout=0.3)
+    client.pid()
+    with stopped(master.pid), pytest.raises(MasterSilent, match=r"within 0.3 s"):
+        client.pid()
+    assert client.pid() == master.pid
+
+
+def test_dripping_answer_is_silence() -> None:
+    """A server that sends single bytes does not extend the time limit."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        over = threading.Event()
+
+        def drip() -> None:
+            sock, _ = listener.accept()
+            with sock:
+                while not over.wait(0.05):
+                    sock.sendall(b"H")
+
+        thread = threading.Thread(target=drip)
+        thread.start()
+        with pytest.raises((MasterSilent, NotAMaster)):
+            MasterClient(f"http://localhost:{listener.getsockname()[1]}", timeout=0.4).pid()
+        over.set()
+        thread.join()
+
+
+@pytest.mark.parametrize(
+    "uri", ["", "localhost:11311", "https://localhost:1", "http://:1", "http://localhost:99999"]
+)
+def test_malformed_uri(uri: str) -> None:
+    """A malformed address is refused without a connection."""
+    with pytest.raises(MalformedMasterUri, match="http://HOST:PORT"):
+        MasterClient(uri)
+
+
+def test_unknown_host() -> None:
+    """A host that does not exist is unreachable."""
+    with pytest.raises(MasterUnreachable, match="no-such-host"):
+        MasterClient("http://no-such-host.invalid:11311").pid()
+
+
+def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
+    """A kept connection to the previous master does not disturb the client of its successor."""
+    with PrivateMaster() as former:
+        client = MasterClient(former.uri)
+        client.pid()
+    with PrivateMaster(former.port) as latter:
+        assert client.pid() == latter.pid
+
+
+def test_registrations(master: PrivateMaster) -> None:
+    """Registrations are listed by name and by address, and can be withdrawn only with the right address."""
+    client = MasterClient(master.uri)
+    client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
+    client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")
+    assert client.lookup_service("/service") == "rosrpc://localhost:5"
+    assert client.lookup_node("/node") == "http://localhost:4/"
+    assert client.lookup_all(["/node", "/nobody"], ["/service", "/nothing"]) == (
+        {"/node": "http://localhost:4/"},
+        {"/service": "rosrpc://localhost:5"},
+    )
+    state = client.system_state()
+    assert (state.services, state.publishers) == ({"/service": ("/node",)}, {"/topic": ("/node",)})
+    assert client.topic_types()["/topic"] == "std_msgs/UInt32"
+    assert not client.unregister_service("/node", "/service", "rosrpc://localhost:6")
+    assert client.unregister_service("/node", "/service", "rosrpc://localhost:5")
+    assert client.unregister_publisher("/node", "/topic", "http://localhost:4/")
+    assert client.system_state().nodes == ()

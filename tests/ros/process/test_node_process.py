@@ -1,0 +1,227 @@
+"""Nodes as processes: found, waited for, ended with their registrations, and on a private graph."""
+
+from __future__ import annotations
+
+import gc
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from course_pkg.errors import GraphError, NodeFailed, UnknownExecutable
+from course_pkg.ros import MasterClient, NodeProcess, PrivateGraph, PrivateMaster, look
+from tests.kernel import Kernel
+from tests.support import eventually, process_state
+
+pytestmark = pytest.mark.usefixtures("master")
+
+
+@pytest.mark.parametrize(
+    ("package", "program", "message"),
+    [
+        ("no_such_package", "server", "no package 'no_such_package'"),
+        ("course_pkg", "sever", "Did you mean 'server'?"),
+        ("course_pkg", "zzz", "It has: "),
+    ],
+)
+def test_missing_program(package: str, program: str, message: str) -> None:
+    """The error for an unknown package or program names similar ones."""
+    with pytest.raises(UnknownExecutable) as error:
+        NodeProcess.rosrun(package, program)
+    assert message in str(error.value)
+
+
+def test_command_that_cannot_be_started() -> None:
+    """An unknown command raises an error at the call, and leaves no process."""
+    with pytest.raises(GraphError, match="No such file"):
+        NodeProcess(["/no/such/command"])
+
+
+def test_output_is_kept() -> None:
+    """The output of a node, stdout and stderr, is available while it runs and after its end."""
+    with NodeProcess(
+        [sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]
+    ) as process:
+        assert process.wait(5) == 0
+        assert sorted(process.output().split()) == ["err", "out"]
+    assert "out" in process.output()
+
+
+def test_waiting_fails_fast_when_the_node_dies() -> None:
+    """Waiting for a service of a process ends with the process, and shows the end of its output."""
+    with NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process:
+        started = time.monotonic()
+        with pytest.raises(NodeFailed, match="no luck today") as error:
+            process.wait_for_service("/never", timeout=20)
+        assert time.monotonic() - started < 5
+        assert error.value.returncode == 1
+
+
+def test_waiting_has_a_limit() -> None:
+    """Waiting for a service that never appears ends after the given time, and the process continues."""
+    with NodeProcess.rosrun("course_pkg", "pulse") as process:
+        with pytest.raises(NodeFailed, match=r"after 0\.2 s"):
+            process.wait_for_service("/never", timeout=0.2)
+        assert process.running
+
+
+def test_waiting_for_words() -> None:
+    """Waiting for output ends when it is printed, and fails when the process has ended without it."""
+    script = "import time; print('first'); time.sleep(60)"
+    with NodeProcess([sys.executable, "-c", script]) as process:
+        process.wait_for_output("first")
+        with pytest.raises(NodeFailed, match=r"has not printed 'second' after 0\.2 s"):
+            process.wait_for_output("second", timeout=0.2)
+    with (
+        NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process,
+        pytest.raises(NodeFailed, match=r"never printed 'second'\. .*\nno luck today"),
+    ):
+        process.wait_for_output("second")
+
+
+def test_waiting_is_for_this_process(kernel: Kernel) -> None:
+    """A service of this name on another node does not count: the process itself must provide it."""
+    kernel.run("""
+        from course_pkg.srv import geometry
+        from course_pkg.ros import join
+        node = join("first")
+        node.serve("/contested", geometry, lambda request: (-1, -1))
+        other = node.run("course_pkg", "server", "getGeometry:=/contested")
+        other.wait_for_service("/contested")
+        assert node.call("/contested", geometry, 1, 2, 3).area == 2
+    """)
+
+
+def test_stopping_withdraws(master: PrivateMaster) -> None:
+    """When stop() returns, the process is off the graph, even if it had to be killed."""
+    deaf = """
+import rospy, signal, threading
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+rospy.init_node("deaf", disable_signals=True)
+threading.Event().wait()
+"""
+    client = MasterClient(master.uri)
+    process = NodeProcess([sys.executable, "-c", deaf])
+    process.wait_for_service("/deaf/get_loggers")
+    process.stop(grace=0.2)
+    assert not process.running
+    assert client.system_state().nodes == ()
+    process.stop()
+
+
+def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
+    """kill() leaves registrations at the master; the next node of the name replaces them."""
+    process = NodeProcess.rosrun("course_pkg", "server")
+    process.wait_for_service("/getGeometry")
+    process.kill()
+    assert process.returncode == -signal.SIGKILL
+    assert MasterClient(master.uri).lookup_service("/getGeometry") is not None
+    with NodeProcess.rosrun("course_pkg", "server") as successor:
+        successor.wait_for_service("/getGeometry")
+    assert MasterClient(master.uri).lookup_service("/getGeometry") is None
+
+
+def test_running_again_replaces(kernel: Kernel) -> None:
+    """A cell that starts a node and runs again ends the old process; another name is another process."""
+    kernel.run("""
+        from course_pkg.ros import join
+        node = join("student")
+        first = node.run("course_pkg", "server")
+        first.wait_for_service("/getGeometry")
+        second = node.run("course_pkg", "server")
+        second.wait_for_service("/getGeometry")
+        third = node.run("course_pkg", "server", "getGeometry:=/third", name="third")
+        third.wait_for_service("/third")
+        assert (first.running, second.running, third.running) == (False, True, True)
+        assert (repr(first), repr(third)) == ("<course_pkg/server, ended>", "<third, running>")
+    """)
+
+
+def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
+    """With a namespace as argument, another node runs beside the first; the same again replaces it."""
+    kernel.run("""
+        from course_pkg.ros import join
+        node = join("student")
+        left, right = (node.run("course_pkg", "server", f"__ns:=/{side}") for side in ("left", "right"))
+        left.wait_for_service("/left/getGeometry")
+        right.wait_for_service("/right/getGeometry")
+        again = node.run("course_pkg", "server", "__ns:=/left")
+        again.wait_for_service("/left/getGeometry")
+        assert (left.running, right.running, again.running) == (False, True, True)
+    """)
+
+
+def test_launch_file() -> None:
+    """A launch file starts its nodes, and they end with it."""
+    with NodeProcess.roslaunch("course_pkg", "geometry.launch", "client:=true") as process:
+        process.wait_for_service("/getGeometry")
+        eventually(lambda: "area: 6.24\n" in process.output() and "volume: 55.54\n" in process.output())
+
+
+def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
+    """The nodes are registered with their own master only."""
+    with PrivateGraph() as graph:
+        graph.run("course_pkg", "pulse")
+        assert MasterClient(graph.uri).system_state().nodes == ("/pulse",)
+        assert look(master.uri).nodes == ()
+        assert repr(graph) == "<a private graph with a master and 1 programs>"
+
+
+def test_a_stream_outlives_its_master() -> None:
+    """Connected nodes exchange messages without their master; a new node finds no master."""
+    with PrivateGraph() as graph:
+        graph.run("course_pkg", "pulse")
+        echo = graph.start("rostopic", "echo", "/pulse")
+        eventually(lambda: "data" in echo.output())
+        graph.kill_master()
+        before = echo.output().count("data")
+        eventually(lambda: echo.output().count("data") >= before + 3)
+        late = graph.start("rostopic", "list")
+        assert late.wait(10) != 0
+        assert "Unable to communicate with master" in late.output()
+
+
+def test_the_second_of_a_name_ends_the_first() -> None:
+    """Each run is another process, even with the same name: the master shuts down the first one."""
+    with PrivateGraph() as graph:
+        first, second = (graph.run("course_pkg", "pulse") for _ in range(2))
+        assert first.wait(10) == 0
+        assert "new node registered with same name" in first.output()
+        assert second.running
+
+
+def test_nothing_of_a_private_graph_stays() -> None:
+    """close() ends everything, including killed programs; a graph without references closes itself."""
+    graph = PrivateGraph()
+    running, killed = (graph.run("course_pkg", "pulse", f"__name:=pulse_{number}") for number in range(2))
+    master = graph._master.pid
+    killed.kill()
+    graph.close()
+    graph.close()
+    assert [process_state(pid) for pid in (running.pid, killed.pid, master)] == ["Z", "Z", "Z"]
+    forgotten = PrivateGraph().start("sleep", "60")
+    gc.collect()
+    assert not forgotten.running
+
+
+def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
+    """The errors name the existing programs, or the output of the program."""
+    started = time.monotonic()
+    with PrivateGraph() as graph:
+        with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):
+            graph.run("course_pkg", "pulze")
+        with pytest.raises(NodeFailed, match="usage: client"):
+            graph.run("course_pkg", "client")
+    assert time.monotonic() - started < 10
+
+
+def test_the_tools_use_the_address_of_a_private_graph() -> None:
+    """ROS_MASTER_URI directs any command to this graph."""
+    with PrivateGraph() as graph:
+        graph.run("course_pkg", "pulse")
+        command = f"ROS_MASTER_URI={graph.uri} rosnode list"
+        done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=20, check=True)  # noqa: S602
+        assert done.stdout == "/pulse\n"

@@ -1,0 +1,91 @@
+"""A reader of many topics at the same time, on a real graph."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.ros import NodeProcess, PrivateMaster, look
+from course_pkg.ros.topic.bulk_reader import BulkReader
+from tests.support import eventually
+
+
+class Notes:
+    """The messages that a reader has delivered."""
+
+    def __init__(self) -> None:
+        self.heard: dict[str, list[bytes]] = {}
+        self.missed: list[str] = []
+        self.looks = 0
+
+    def hear(self, topic: str, messages: list[bytes]) -> None:
+        """Store messages."""
+        self.heard.setdefault(topic, []).extend(messages)
+
+    def look(self) -> None:
+        """Count the looks."""
+        self.looks += 1
+
+    def reader(self) -> BulkReader:
+        """Return a reader of numbers that delivers to this object."""
+        return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
+
+
+def pulse(name: str) -> NodeProcess:
+    """Start a node that counts, 50 times a second."""
+    return NodeProcess(["rosrun", "course_pkg", "pulse", f"__name:={name}", f"pulse:={name}", "_rate:=50"])
+
+
+def test_every_message_in_order(master: PrivateMaster) -> None:
+    """Messages of several topics arrive complete, in order, each exactly once."""
+    notes = Notes()
+    reader = notes.reader()
+    with pulse("one"), pulse("two"):
+        reader.start()
+        reader.start()
+        eventually(lambda: all(len(notes.heard.get(topic, ())) > 40 for topic in ("/one", "/two")))
+        reader.stop()
+    numbers = [int.from_bytes(message, "little") for message in notes.heard["/one"]]
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+def test_the_graph_looks_as_without_it(master: PrivateMaster) -> None:
+    """The reader does not appear as a subscriber."""
+    notes = Notes()
+    reader = notes.reader()
+    with pulse("alone"):
+        reader.start()
+        eventually(lambda: notes.heard.get("/alone"))
+        assert next(topic for topic in look().topics if topic.name == "/alone").subscribers == ()
+        reader.stop()
+
+
+def test_an_end_is_told_and_a_return_is_heard(master: PrivateMaster) -> None:
+    """A publisher that ends is removed, and a new one is read."""
+    notes = Notes()
+    reader = notes.reader()
+    reader.start()
+    with pulse("brief"):
+        eventually(lambda: notes.heard.get("/brief"))
+    eventually(lambda: notes.missed == ["/brief"])
+    notes.heard.clear()
+    with pulse("brief"):
+        eventually(lambda: notes.heard.get("/brief"))
+    reader.stop()
+
+
+def test_stop_ends_it(master: PrivateMaster) -> None:
+    """After stop() it looks at most once more, and a start begins again."""
+    notes = Notes()
+    reader = notes.reader()
+    reader.start()
+    eventually(lambda: notes.looks > 2)
+    reader.stop()
+    eventually(lambda: not _threads())
+    reader.start()
+    before = notes.looks
+    eventually(lambda: notes.looks > before)
+    reader.stop()
+
+
+def _threads() -> list[str]:
+    return [thread.name for thread in threading.enumerate() if thread.name == "bulk-reader"]

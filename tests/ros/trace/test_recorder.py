@@ -1,0 +1,120 @@
+"""A process records the last ended spans, all running ones, and the callers of its services."""
+
+from __future__ import annotations
+
+import threading
+
+from course_pkg.ros.trace.hooks import Hook
+from course_pkg.ros.trace.recorder import CALLERS, LONGEST, CallCounter, Recorder
+
+
+def test_the_ring_is_bounded() -> None:
+    """The recorder keeps the last ended spans and all running ones, and reports since when it is complete."""
+    recorder = Recorder(size=3)
+    lasting = recorder.begin("handler", "/x", "/caller", [])
+    spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]
+    for span in spans:
+        recorder.end(span)
+    record = recorder.since(0.0)
+    assert {each["name"] for each in record["spans"]} == {"/x", "/2", "/3", "/4"}
+    assert record["complete_from"] == spans[2].end
+    assert lasting.end is None
+
+
+def test_a_small_ring_that_is_not_full_is_complete() -> None:
+    """Before the ring is full, the record is complete from the beginning."""
+    recorder = Recorder(size=3)
+    recorder.end(recorder.begin("publish", "/x", "", []))
+    assert recorder.since(0.0)["complete_from"] == 0.0
+
+
+def test_an_end_counts_once() -> None:
+    """A second end changes neither the time nor the note."""
+    recorder = Recorder()
+    span = recorder.begin("handler", "/x", "/caller", [])
+    recorder.end(span, "the first")
+    recorder.end(span, "the second")
+    (span_data,) = recorder.since(0.0)["spans"]
+    assert span_data["note"] == "the first"
+
+
+def test_long_error_messages_are_cut() -> None:
+    """The error messages of handlers and callers are kept up to a length."""
+    recorder = Recorder()
+    recorder.end(recorder.begin("handler", "/x", "/caller", []), "x" * 10_000)
+    call = recorder.begin_call("/x")
+    call.finish("error", "y" * 10_000, answered=False)
+    recorder.end(call)
+    assert [len(each["note"]) for each in recorder.since(0.0)["spans"]] == [LONGEST, LONGEST]
+
+
+def test_reading_while_others_write() -> None:
+    """A record is complete even if other threads write at the same time."""
+    recorder = Recorder(size=1000)
+    stop = threading.Event()
+
+    def write() -> None:
+        while not stop.is_set():
+            recorder.end(recorder.begin("publish", "/x", "", []))
+
+    writers = [threading.Thread(target=write) for _ in range(4)]
+    for writer in writers:
+        writer.start()
+    counts = [len(recorder.since(0.0)["spans"]) for _ in range(200)]
+    stop.set()
+    for writer in writers:
+        writer.join()
+    assert max(counts) <= 1000 + len(writers)
+    assert len(recorder.since(0.0)["spans"]) == 1000
+
+
+def test_calls_are_counted_by_caller() -> None:
+    """Calls are counted by service and caller, the latest caller first, with those that are running."""
+    counter = CallCounter()
+    for caller in ("/a", "/b", "/a"):
+        counter.begin("/x", caller)
+    counter.end("/x", "/a")
+    assert [(name, calls, running) for name, calls, _, running in counter.callers("/x")] == [
+        ("/a", 2, 1),
+        ("/b", 1, 1),
+    ]
+    assert counter.callers("/y") == []
+
+
+def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
+    """The counter keeps a limited number of callers, and always those that still wait."""
+    counter = CallCounter()
+    counter.begin("/x", "/waiting")
+    for number in range(CALLERS + 10):
+        counter.begin("/x", f"/tool_{number}")
+        counter.end("/x", f"/tool_{number}")
+    names = [str(name) for name, *_ in counter.callers("/x")]
+    assert len(names) == CALLERS
+    assert names[0] == f"/tool_{CALLERS + 9}"
+    assert "/waiting" in names
+    assert "/tool_0" not in names
+
+
+class _Owner:
+    def method(self, one: int) -> int:
+        return one
+
+
+def test_a_hook_fits_what_it_expects() -> None:
+    """A method with other parameters, with other globals, or no method at all is refused."""
+    assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
+    assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
+    assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()
+    assert not Hook(_Owner, "missing", (), lambda method: method).fits()
+
+
+def test_a_hook_is_installed_once() -> None:
+    """A second install() changes nothing."""
+
+    class Owner(_Owner):
+        pass
+
+    hook = Hook(Owner, "method", ("self", "one"), lambda method: lambda self, one: method(self, one) + 1)
+    hook.install()
+    hook.install()
+    assert Owner().method(1) == 2

@@ -1,0 +1,126 @@
+"""No attack earns a point, and none disturbs the next submission."""
+
+from __future__ import annotations
+
+import textwrap
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from course_pkg.checking.fixtures import around
+from course_pkg.checking.parts import find
+from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.worker_client import SandboxWorker
+from tests.sandbox.attacks import FORGED, GRAPH, HOST, SLOW
+
+pytestmark = pytest.mark.usefixtures("sandbox")
+CHECK = "05.1"
+BEFORE, AFTER = around(CHECK)
+RIGHT = """
+def handle_geometry(request):
+    area = request.width * request.length
+    return geometryResponse(area=area, volume=area * request.height)
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+"""
+WRONG = """
+def handle_geometry(request):
+    return geometryResponse(area=1.0, volume=2.0)
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+"""
+QUICK = {"forged": FORGED, "graph": GRAPH, "host": HOST}
+KINDS = [(kind, attack) for kind, attacks in QUICK.items() for attack in attacks]
+each_attack = pytest.mark.parametrize(("batch", "attack"), KINDS, indirect=["batch"], scope="module")
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[SandboxWorker]:
+    """Return one sandbox worker for all tests, so that the next part meets what an attack leaves behind."""
+    with SandboxWorker() as started:
+        yield started
+
+
+@pytest.fixture(scope="module")
+def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str]:
+    """Return the attacks of one kind; after the last one, a right answer must still pass."""
+    yield request.param
+    assert points(worker.run(job(RIGHT))) == 2, f"the attacks of the kind {request.param!r} left something"
+
+
+def job(source: str, *, setup_timeout: float = 25.0, answer_timeout: float = 20.0) -> PartJob:
+    """Return the job for a cell of exercise 05.1."""
+    return PartJob(CHECK, BEFORE, (source,), AFTER, 1, find(CHECK).deadline, setup_timeout, answer_timeout)
+
+
+def points(result: PartResult) -> int:
+    """Return the points in the check runner's record; 0 if there is no record."""
+    return int((result.record or {}).get("points", 0))
+
+
+def attack_wrong(worker: SandboxWorker, attack: str) -> None:
+    """Run an attack beside a wrong answer: it must earn nothing and end with a record or a reason."""
+    result = worker.run(job(textwrap.dedent(attack) + WRONG))
+    assert points(result) == 0
+    assert result.record or result.ending
+    assert "ImportError" not in str(result.messages), "the attack itself is out of date"
+
+
+def attack_right(worker: SandboxWorker, attack: str) -> None:
+    """Run an attack beside a right answer: it must end in time and earn all points or none."""
+    limited = job(textwrap.dedent(attack) + RIGHT, setup_timeout=10.0, answer_timeout=8.0)
+    began = time.monotonic()
+    result = worker.run(limited)
+    assert time.monotonic() - began < limited.limit + 15.0
+    assert points(result) in (0, 2)
+
+
+def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
+    """Run a wrong answer that hangs: it must end after its time, with a reason, and earn nothing."""
+    limited = job(textwrap.dedent(attack) + WRONG, setup_timeout=3.0, answer_timeout=2.0)
+    began = time.monotonic()
+    result = worker.run(limited)
+    assert time.monotonic() - began < limited.limit + 15.0
+    assert points(result) == 0
+    assert result.record or result.ending
+
+
+@each_attack
+def test_an_attack_earns_a_wrong_answer_nothing(worker: SandboxWorker, batch: str, attack: str) -> None:
+    """A wrong answer beside an attack earns nothing."""
+    attack_wrong(worker, QUICK[batch][attack])
+
+
+@each_attack
+def test_an_attack_on_a_right_answer_stays_in_its_sandbox(
+    worker: SandboxWorker, batch: str, attack: str
+) -> None:
+    """A right answer with an attack beside it ends in time."""
+    attack_right(worker, QUICK[batch][attack])
+
+
+@pytest.mark.parametrize("batch", ["endless"], indirect=True, scope="module")
+@pytest.mark.parametrize("attack", SLOW)
+def test_what_never_ends_is_ended(worker: SandboxWorker, batch: str, attack: str) -> None:
+    """An answer that hangs is ended after its time, with a reason."""
+    attack_endlessly(worker, SLOW[attack])
+
+
+CAMPAIGN = [
+    *((attack_wrong, attack) for _, attack in KINDS),
+    *((attack_right, attack) for _, attack in KINDS),
+    *((attack_endlessly, attack) for attack in SLOW),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("run", "attack"), CAMPAIGN)
+def test_no_attack_harms_the_next_answer(
+    worker: SandboxWorker, run: Callable[[SandboxWorker, str], None], attack: str
+) -> None:
+    """After each single attack, the next student's right answer passes."""
+    run(worker, {**FORGED, **GRAPH, **HOST, **SLOW}[attack])
+    assert points(worker.run(job(RIGHT))) == 2

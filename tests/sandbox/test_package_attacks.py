@@ -1,0 +1,93 @@
+"""No build of a package earns a point, and none harms the next submission."""
+
+from __future__ import annotations
+
+import textwrap
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from course_pkg.checking.fixtures import around
+from course_pkg.checking.parts import find
+from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.worker_client import SandboxWorker
+from tests.grading.packages import NO_SERVER, SERVER, my_geometry, work_files
+from tests.sandbox.attacks import BUILD, BUILD_SLOW
+
+pytestmark = [pytest.mark.usefixtures("sandbox"), pytest.mark.timeout(400)]
+CHECK = "07.4"
+BEFORE, AFTER = around(CHECK)
+LISTS = "CMakeLists.txt"
+FORGED_TYPE = """\
+cmake_minimum_required(VERSION 3.0.2)
+project(my_geometry)
+find_package(catkin REQUIRED)
+catkin_package()
+set(folder ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages/my_geometry)
+file(WRITE ${folder}/__init__.py "")
+file(WRITE ${folder}/srv/__init__.py "class geometry:\\n    _md5sum = 'MD5'\\n")
+add_custom_target(my_geometry_programs ALL
+  COMMAND mkdir -p ${folder}/srv && echo "class geometry: _md5sum = 'MD5'" > ${folder}/srv/__init__.py)
+# message_runtime
+"""
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[SandboxWorker]:
+    """One sandbox worker for all: the next part meets what a build leaves behind."""
+    with SandboxWorker() as started:
+        yield started
+
+
+def examined(worker: SandboxWorker, changes: dict[str, str], check: str = CHECK) -> PartResult:
+    """Examine the package of the solution with `changes`."""
+    files = work_files(my_geometry(changes))
+    return worker.run(PartJob(check, BEFORE, (), AFTER, 1, find(check).deadline, files=files))
+
+
+def points(result: PartResult) -> int:
+    """Return the points in the check runner's record; 0 where there is none."""
+    return int((result.record or {}).get("points", 0))
+
+
+def attacked(attack: str) -> str:
+    """Return the CMakeLists.txt of the solution with the lines of an attack."""
+    text = my_geometry()[LISTS].decode()
+    end = text.index("\n", text.index("catkin_package(")) + 1
+    return text[:end] + textwrap.dedent(attack) + text[end:]
+
+
+def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
+    """Examine a package with an attack and a wrong server; it earns nothing, and ends with a reason."""
+    result = examined(worker, {LISTS: attacked(attack), SERVER: NO_SERVER})
+    assert points(result) == 0, result
+    assert result.record or result.ending
+    return result
+
+
+@pytest.mark.parametrize("attack", BUILD)
+def test_a_build_earns_a_wrong_program_nothing(worker: SandboxWorker, attack: str) -> None:
+    """A wrong server stays wrong, whatever its build does; a right one passes afterwards."""
+    attack_wrong(worker, BUILD[attack])
+    assert points(examined(worker, {})) == 3, f"the attack {attack!r} left something"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("attack", BUILD_SLOW)
+def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) -> None:
+    """It is given up after its time, with a reason."""
+    began = time.monotonic()
+    attack_wrong(worker, BUILD_SLOW[attack])
+    assert time.monotonic() - began < find(CHECK).deadline + 60.0
+    assert points(examined(worker, {})) == 3
+
+
+def test_a_type_that_a_build_forges_earns_nothing(worker: SandboxWorker) -> None:
+    """The MD5 sum of the exercise is known, so 07.3 builds with a definition that is drawn anew."""
+    from course_pkg.chapters.ch07_build_a_package.checks.packages import geometry_class
+
+    forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)
+    result = examined(worker, {LISTS: forged}, "07.3")
+    assert points(result) == 0
+    assert points(examined(worker, {}, "07.3")) == 3

@@ -1,0 +1,279 @@
+"""What a submission cannot reach, tried from inside: each probe raises BREACH if it succeeds."""
+
+from __future__ import annotations
+
+import os
+import socket
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import course_pkg
+from course_pkg.checking.parts import find
+from course_pkg.sandbox import bubblewrap
+from course_pkg.sandbox.job import PartJob
+from course_pkg.sandbox.worker_client import SandboxWorker
+from tests.checking.example_answers import every_answer
+
+pytestmark = pytest.mark.usefixtures("sandbox")
+CHECKOUT = Path(course_pkg.__file__).resolve().parent.parent
+READABLE = [
+    CHECKOUT / "solutions",
+    CHECKOUT / "tests",
+    CHECKOUT / "notebooks",
+    CHECKOUT / ".git",
+    CHECKOUT / "course_pkg" / "chapters" / "ch05_write_a_server" / "checks",
+    CHECKOUT / "course_pkg" / "chapters" / "ch05_write_a_server" / "answers.py",
+    Path("/etc/shadow"),
+    Path("/var"),
+    Path("/proc/1/environ"),
+    Path("/proc/1/root"),
+    Path("/proc/kcore"),
+]
+WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
+CALLS = {  # a successful call returns 0, or a positive number
+    "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
+    "unshare users": "libc.unshare(0x10000000)",
+    "unshare network": "libc.unshare(0x40000000)",
+    "mount": "libc.mount(b'none', b'/tmp', b'tmpfs', 0, None)",
+    "umount": "libc.umount2(b'/student', 2)",
+    "setuid": "libc.setuid(0)",
+    "setgid": "libc.setgid(0)",
+    "chroot": "libc.chroot(b'/tmp')",
+    "mknod": "libc.mknod(b'/student/memory', 0o020666, (1 << 8) | 1)",
+    "bpf": "libc.syscall(321, 0, 0, 0)",
+    "keyctl": "libc.syscall(250, 0, -3, 0)",
+    "perf_event_open": "libc.syscall(298, 0, 0, -1, -1, 0)",
+    "io_uring": "libc.syscall(425, 1, 0)",
+    "a new user namespace by clone": "libc.syscall(56, 0x10000000 | 17, 0, 0, 0, 0)",
+    "a new user namespace by clone3": "libc.syscall(435, b'\\0' * 88, 88)",
+    "setns": "libc.setns(os.open('/proc/self/ns/net', 0), 0)",
+    "another process's memory": "libc.syscall(310, 1, 0, 0, 0, 0, 0)",
+    "typing for somebody else": "libc.ioctl(0, 0x5412, b'x')",
+    "memory that no limit counts": "libc.memfd_create(b'hidden', 0)",
+    "memory that stays when nobody holds it": "libc.shmget(0, 4096, 0o1600)",
+    "reboot": "libc.reboot(0x89ABCDEF)",
+    "the clock": "libc.settimeofday(b'\\0' * 16, None)",
+}
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[SandboxWorker]:
+    """Return one worker for all probes."""
+    with SandboxWorker() as started:
+        yield started
+
+
+def told(worker: SandboxWorker, source: str) -> str:
+    """Return the error that a cell of a submission raises."""
+    job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
+    said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
+    assert said, "the probe came to no end"
+    return str(said[0])
+
+
+def test_nothing_of_the_instructors_can_be_read(worker: SandboxWorker) -> None:
+    """No solution, check, test, home or secret of the machine is visible, and no other user's environment."""
+    paths = [str(path) for path in READABLE]
+    words = told(
+        worker,
+        f"""
+        import os
+        seen = []
+        for path in {paths!r}:
+            try:
+                inside = os.listdir(path) if os.path.isdir(path) else open(path, "rb").read(1)
+                seen += [path] if inside else []
+            except OSError:
+                pass
+        raise RuntimeError(f"seen: {{seen}}")
+        """,
+    )
+    assert words == "RuntimeError: seen: []"
+
+
+def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
+    """A process that was forked from a warm one contains no check: no module, no part, no hint."""
+    hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)
+    words = told(
+        worker,
+        f"""
+        import gc, sys
+        modules = [name for name in sys.modules if ".checks" in name]
+        half = {hint[: len(hint) // 2]!r}
+        dicts = [value for value in gc.get_objects() if isinstance(value, dict)]
+        texts = [value for each in dicts for value in list(each.values())
+                 if type(value) is str and half in value and len(value) > len(half) + 5]
+        raise RuntimeError(f"{{modules}} {{[text for text in texts if 'gc.get_objects' not in text]}}")
+        """,
+    )
+    assert words == "RuntimeError: [] []"
+
+
+def test_what_the_check_runner_will_draw_is_not_in_memory(worker: SandboxWorker) -> None:
+    """Only the check runner of a part receives the seed of its inputs."""
+    job = PartJob(
+        "05.1",
+        "",
+        (
+            """
+import gc
+from course_pkg.sandbox.job import PartJob
+raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, PartJob)])
+""",
+        ),
+        "",
+        987654321,
+        1.0,
+        5.0,
+        10.0,
+    )
+    assert "987654321" not in str(worker.run(job).messages)
+
+
+def test_nothing_can_be_written_but_its_own(worker: SandboxWorker) -> None:
+    """Files can be written only in the work folder and the memory folders of the part."""
+    words = told(
+        worker,
+        f"""
+        import os
+        written = []
+        for folder in {WRITE!r}:
+            try:
+                open(os.path.join(folder, "planted"), "w").close()
+                written.append(folder)
+            except OSError:
+                pass
+        raise RuntimeError(f"{{written}}, {{os.access('/student', os.W_OK), os.access('/tmp', os.W_OK)}}")
+        """,
+    )
+    assert words == "RuntimeError: [], (True, True)"
+
+
+def test_no_network_but_its_own(worker: SandboxWorker) -> None:
+    """No server of this machine or of the network can be reached; only a private loopback exists."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+        words = told(
+            worker,
+            f"""
+            import socket
+            reached = []
+            for address in (("127.0.0.1", {port}), ("192.0.2.1", 80), ("::1", {port})):
+                try:
+                    socket.create_connection(address, timeout=1).close()
+                    reached.append(address)
+                except OSError:
+                    pass
+            raise RuntimeError(f"{{reached}} {{[name for _, name in socket.if_nameindex()]}}")
+            """,
+        )
+    assert words == "RuntimeError: [] ['lo']"
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_call_that_walls_were_broken_with_is_refused(worker: SandboxWorker, call: str) -> None:
+    """The Linux kernel refuses it, with one of several reasons."""
+    if os.uname().machine != "x86_64" and "syscall" in CALLS[call]:
+        pytest.skip("the numbers of the calls are those of x86-64")
+    words = told(
+        worker,
+        f"""
+        import ctypes, os
+        libc = ctypes.CDLL(None, use_errno=True)
+        status = {CALLS[call]}
+        if status == 0 and {call!r}.startswith("a new user"):
+            os._exit(0)
+        raise RuntimeError("refused" if status == -1 else f"BREACH: {{status}}")
+        """,
+    )
+    assert words == "RuntimeError: refused"
+
+
+def test_it_has_no_privileges_and_sees_itself_alone(worker: SandboxWorker) -> None:
+    """There are no capabilities and no way to gain one, a filter is active, and no process is visible."""
+    words = told(
+        worker,
+        """
+        import os
+        status = dict(line.split(":", 1) for line in open("/proc/self/status").read().splitlines())
+        names = ("CapEff", "CapPrm", "CapBnd", "CapAmb", "NoNewPrivs", "Seccomp")
+        pids = [name for name in os.listdir("/proc") if name.isdigit()]
+        seen = [int(status[name], 16) for name in names]
+        raise RuntimeError(seen + [len(pids) <= 2, os.getuid(), os.uname().nodename])
+        """,
+    )
+    assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
+
+
+def test_nobody_finds_the_answer_of_the_one_before(worker: SandboxWorker) -> None:
+    """The text of one student is not in the memory from which the next one's process is forked."""
+    text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))
+    assert told(worker, text.replace("' '", "") + "\nraise RuntimeError('left')") == "RuntimeError: left"
+    words = told(
+        worker,
+        """
+        import re
+        found = set()
+        with open("/proc/self/mem", "rb", 0) as memory:
+            for line in open("/proc/self/maps").read().splitlines():
+                start, end = (int(part, 16) for part in line.split()[0].split("-"))
+                if "r" not in line.split()[1] or "[v" in line:
+                    continue
+                try:
+                    memory.seek(start)
+                    found |= set(re.findall(b"QUAG" + b"GA_[0-9]{6}_OF", memory.read(end - start)))
+                except (OSError, OverflowError, MemoryError):
+                    continue
+        raise RuntimeError(len(found))
+        """,
+    )
+    assert words == "RuntimeError: 0"
+
+
+def test_a_part_finds_nothing_of_the_one_before(worker: SandboxWorker) -> None:
+    """Files, processes and names of one part do not exist for the next."""
+    leave = """
+    import os
+    open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()
+    if os.fork() == 0:
+        os.setsid()
+        import time; time.sleep(100)
+    kept = 1
+    raise RuntimeError("left")
+    """
+    look = """
+    import os
+    left = [path for path in ("/student/note", "/tmp/note", "/dev/shm/note") if os.path.exists(path)]
+    pids = [name for name in os.listdir("/proc") if name.isdigit()]
+    raise RuntimeError([left, len(pids) <= 2, "kept" in globals()])
+    """
+    assert told(worker, leave) == "RuntimeError: left"
+    assert told(worker, look) == "RuntimeError: [[], True, False]"
+
+
+def test_a_build_is_not_believed_when_the_kernel_says_so(worker: SandboxWorker) -> None:
+    """Commands of a check run beside the kernel, not in it: a kernel cannot report a build of its own."""
+    wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
+    forged = """
+from course_pkg.checking.commands.workbench import CommandFolders
+CommandFolders.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took": 0.1}
+"""
+    job = PartJob(
+        wrong.check, wrong.before + forged, (wrong.source,), wrong.after, 1, find(wrong.check).deadline
+    )
+    outcome = worker.run(job)
+    assert outcome.record is not None
+    assert outcome.record["verdict"] == "not yet"
+    assert outcome.record["points"] == 0
+
+
+def test_without_bubblewrap_it_is_refused_and_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a sandbox nothing is graded, unless the instructor asks for it."""
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(
+        bubblewrap.SandboxUnavailable, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"
+    ):
+        bubblewrap.require_sandbox()

@@ -1,0 +1,183 @@
+"""A pytest plug-in that chooses tests: those that a change can affect, and the long series.
+
+A test depends on its own folder below tests/, and on the packages of course_pkg that its package may import:
+the layers of import-linter's contract in pyproject.toml say which. A test of one chapter depends on that
+chapter's folder and on those that it imports from, and not on the others. Tests are chosen by file and
+chapter: such a group is left out by `--changed` if it passed when everything that it depends on had the same
+digest.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from course_pkg.authoring.suite import repeat_command
+from course_pkg.checking.parts import chapters, folders_for
+from course_pkg.files import write_atomically
+from course_pkg.setup import CATKIN_FOLDERS, Places
+from course_pkg.setup.stamps import digest
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+ROOT = Path(__file__).parents[1]
+ALWAYS = ("pyproject.toml", "CMakeLists.txt", "package.xml", "course_pkg/setup/locks/test.txt")
+CHAPTER = re.compile(r"\[(\d\d)[._]")  # of a test's id: "[05.1 right: …]", "[05_write_a_server]"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the two options."""
+    group = parser.getgroup("course")
+    group.addoption("--changed", action="store_true", help="run what a change can affect")
+    group.addoption("--slow", action="store_true", help="run the long series, and only these")
+
+
+class Selection:
+    """The groups of tests that passed, each with the digest of what it depends on."""
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        self._passed: dict[str, str] = json.loads(file.read_text()) if file.exists() else {}
+        self._outcomes: dict[str, bool] = {}
+        self._selected: dict[str, int] = {}
+
+    def is_unchanged(self, item: pytest.Item) -> bool:
+        """Return whether the group of `item` passed with the same digest."""
+        return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
+
+    def has_changed(self, item: pytest.Item) -> bool:
+        """Return whether the group of `item` passed before, with another digest (never on a fresh clone)."""
+        return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
+
+    def note(self, report: pytest.TestReport) -> None:
+        """Take down how a phase of a test ended."""
+        group = group_of(report.nodeid)
+        self._outcomes[group] = self._outcomes.get(group, True) and not report.failed
+
+    def store(self) -> None:
+        """Write down which groups passed in this run; a group that failed is forgotten."""
+        for group, passed in self._outcomes.items():
+            self._passed.pop(group, None)
+            if passed:
+                self._passed[group] = digest_of(group)
+        write_atomically(self._file, json.dumps(self._passed, indent=1, sort_keys=True))
+
+
+class SelectionPlugin:
+    """The hooks: choose before the run; note, store and name the failures after it."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self._config = config
+        self._selection = Selection(Places.of().cache / "tests.json")
+        self._whole = not config.option.keyword and not any("::" in word for word in config.args)
+
+    def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
+        """Leave out slow tests, or all others, and what no change can affect."""
+        named = any("::" in word for word in config.args)
+        left = {
+            item
+            for item in items
+            if (not named and not self._is_wanted(item, slow=config.getoption("--slow")))
+            or (config.getoption("--changed") and self._selection.is_unchanged(item))
+        }
+        config.hook.pytest_deselected(items=list(left))
+        items[:] = [item for item in items if item not in left]
+
+    def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
+        """Return whether a test belongs to a usual run, or to the long series if `slow`."""
+        if item.get_closest_marker("when_changed"):
+            return slow or self._selection.has_changed(item)
+        return (item.get_closest_marker("slow") is not None) == slow
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note each outcome, and name a failure at once: a run that is stopped prints no summary."""
+        self._selection.note(report)
+        if report.failed and not hasattr(self._config, "workerinput"):
+            reporter = self._config.pluginmanager.get_plugin("terminalreporter")
+            reporter.write_line(f"\n{report.nodeid} failed ({report.when})")
+
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        """Store what passed, if groups ran as a whole and to their end."""
+        controller = not hasattr(session.config, "workerinput")
+        if controller and self._whole and not session.shouldstop and not session.config.option.markexpr:
+            self._selection.store()
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        """End with the command that repeats each failure."""
+        failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
+        names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
+        if names:
+            terminalreporter.section("run the failures again")
+            for name in names:
+                terminalreporter.line(repeat_command(name))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the hooks that need the configuration."""
+    config.pluginmanager.register(SelectionPlugin(config), "course-selection")
+
+
+def group_of(test: str) -> str:
+    """Return the group of a test's id: its file, and its chapter if its parameter names one."""
+    found = CHAPTER.search(test)
+    return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
+
+
+@cache
+def digest_of(group: str) -> str:
+    """Return the digest of all files on which a group depends."""
+    file, _, chapter = group.partition(" ")
+    folder = Path(file).parts[1] if len(Path(file).parts) > 2 else ""
+    packages = _packages_below(folder)
+    parts = [_digest_of_folder("tests", own=True), _digest_of_folder(f"tests/{folder}")]
+    parts += [_digest_of_files(ALWAYS), *(_digest_of_folder(name) for name in CATKIN_FOLDERS)]
+    parts += [_digest_of_folder(f"course_pkg/{name}") for name in packages if name != "chapters"]
+    if "chapters" in packages or chapter:
+        parts += [_digest_of_folder(path) for path in chapter_paths(chapter)]
+    return digest(parts)
+
+
+def _packages_below(folder: str) -> list[str]:
+    """Return the packages on which a folder of tests depends: its own and those that it may import.
+
+    A folder that is named after no package depends on all.
+    """
+    package = {"chapters": "authoring", "notebooks": "authoring"}.get(folder, folder)
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
+    names = (layer.split("|") for layer in settings["contracts"][0]["layers"])
+    layers = [[name.strip() for name in layer] for layer in names]
+    first = next((number for number, layer in enumerate(layers) if package in layer), 0)
+    return [name for layer in layers[first:] for name in layer]
+
+
+def chapter_paths(chapter: str) -> Iterator[str]:
+    """Yield the notebooks of a chapter, its folder and those that it imports from; "" means all chapters."""
+    for number in [chapter] if chapter else chapters():
+        yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
+    for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):
+        yield from sorted(str(path.relative_to(ROOT)) for path in ROOT.glob(pattern))
+
+
+@cache
+def _digest_of_folder(path: str, *, own: bool = False) -> str:
+    """Return the digest of a file, a module of that name, or a folder; with `own` without its subfolders."""
+    where = ROOT / path
+    found = where.glob("*" if own else "**/*") if where.is_dir() else [where, where.with_suffix(".py")]
+    return _digest_of_files(sorted(str(file.relative_to(ROOT)) for file in found if _counts(file)))
+
+
+def _digest_of_files(names: Iterable[str]) -> str:
+    return digest(part for name in names for part in (name, (ROOT / name).read_bytes()))
+
+
+def _counts(file: Path) -> bool:
+    return file.is_file() and "__pycache__" not in file.parts and file.suffix != ".pyc"

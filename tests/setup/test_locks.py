@@ -1,0 +1,107 @@
+"""pyproject.toml lists the libraries; the locks and environment.yml match it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from importlib.metadata import packages_distributions
+from pathlib import Path
+
+import pytest
+
+from course_pkg.setup.libraries import lock_file
+from course_pkg.setup.lock import LEFT_OUT, UV
+
+ROOT = Path(__file__).parents[2]
+DEPENDENCIES = "\ndependencies = ["
+PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
+OLDEST = "< '3.11'"  # in the marker of a pin: the library's next version does not run on Python 3.10
+
+
+def pinned(extra: str) -> set[tuple[str, str]]:
+    """Return the versions of each library in a lock."""
+    return {(name, version) for name, version, _ in PIN.findall(lock_file(extra).read_text())}
+
+
+def declared(heading: str) -> list[tuple[str, str, str]]:
+    """Return name, version and marker of each pin in pyproject.toml's list after `heading`.
+
+    Python 3.10 has no TOML reader.
+    """
+    text = (ROOT / "pyproject.toml").read_text()
+    block = text[text.index(heading) :].split("\n]", 1)[0]
+    return re.findall(r'"([a-z0-9-]+)==([^" ]+)(?: ; ([^"]*))?"', block)
+
+
+@pytest.mark.parametrize(("extra", "heading"), [("course", DEPENDENCIES), ("test", "\ntest = [")])
+def test_the_lock_is_made_from_pyproject(extra: str, heading: str) -> None:
+    """Each library that pyproject.toml names is in the lock, at that version."""
+    wanted = {(name, version) for name, version, _ in declared(heading)}
+    assert wanted
+    assert wanted <= pinned(extra), "type: ./course lock"
+
+
+def test_the_tests_run_with_what_students_have() -> None:
+    """The lock of the tests contains every library of the course's lock, at the same version."""
+    assert pinned("course") <= pinned("test")
+
+
+@pytest.mark.parametrize("extra", ["course", "test", "uv"])
+def test_every_file_is_known_by_its_hash_and_by_no_host(extra: str) -> None:
+    """Each library has hashes, so that it may come from any mirror; no registry is named."""
+    text = lock_file(extra).read_text()
+    assert "://" not in text
+    pins = re.sub(r"^#.*\n", "", text, flags=re.MULTILINE)
+    for block in re.split(r"\n(?=[a-z])", pins.strip()):
+        assert "--hash=sha256:" in block, block.splitlines()[0]
+
+
+def test_uv_is_the_version_that_the_code_names() -> None:
+    """The lock contains exactly what `course lock` resolves."""
+    assert pinned("uv") == {tuple(UV.split("=="))}
+
+
+def test_conda_gets_the_same_libraries() -> None:
+    """environment.yml pins the same libraries as pyproject.toml."""
+    text = (ROOT / "environment.yml").read_text()
+    pins = dict(re.findall(r"^  - ([a-z0-9_-]+)=([0-9][^\s]*)$", text, re.MULTILINE))
+    for name in ("python", "ros-distro-mutex"):
+        del pins[name]
+    newest = {name: version for name, version, marker in declared(DEPENDENCIES) if OLDEST not in marker}
+    assert {name.replace("_", "-"): version for name, version in pins.items()} == newest
+
+
+@pytest.mark.parametrize("name", LEFT_OUT)
+def test_what_slows_a_start_is_in_no_lock(name: str) -> None:
+    """Libraries that are excluded are not installed by another one, and the lock names them."""
+    for extra in ("course", "test"):
+        assert name not in {pin for pin, _ in pinned(extra)}
+        assert name in lock_file(extra).read_text().split("anyio==")[0]
+
+
+def test_every_library_that_the_course_imports_is_declared() -> None:
+    """pyproject.toml names each distribution of the lock from which course_pkg imports a module."""
+    assert undeclared() == set()
+
+
+def undeclared() -> set[str]:
+    """Return the distributions of the lock that course_pkg imports and pyproject.toml does not name."""
+    locked = {name for name, _ in pinned("test")}
+    modules = {
+        name.partition(".")[0]
+        for path in (ROOT / "course_pkg").rglob("*.py")
+        if path.name not in ("answers.py", "fixtures.py")  # some hold cells of notebooks
+        for node in ast.walk(ast.parse(path.read_bytes()))
+        for name in imported(node)
+    }
+    distributions = packages_distributions()
+    used = {name.lower().replace("_", "-") for module in modules for name in distributions.get(module, ())}
+    named = {name for heading in (DEPENDENCIES, "\ntest = [") for name, *_ in declared(heading)}
+    return (used & locked) - named
+
+
+def imported(node: ast.AST) -> list[str]:
+    """Return the modules that a statement imports by their full names."""
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    return [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []

@@ -1,0 +1,128 @@
+"""The whole set-up: a finished step is not repeated, an interrupted one is."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from course_pkg.errors import SetupError
+from course_pkg.setup import Places, packages
+from course_pkg.setup.journal import Journal
+from course_pkg.setup.progress import Progress
+from course_pkg.setup.stamps import locked
+from course_pkg.setup.steps import steps_of
+
+
+@pytest.fixture
+def journal(tmp_path: Path) -> Iterator[Journal]:
+    """Return a journal in a temporary folder."""
+    with locked(tmp_path / "lock", lambda: None) as lock:
+        yield Journal(tmp_path, lock)
+
+
+def test_where_nothing_is_made_every_step_but_the_packages_is_to_do(tmp_path: Path) -> None:
+    """In an empty cache folder, libraries and workspace are missing; the report changes nothing."""
+    places = Places(Places.of().checkout, tmp_path / "cache")
+    *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
+    assert not libraries.is_done()
+    assert not catkin.is_done()
+
+
+def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:
+    """The message contains the status, the last lines, and the path of the log."""
+    with pytest.raises(SetupError, match=r"status 3:\n  first\n  last\nThe whole output: .*setup-.*log"):
+        journal.run(["sh", "-c", "echo first; echo last; exit 3"])
+
+
+def test_a_full_disk_is_called_that(journal: Journal) -> None:
+    """The message about a full disk is the same for each tool."""
+    with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
+        journal.run(["sh", "-c", "echo 'write: No space left on device'; exit 1"])
+
+
+def test_a_full_disk_is_named_without_a_message_from_the_tool(
+    journal: Journal, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """If a tool fails without a message and the disk is full, the message names this reason."""
+    monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
+    with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
+        journal.run(["false"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "dpkg: error: dpkg frontend lock was locked by another process with pid 7",
+        "E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)",
+        "E: Unable to acquire the dpkg frontend lock (/var/lib/dpkg/lock-frontend)",
+    ],
+)
+def test_another_package_manager_is_waited_for(
+    words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A tool that finds the lock taken is repeated until the lock is free; the user is informed once."""
+    monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
+    said: list[str] = []
+    held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
+    packages._run_when_unlocked(journal, ["sh", "-c", f"echo x >> {tmp_path}/tries; {held}"], said.append)
+    assert set(said) == {packages.WAITING}
+    assert (tmp_path / "tries").read_text().count("x") == 3
+
+
+def test_no_lock_is_waited_for_without_end(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After the timeout, and at once for other failures, the tool's own message is shown."""
+    monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
+    monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
+    for words in ("Could not get lock /x", "Unable to locate package y"):
+        with pytest.raises(SetupError, match=words):
+            packages._run_when_unlocked(journal, ["sh", "-c", f"echo '{words}'; exit 100"], lambda _: None)
+
+
+def test_what_is_missing_is_named() -> None:
+    """A package that is not installed is reported as missing, an installed one is not."""
+    assert packages.missing_packages(["dpkg", "no-such-package-anywhere"]) == ["no-such-package-anywhere"]
+
+
+def test_without_root_and_sudo_the_message_is_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An ordinary user without sudo gets the whole command, and nothing waits for a password."""
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
+    monkeypatch.setattr("shutil.which", lambda _: None)
+    with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):
+        packages.become_root(["rosbash", "catkin"])
+
+
+def test_progress_is_a_line_at_either_end_where_nobody_watches() -> None:
+    """In a pipe, each step prints its start and its result with the seconds, without colours."""
+    stream = io.StringIO()
+    progress = Progress(stream)
+    with progress.painting(), progress.step("catkin workspace"):
+        progress.note("waiting")
+        progress.note("waiting")
+    with pytest.raises(KeyError), progress.step("other"):
+        raise KeyError
+    lines = stream.getvalue().splitlines()
+    assert lines[:2] == ["catkin workspace …", "waiting"]
+    assert [line.partition(" (")[0] for line in lines[2:]] == [
+        "catkin workspace: done",
+        "other …",
+        "other: failed",
+    ]
+
+
+def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a pipe, a line is printed every ten seconds; times of earlier runs are not added."""
+    now = 0.0
+    monkeypatch.setattr("time.monotonic", lambda: now)
+    stream = io.StringIO()
+    progress = Progress(stream, total=40, unit="notebooks")
+    progress.advance(20, kept=True)
+    for now in (1.0, 11.0, 12.0, 40.0):  # noqa: B007 -- the clock
+        progress.advance(5)
+    assert stream.getvalue().splitlines() == [
+        "30 of 40 notebooks, about 11 s left",
+        "40 of 40 notebooks",
+    ]

@@ -1,0 +1,93 @@
+"""The picture of the shop shows each customer at any size, and a frame shows whether there is one."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from types import SimpleNamespace
+
+import pytest
+
+from course_pkg.shop.pictures import (
+    COATS,
+    FACE,
+    HEIGHT,
+    MOST,
+    WIDTH,
+    frame_points,
+    sees_customer,
+    shop_picture,
+)
+
+
+def figures(width: int, height: int, customers: int, y: float) -> int:
+    """Count the differently coloured segments in one row of a picture."""
+    data = shop_picture(width, height, customers)
+    start = 3 * width * int(y * height)
+    row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]
+    return sum(colour in (*COATS, FACE) for colour, _ in groupby(row))
+
+
+@pytest.mark.parametrize("customers", range(MOST + 1))
+@pytest.mark.parametrize("y", [0.3, 0.55])
+def test_each_customer_is_seen(customers: int, y: float) -> None:
+    """Heads and coats can be counted, because there is a gap between neighbours."""
+    assert figures(320, 240, customers, y) == customers
+
+
+@pytest.mark.parametrize("size", [(16, 16), (17, 400), (1280, 16), (320, 240)])
+@pytest.mark.parametrize("customers", [0, 1, 5, 1000])
+def test_any_size_has_all_its_points(size: tuple[int, int], customers: int) -> None:
+    """A picture has three bytes for each point, at any size and with any number of customers."""
+    width, height = size
+    assert len(shop_picture(width, height, customers)) == 3 * width * height
+
+
+def test_the_same_shop_is_the_same_picture() -> None:
+    """A picture depends only on the arguments, so that it can be stored and compared."""
+    assert shop_picture(64, 48, 3) == shop_picture(64, 48, 3)
+    assert shop_picture(64, 48, 3) != shop_picture(64, 48, 2)
+
+
+def frame(
+    data: bytes, width: int = WIDTH, height: int = HEIGHT, *, step: int = 0, encoding: str = "mono8"
+) -> SimpleNamespace:
+    """Return the fields of a sensor_msgs/Image; without a `step`, rows have no padding."""
+    return SimpleNamespace(data=data, width=width, height=height, step=step or width, encoding=encoding)
+
+
+@pytest.mark.parametrize("customers", [0, 1, 2, 3, 12])
+def test_whoever_is_drawn_is_seen(customers: int) -> None:
+    """The course's camera follows the rule of its specification."""
+    points = frame_points(customers)
+    assert len(points) == WIDTH * HEIGHT
+    assert sees_customer(frame(points)) is (customers > 0)
+
+
+@pytest.mark.parametrize(("dark", "seen"), [(9, False), (10, True), (11, True)])
+def test_a_tenth_of_dark_points_is_enough(dark: int, seen: bool) -> None:
+    """At least a tenth of the values are below 96."""
+    assert sees_customer(frame(bytes([95] * dark + [96] * (100 - dark)), 10, 10)) is seen
+
+
+def test_what_fills_up_a_row_is_no_point() -> None:
+    """Rows may have padding."""
+    light, dark = bytes([200] * 10 + [0] * 6), bytes([0] * 10 + [255] * 90)
+    assert not sees_customer(frame(light * 10, 10, 10, step=16))
+    assert sees_customer(frame(dark, 10, 1, step=100))
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        frame(bytes(99), 10, 10),
+        frame(bytes(101), 10, 10),
+        frame(bytes(300), 10, 10, step=30, encoding="rgb8"),
+        frame(b"", 0, 0),
+        frame(b"", 10, 0),
+        frame(bytes(90), 10, 10, step=9),
+    ],
+)
+def test_what_is_malformed_is_no_question(broken: SimpleNamespace) -> None:
+    """A malformed frame raises an error."""
+    with pytest.raises(ValueError, match=r"\w"):
+        sees_customer(broken)

@@ -1,0 +1,42 @@
+"""Small courses from which tests build sites, and the actions of a reader on a page."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from course_pkg.authoring.cells import Cell, Output
+from course_pkg.authoring.notebook_store import NotebookStore
+from course_pkg.setup import Places
+from course_pkg.site.exporter import Body, Exporter
+from course_pkg.site.runs import Runs
+from course_pkg.types import Plain
+from tests.authoring.books import book, code, text
+
+FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothing.\n\n**Time**: 5 minutes."
+
+
+def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
+    """Write solutions and equal notebooks; `_00_name=[…]` are the cells of a chapter below its title."""
+    for folder in ("solutions", "notebooks"):
+        (root / folder).mkdir(parents=True, exist_ok=True)
+        for name, cells in chapters.items():
+            notebook = book(text(FIRST, "title"), *cells)
+            (root / folder / f"{name.strip('_')}.ipynb").write_text(json.dumps(notebook), "utf-8")
+    return NotebookStore(root)
+
+
+def runs(cache: Path) -> Runs:
+    """Return the runs of this checkout's package, stored in a separate folder."""
+    return Runs(Places(Places.of().checkout, cache))
+
+
+def shown(*outputs: Output) -> Body:
+    """Return the body of a page with one cell that shows `outputs`."""
+    return Exporter().body(book(code("show()", outputs=list(outputs))))
+
+
+def result(**data: Plain) -> Output:
+    """Return the result of a cell; `text_html="…"` is its form as text/html."""
+    kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
+    return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

@@ -1,0 +1,95 @@
+"""The figures that Markdown names."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import SiteError
+from course_pkg.setup import Places
+from course_pkg.site.build import Settings, write_site
+from course_pkg.site.exporter import Body, Exporter
+from course_pkg.site.figures import figure
+from tests.authoring.books import book, text
+from tests.site.notebook_stores import runs, store
+
+DRAWING = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100" aria-labelledby="t">'
+    '<title id="t">A title</title><defs><marker id="tip"><path d="M0 0"/></marker></defs>'
+    '<path d="M0 0 8 8" marker-end="url(#tip)"/><text>devel &amp; src</text></svg>'
+)
+
+
+def page(folder: Path, *sources: str, prefix: str = "") -> Body:
+    """Return the body of a page with a Markdown cell for each source, of a notebook in `folder`."""
+    return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
+
+
+def test_a_drawing_is_a_part_of_the_page(tmp_path: Path) -> None:
+    """It has the description from the Markdown, its text, and no id that another drawing has."""
+    (tmp_path / "a b.svg").write_text(DRAWING)
+    html = page(tmp_path, '![A "box" & more](a%20b.svg)', "![Again](a%20b.svg)", prefix="c07-").html
+    assert html.count('<figure class="wide"><svg ') == 2
+    assert 'aria-label="A &quot;box&quot; &amp; more"' in html
+    assert "<text>devel &amp; src</text>" in html
+    assert "A title" not in html
+    assert re.findall(r'id="([^"]*)"', html) == ["c07-f1-tip", "c07-f2-tip"]
+    assert re.findall(r"url\(#([^)]*)\)", html) == ["c07-f1-tip", "c07-f2-tip"]
+
+
+def test_a_picture_is_carried_along(tmp_path: Path) -> None:
+    """A page may load no other file, so it holds the picture's data."""
+    content = b"\x89PNG"
+    (tmp_path / "chair.png").write_bytes(content)
+    html = page(tmp_path, "Look: ![a chair](chair.png)").html
+    assert f'<img src="data:image/png;base64,{b64encode(content).decode()}" alt="a chair">' in html
+
+
+@pytest.mark.parametrize(
+    ("markdown", "problem"),
+    [
+        ("![x](../figures/none.svg)", "There is no figure ../figures/none.svg"),
+        ("![x](https://example.org/x.png)", "There is no figure https://example.org/x.png"),
+        ("![](drawing.svg)", "The figure drawing.svg has no description"),
+        ("![x](notes.txt)", "notes.txt is neither a drawing"),
+        ("![x](broken.svg)", "broken.svg cannot be read"),
+        ("![x](script.svg)", "script.svg has a <script>"),
+        ("![x](handler.svg)", 'handler.svg has onload="f'),
+        ("![x](link.svg)", 'link.svg has .*href="//x"'),
+    ],
+)
+def test_what_a_page_cannot_show(tmp_path: Path, markdown: str, problem: str) -> None:
+    """One error names the figure, and says what is wrong with it."""
+    namespace = 'xmlns="http://www.w3.org/2000/svg" xmlns:l="http://www.w3.org/1999/xlink"'
+    files = {
+        "drawing.svg": DRAWING,
+        "notes.txt": "x",
+        "broken.svg": "<svg>",
+        "script.svg": f"<svg {namespace}><script/></svg>",
+        "handler.svg": f'<svg {namespace} onload="f()"/>',
+        "link.svg": f'<svg {namespace}><use l:href="//x"/></svg>',
+    }
+    for name, content in files.items():
+        (tmp_path / name).write_text(content)
+    with pytest.raises(SiteError, match=problem):
+        page(tmp_path, markdown)
+
+
+def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
+    """The error names the notebook's folder, from which the figure was looked for."""
+    books = store(tmp_path, _00_try=[text("![x](../figures/none.svg)", "t")])
+    with pytest.raises(SiteError, match=r"no figure \.\./figures/none\.svg, as seen from .*solutions"):
+        write_site(Settings(tmp_path / "site", execute=False), books, runs(tmp_path / "cache"))
+
+
+@pytest.mark.parametrize(
+    "path", sorted((Places.of().checkout / "figures").iterdir()), ids=lambda path: path.name
+)
+def test_each_figure_of_the_course_can_be_shown(path: Path) -> None:
+    """A page carries it, and in a notebook it has a ground of its own, so that its text can be read."""
+    assert figure(path.parent, path.name, "A figure", "f1-")
+    if path.suffix == ".svg":
+        assert re.search(r'<rect [^>]*fill="(#fff|#ffffff|white)"', path.read_text("utf-8"))

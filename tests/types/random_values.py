@@ -1,0 +1,157 @@
+"""Random service types and random values of these types; the same seed leads to the same types and values."""
+
+from __future__ import annotations
+
+import math
+import random
+import struct
+
+from course_pkg.types import Field, Kind, MessageType
+
+BUILTIN = (
+    *(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u")),
+    *("float32", "float64", "bool", "string", "time", "duration", "char", "byte"),
+)
+MESSAGES = (
+    "Header",
+    "std_msgs/Header",
+    "std_msgs/Empty",
+    "std_msgs/String",
+    "std_msgs/ColorRGBA",
+    "std_msgs/ByteMultiArray",
+    "std_msgs/UInt8MultiArray",
+    "geometry_msgs/Point",
+    "geometry_msgs/PoseStamped",
+    "geometry_msgs/Polygon",
+    "geometry_msgs/PoseWithCovariance",
+)
+# YAML or a shell gives these a special meaning.
+AWKWARD = (
+    *("", " ", "yes", "No", "on", "null", "~", "1.0", "-1", "0x10", "1e5", "1_000", "12:30:45", "2020-01-02"),
+    *(
+        "- a",
+        "-v",
+        "--",
+        "a: b",
+        "a #b",
+        "#b",
+        "{a: 1}",
+        "[1]",
+        "*a",
+        "&a",
+        "!x",
+        "%d",
+        "@x",
+        "`x`",
+        "|",
+        ">",
+    ),
+    *(
+        "'",
+        '"',
+        "it's",
+        'say "x"',
+        "\\",
+        "\\n",
+        "a\nb",
+        "\n",
+        "\t",
+        "a\tb",
+        "$HOME",
+        "$(x)",
+        "a;b",
+        "a!b",
+        "!!",
+    ),
+    *("ä", "日本", "🐢", "\x00", "\x7f", "\x85", "\u2028", "\ufeff", "a:=b", "__name:=x", ":=", "2020-13-45"),
+    *(
+        "---",
+        "...",
+        "=",
+        "<<",
+        ".inf",
+        ".nan",
+        ",",
+        "a, b",
+        "]",
+        "?",
+        "? a",
+        ":",
+        "a:",
+        ": a",
+        "trailing ",
+        " leading",
+    ),
+)
+FLOATS = (
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1.5,
+    1e20,
+    -1e-20,
+    1e-45,
+    16777217.0,
+    3.4028234663852886e38,
+    math.inf,
+    -math.inf,
+    math.nan,
+)
+
+
+def half(chance: random.Random, fields: int | None = None) -> str:
+    """Return the text of one half of a service type."""
+    count = chance.randrange(6) if fields is None else fields
+    return "".join(f"{type_name(chance)} f{index}\n" for index in range(count))
+
+
+def service(chance: random.Random) -> str:
+    """Return the text of a service type."""
+    return f"{half(chance)}---\n{half(chance)}"
+
+
+def type_name(chance: random.Random) -> str:
+    """Return the name of a random type; it may be an array of fixed or variable length."""
+    name = chance.choice(BUILTIN if chance.random() < 0.75 else MESSAGES)
+    # `Header` means std_msgs/Header only if it is not an array.
+    return (
+        name if name == "Header" else name + chance.choice(("", "", "", "[]", f"[{chance.randrange(1, 5)}]"))
+    )
+
+
+def values(chance: random.Random, message: MessageType) -> dict[str, object]:
+    """Return values of a message."""
+    return {field.name: value(chance, field) for field in message.fields}
+
+
+def value(chance: random.Random, field: Field) -> object:
+    """Return a random value of a field, often at the end of its range."""
+    if field.kind is Kind.ARRAY:
+        assert field.item is not None
+        count = chance.randrange(4) if field.length is None else field.length
+        return [value(chance, field.item) for _ in range(count)]
+    if field.fields or field.kind is Kind.MESSAGE:
+        return {part.name: value(chance, part) for part in field.fields}
+    if field.kind is Kind.INTEGER:
+        assert isinstance(field.low, int)
+        assert isinstance(field.high, int)
+        return chance.choice((field.low, field.high, 0, chance.randint(field.low, field.high)))
+    if field.kind is Kind.FLOAT:
+        return number(chance, field.type)
+    return chance.random() < 0.5 if field.kind is Kind.BOOL else text(chance)
+
+
+def number(chance: random.Random, type_name: str) -> float:
+    """Return a random float: any bit pattern, or a number that people type."""
+    width, code = (4, "<f") if type_name == "float32" else (8, "<d")
+    any_bits = struct.unpack(code, chance.randbytes(width))[0]
+    typed = round(chance.uniform(-1000, 1000), chance.randrange(5))
+    return chance.choice((any_bits, typed, chance.choice(FLOATS)))
+
+
+def text(chance: random.Random) -> str:
+    """Return a string, usually a difficult one."""
+    if chance.random() < 0.7:
+        return chance.choice(AWKWARD)
+    return "".join(chance.choices(AWKWARD, k=3))

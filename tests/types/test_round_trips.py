@@ -1,0 +1,99 @@
+"""Values do not change when they are converted to strings, messages, bytes and commands, and back."""
+
+from __future__ import annotations
+
+import ast
+import random
+import shlex
+from collections.abc import Iterator
+from io import BytesIO
+from typing import Any
+
+import genpy
+import pytest
+import rosservice
+
+from course_pkg.types import Plain, ServiceType, compile_service, rospy_line, rosservice_line
+from tests.types.random_values import service, values
+
+TYPES = 30
+VALUES = 5
+SEEDS = range(4)  # 120 types, and 5 values for each half of each type
+
+
+def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
+    """Yield random service types."""
+    chance = random.Random(seed)  # noqa: S311 - repeatable, not secret
+    for index in range(TYPES):
+        yield compile_service(f"course_pkg/Drawn{index}", service(chance)), chance
+
+
+def wire(message: genpy.Message) -> bytes:
+    """Return the bytes of a message."""
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def sent(message: genpy.Message) -> genpy.Message:
+    """Return the message from these bytes."""
+    return type(message)().deserialize(wire(message))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_text_and_wire_give_every_value_back(seed: int) -> None:
+    """A value does not change through parse(format(value)), nor through the bytes of a message."""
+    for kind, chance in drawn(seed):
+        for half in (kind.request, kind.response):
+            for _ in range(VALUES):
+                plain = half.check(values(chance, half))
+                assert repr(half.parse(half.format(plain))) == repr(plain)
+                assert repr(half.to_values(sent(half.to_message(plain)))) == repr(plain)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """If the line is split as in a shell and read by rosservice, it leads to the same request."""
+    for kind, chance in drawn(seed):
+        for _ in range(2):
+            plain = kind.request.check(values(chance, kind.request))
+            line = rosservice_line("/x", kind, plain)
+            arrived = kind.request.to_values(sent(read_by_rosservice(line, kind, monkeypatch)))
+            # The bytes may differ, because the NaN of YAML has another sign.
+            assert repr(arrived) == repr(plain), line
+
+
+def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyPatch) -> genpy.Message:
+    """Return the request that rosservice makes from a line, before it sends it."""
+    given: list[list[Plain]] = []
+
+    def catch(_name: str, arguments: list[Plain], **_options: object) -> None:
+        given.append(arguments)
+
+    monkeypatch.setattr(rosservice, "get_service_class_by_name", lambda _name: kind.cls)
+    monkeypatch.setattr(rosservice, "_rosservice_call", catch)
+    rosservice.rosservicemain(shlex.split(line))
+    request = kind.cls._request_class()
+    genpy.message.fill_message_args(request, given[0])
+    return request
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_python_lines_make_the_same_request(seed: int) -> None:
+    """Executed until the line with the call, the Python lines make the same request."""
+    for kind, chance in drawn(seed):
+        plain = kind.request.check(values(chance, kind.request))
+        lines = rospy_line("/x", kind, plain)
+        assert wire(request_of(lines)) == wire(kind.request.to_message(plain)), lines
+
+
+def request_of(lines: str) -> genpy.Message:
+    """Return the request in the call in the last of some Python lines; the other lines are executed."""
+    *before, last = ast.parse(lines).body
+    assert isinstance(last, ast.Assign)
+    assert isinstance(last.value, ast.Call)
+    arguments = ast.Expression(ast.Call(ast.Name("dict", ast.Load()), [], last.value.keywords))
+    names: dict[str, Any] = {}
+    exec(compile(ast.Module(before, []), "lines", "exec"), names)  # noqa: S102 - the test is whether they run
+    keywords = eval(compile(ast.fix_missing_locations(arguments), "call", "eval"), names)  # noqa: S307 - our code
+    return names["call"].request_class(**keywords)

@@ -1,0 +1,363 @@
+"""The messages of ROS's tools are explained, with the line and the next step.
+
+Each case is a package with one mistake, built by the real catkin_make; all share one workspace, so that CMake
+looks for the compilers once.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from course_pkg.workspace import Fault, explain
+from course_pkg.workspace.fault import dependencies, locate, manifest_tags
+from tests.workspace.packages import BOX, GOOD, LISTS, MANIFEST, build, shell, spoilt, write
+
+LIST_FILE = "my_services/CMakeLists.txt"
+FIND = "find_package(catkin REQUIRED COMPONENTS message_generation)\n"
+ADD = "add_service_files(FILES Box.srv)\n"
+GENERATE = "generate_messages()\n"
+PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
+C, S, X = "CMakeLists.txt", "srv/Box.srv", "package.xml"
+
+# The files, the expected place, and a part of the problem or the remedy.
+SLIPS = {
+    "message_generation missing": (
+        spoilt(C, (" COMPONENTS message_generation", "")),
+        f"{LIST_FILE}, line 6",
+        "message_generation defines it",
+    ),
+    "find_package too late": (
+        spoilt(C, (FIND, ""), (ADD, ADD + FIND)),
+        f"{LIST_FILE}, line 5",
+        "above this line",
+    ),
+    "generated before the files are listed": (
+        spoilt(C, (ADD, ""), (GENERATE, GENERATE + ADD)),
+        f"{LIST_FILE}, line 7",
+        "Move this line above generate_messages",
+    ),
+    "generated after catkin_package": (
+        spoilt(C, (GENERATE, ""), (PACKAGE, PACKAGE + GENERATE)),
+        f"{LIST_FILE}, line 9",
+        "Move generate_messages above catkin_package",
+    ),
+    "a program whose file is missing": (
+        spoilt(C, (PACKAGE, PACKAGE + "add_executable(box src/none.cpp)\n")),
+        f"{LIST_FILE}, line 10",
+        "There is no file src/none.cpp",
+    ),
+    "linked before add_executable": (
+        spoilt(C, (PACKAGE, PACKAGE + "target_link_libraries(box ros)\n")),
+        f"{LIST_FILE}, line 10",
+        "There is no program box above this line",
+    ),
+    "generated twice": (
+        spoilt(C, (GENERATE, GENERATE * 2)),
+        f"{LIST_FILE}, line 8",
+        "generate_messages is there twice",
+    ),
+    "no file listed": (spoilt(C, (ADD, "")), f"{LIST_FILE}, line 6", "Write add_service_files"),
+    "wrong file name": (
+        spoilt(C, ("Box.srv", "Bocks.srv")),
+        f"{LIST_FILE}, line 6",
+        "There is no file Bocks.srv",
+    ),
+    "wrong case in the file name": (
+        spoilt(C, ("Box.srv", "box.srv")),
+        f"{LIST_FILE}, line 6",
+        "upper and lower case",
+    ),
+    "the folder in the file name": (
+        spoilt(C, ("Box.srv", "srv/Box.srv")),
+        f"{LIST_FILE}, line 6",
+        "Do not write the folder srv",
+    ),
+    "FILES left out": (spoilt(C, ("FILES ", "")), f"{LIST_FILE}, line 6", "Write FILES"),
+    "messages for services": (
+        spoilt(C, ("add_service_files", "add_message_files")),
+        f"{LIST_FILE}, line 6",
+        "add_service_files",
+    ),
+    "a command misspelt": (
+        spoilt(C, ("generate_messages", "generate_message")),
+        f"{LIST_FILE}, line 7",
+        "Write generate_messages.",
+    ),
+    "a package misspelt": (
+        spoilt(C, ("message_generation", "message_generaton")),
+        f"{LIST_FILE}, line 4",
+        "asks for message_generaton",
+    ),
+    "a bracket missing": (
+        spoilt(C, (GENERATE, "generate_messages(\n")),
+        f"{LIST_FILE}, line 7",
+        "Write the missing )",
+    ),
+    "a bracket too many": (
+        spoilt(C, (GENERATE, "generate_messages())\n")),
+        f"{LIST_FILE}, line 7",
+        "in the place of a command",
+    ),
+    "still as in the template": (
+        {**GOOD, C: "...\n"},
+        f"{LIST_FILE}, line 1",
+        "there is ... in the place of a command",
+    ),
+    "no project": (
+        spoilt(C, ("project(my_services)\n", "")),
+        f"{LIST_FILE}, line 8",
+        "Write project(NAME)",
+    ),
+    "another name in project": (
+        spoilt(C, ("project(my_services)", "project(my_service)")),
+        f"{LIST_FILE}, line 9",
+        "package.xml has the name my_services, but CMakeLists.txt has my_service.",
+    ),
+    "needed to run, but not listed": (
+        spoilt(X, ("  <exec_depend>message_runtime</exec_depend>\n", "")),
+        f"{LIST_FILE}, line 9",
+        "<exec_depend>message_runtime</exec_depend>",
+    ),
+    "needed to build, but not listed": (
+        {
+            **spoilt(
+                C,
+                ("COMPONENTS message_generation", "COMPONENTS message_generation std_msgs"),
+                ("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS std_msgs"),
+            ),
+            X: MANIFEST.replace("message_runtime", "std_msgs"),
+        },
+        f"{LIST_FILE}, line 9",
+        "<build_depend>std_msgs</build_depend>",
+    ),
+    "catkin not listed": (
+        spoilt(X, ("  <buildtool_depend>catkin</buildtool_depend>\n", "")),
+        f"{LIST_FILE}, line 9",
+        "<buildtool_depend>catkin</buildtool_depend>",
+    ),
+    "another package's message": (
+        spoilt(S, ("float32 length", "std_msgs/Header header")),
+        f"{LIST_FILE}, line 7",
+        "generate_messages(DEPENDENCIES std_msgs)",
+    ),
+    "depends on a package that was not found": (
+        spoilt(C, ("generate_messages()", "generate_messages(DEPENDENCIES std_msgs)")),
+        f"{LIST_FILE}, line 7",
+        "Add std_msgs to the COMPONENTS",
+    ),
+    "no such type": (
+        spoilt(S, ("float32 length", "float length")),
+        "my_services/srv/Box.srv",
+        "float is not a built-in type of ROS",
+    ),
+    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - in the place of the"),
+    "two dashes": (spoilt(S, ("---", "--")), "", "Write --- and nothing else"),
+    "a tab": (spoilt(S, ("float32 length", "float32\tlength")), "", "one blank between"),
+    "a semicolon": (spoilt(S, ("length", "length;")), "", "length; is not a legal"),
+    "a name twice": (spoilt(S, ("width", "length")), "", "Duplicate field names"),
+    "a byte order mark in the .srv": ({**GOOD, S: "\ufeff" + BOX}, "", "is not a legal message field type"),
+    "a tag not closed": (spoilt(X, ("</name>", "")), "my_services/package.xml, line 12", "Close every"),
+    "a line above the XML": (
+        {**GOOD, X: "\n" + GOOD[X]},
+        "my_services/package.xml, line 2",
+        "in the first column of the first line",
+    ),
+    "a tag of format 1": (
+        spoilt(X, ("exec_depend", "run_depend")),
+        "my_services/package.xml",
+        "A package.xml of format 2 cannot have the tag run_depend",
+    ),
+    "no version": (
+        spoilt(X, ("  <version>0.1.0</version>\n", "")),
+        "my_services/package.xml",
+        "The tag version is missing",
+    ),
+    "named twice": (
+        spoilt(
+            X, ("<build_depend>message_gen", "<depend>message_runtime</depend>\n  <build_depend>message_gen")
+        ),
+        "my_services/package.xml",
+        "Keep only <depend>",
+    ),
+    "half a version": (spoilt(X, ("0.1.0", "0.1")), "my_services/package.xml", "as in this example: 0.1.0"),
+    "no maintainer": (
+        spoilt(X, ('  <maintainer email="me@example.com">Me</maintainer>\n', "")),
+        "my_services/package.xml",
+        "has no maintainer",
+    ),
+    "no address": (spoilt(X, (' email="me@example.com"', "")), "package.xml", "has no attribute email"),
+    "half an address": (spoilt(X, ("me@example.com", "me")), "my_services/package.xml", "a whole address"),
+    "a dash in the name": (
+        {**spoilt(X, ("my_services", "my-services")), C: LISTS.replace("my_services", "my-services")},
+        "package.xml",
+        "cannot be the name of a package",
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Create a workspace with a name so long that CMake breaks its messages in other places."""
+    return tmp_path_factory.mktemp("workspace-with-a-long-name")
+
+
+@pytest.mark.parametrize(("files", "place", "words"), SLIPS.values(), ids=SLIPS)
+def test_a_slip_is_named(workspace: Path, files: dict[str, str], place: str, words: str) -> None:
+    """The explanation contains the place, the problem and the remedy."""
+    write(workspace, files)
+    _, printed = build(workspace)
+    fault = explain(printed)
+    assert fault is not None, printed
+    assert fault.place == place
+    assert words in str(fault)
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        GOOD,
+        {name: text.replace("\n", "\r\n") for name, text in GOOD.items()},
+        {**GOOD, C: "\ufeff" + LISTS},
+        {**GOOD, C: LISTS.replace("cmake_minimum_required(VERSION 3.10)\n", "")},
+    ],
+    ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
+)
+def test_what_builds_is_not_found_fault_with(workspace: Path, files: dict[str, str]) -> None:
+    """A successful build with types has no fault."""
+    write(workspace, files)
+    status, printed = build(workspace)
+    assert (status, explain(printed)) == (0, None)
+    assert shell(workspace, "python3 -c 'from my_services.srv import Box'") == ""
+
+
+def test_another_python_is_recognised(tmp_path: Path) -> None:
+    """If a Python without ROS is first on PATH, the build folder remembers it."""
+    subprocess.run(["python3", "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
+    write(tmp_path, GOOD)
+    for path in (str(tmp_path / "other" / "bin"), ""):
+        fault = explain(build(tmp_path, path=path)[1])
+        assert fault is not None
+        assert "-DPYTHON_EXECUTABLE" in fault.remedy
+    assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
+
+
+# Output after the build; the second of each pair is in the remedy.
+SAID = {
+    "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
+    "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
+    "not sourced: rossrv": ("rossrv show my_services/Box", False, "Source devel/setup.bash"),
+    "wrong case": (
+        "python3 -c 'from my_services.srv import box'",
+        True,
+        "Upper and lower case are different",
+    ),
+    "no run bit": ("rosrun my_services plain.py", True, "chmod +x"),
+    "no shebang": ("rosrun my_services shell.py", True, "#!/usr/bin/env python3"),
+    "Windows line ends": ("rosrun my_services windows.py", True, "line ends of Linux"),
+    "roslaunch instead of rosrun": ("roslaunch course_pkg server", True, "with rosrun"),
+    "roslaunch of a script": ("roslaunch my_services plain.py", True, "with rosrun"),
+    "rosservice show": ("rosservice show /box", True, "rossrv show"),
+}
+
+
+@pytest.mark.parametrize(("line", "sourced", "words"), SAID.values(), ids=SAID)
+def test_what_the_other_tools_say_is_recognised(
+    workspace: Path, line: str, sourced: bool, words: str
+) -> None:
+    """The other mistakes between a definition and a running program are explained."""
+    scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
+    scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
+    write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})
+    for name in ("shell", "windows"):
+        (workspace / "src" / "my_services" / "scripts" / f"{name}.py").chmod(0o755)
+    if not (workspace / "devel" / "lib").exists():
+        build(workspace)
+    fault = explain(shell(workspace, line, sourced=sourced))
+    assert fault is not None
+    assert words in fault.remedy
+
+
+def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
+    """The shell runs ImageMagick's program `import` instead of Python's statement."""
+    fault = explain(
+        "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
+        "shell.py: line 2: syntax error near unexpected token `('"
+    )
+    assert fault is not None
+    assert "#!/usr/bin/env python3" in fault.remedy
+    alone = explain("import: unable to open X server `:0' @ error/import.c/ImportImageCommand/350.")
+    assert alone == fault
+
+
+def test_types_that_were_not_generated_are_told_from_a_package_that_is_not_there(tmp_path: Path) -> None:
+    """Without generate_messages, the build succeeds, but Python finds no types."""
+    write(tmp_path, spoilt(C, (GENERATE, f"# {GENERATE}")))
+    status, printed = build(tmp_path)
+    assert (status, explain(printed)) == (0, None)
+    fault = explain(shell(tmp_path, "python3 -c 'from my_services.srv import Box'"))
+    assert fault is not None
+    assert "generate_messages" in fault.remedy
+
+
+@pytest.mark.parametrize("text", ["", "all is well", "CMake Warning at a/CMakeLists.txt:1 (x):\n  Old.\n"])
+def test_what_is_no_fault_is_none(text: str) -> None:
+    """Unknown output gets no explanation."""
+    assert explain(text) is None
+
+
+def test_an_unknown_message_comes_back_in_its_own_words() -> None:
+    """The problem is one line with short paths; the place is the line of the student's package."""
+    fault = explain(
+        "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
+        "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"
+        "  a/CMakeLists.txt:9 (x)\n  CMakeLists.txt:68 (catkin_workspace)\n\n\n-- Configuring incomplete"
+    )
+    assert fault is not None
+    assert fault.place == "a/CMakeLists.txt, line 9"
+    assert fault.problem == "CMake reports: Something about a/b.txt is wrong."
+
+
+def test_tags_have_lines() -> None:
+    """Tags with attributes are found; tags in comments are not."""
+    text = '<?xml version="1.0"?>\n<package format="2">\n<!-- <name>old</name>\n-->\n  <name> mine </name>\n'
+    assert [(tag.name, tag.line, tag.text) for tag in manifest_tags(text)] == [
+        ("package", 2, ""),
+        ("name", 5, "mine"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "build", "run"),
+    [
+        (MANIFEST, {"message_generation"}, {"message_runtime"}),
+        ("<package><depend>a</depend><run_depend>b</run_depend></package>", {"a"}, {"a", "b"}),
+        ('<build_depend version_gte="1.0.0">a</build_depend>', {"a"}, set()),
+        ("", set(), set()),
+    ],
+)
+def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
+    """`depend` means both build and run; `run_depend` is its name in format 1."""
+    assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
+
+
+@pytest.mark.parametrize(
+    ("problem", "text", "line"),
+    [
+        ("The version 1.0 is not three numbers.", MANIFEST, 4),
+        ("package.xml has the name a, but CMakeLists.txt has b.", MANIFEST, 3),
+        ("A tag is not closed.", MANIFEST.replace("</license>", ""), 7),
+        ("Nobody knows.", MANIFEST, 0),
+    ],
+)
+def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
+    """The message of the build contains only the tag; its line is found in the text."""
+    assert locate(Fault(problem, "", "my_services/package.xml"), text).line == line
+
+
+def test_a_fault_of_another_file_stays_where_it_is() -> None:
+    """Only a package.xml has tags."""
+    fault = Fault("The version is old.", "", "my_services/CMakeLists.txt", 9)
+    assert locate(fault, MANIFEST) == fault
