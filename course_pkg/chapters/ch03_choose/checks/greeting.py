@@ -103,6 +103,10 @@ def _greets(
     greetings: str,
     numbers: list[int],
 ) -> None:
+    if numbers[2] > max(numbers[:2]):
+        # The last message of _told() is numbers[2]: a queue of one keeps it, and a node that remembers
+        # only the largest number leaves it out. Exactly one of the two hints fits then.
+        numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"
     context.run("begin", start, customers, greetings, hints=_NO_RETURN, worded=call).returned()
