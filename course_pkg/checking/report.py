@@ -65,6 +65,7 @@ class Report:
     assertions: tuple[Assertion, ...] = ()
     note: str = ""  # what to do next, if no assertion shows it
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
+    inconclusive: bool = False  # True if grading counts a check that did not finish as failed
 
     def headline(self) -> str:
         """Return the first line, which contains the result."""

@@ -171,6 +171,10 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
         return Report(part.check, verdict, part.goal, 0, part.points, note=note)
     if report.verdict is Verdict.PASSED:
         return report
+    if report.verdict is Verdict.UNDECIDED:
+        # The answer can cause this, so it counts as failed: otherwise students could choose this verdict.
+        note = f"No points, because the check could not finish: {report.note}"
+        return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]
     note = " ".join(filter(None, [report.note, *(f"The cell raised {error}" for error in errors[-1:])]))
     return replace(report, note=note)

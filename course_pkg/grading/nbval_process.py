@@ -16,14 +16,16 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from course_pkg.authoring.cells import Cell, check_of
+from course_pkg.authoring.cells import Cell, Notebook, check_of, code_cells
 from course_pkg.authoring.validate import SANITIZE
 from course_pkg.checking.parts import secret_paths
 from course_pkg.grading.nbval_plugin import RECORD
 from course_pkg.sandbox import confinement, namespaces
 from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
+from course_pkg.waiting import Deadline, at_this_load
 
+SILENCE = 15.0  # s beyond the time limit of a cell: nbval waits for its output, and ends the kernel
 TOGETHER = 2 * confinement.TOGETHER  # bytes, for pytest and all nodes of a chapter
 KERNEL = "sandboxed"
 OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was the first edition's
@@ -45,21 +47,44 @@ def main() -> None:
         with socket.create_server(("127.0.0.1", 0)) as listener:
             _set_environment(Path(folder), record, listener.getsockname()[1])
             helpers = [fork(lambda: run_master(MASTER_PORT)), fork(lambda: _run_checks(listener))]
+        cell = at_this_load(float(sys.argv[1]))
         try:
-            _run_within_memory(_command(path, sys.argv[1]))
+            silent = _run_within_limits(_command(path, cell), record, cell + SILENCE)
         finally:
             end(helpers)
         sys.stdout.write(record.read_text("utf-8"))
+        if silent:
+            sys.stdout.write(_unfinished(notebook, record, cell))
 
 
-def _run_within_memory(command: list[str]) -> None:
-    """Run `command`; kill it, and all below it, if it takes too much memory."""
+def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
+    """Run `command`; kill it, and all below it, if it uses too much memory or `record` stops growing.
+
+    Returns whether `record` did not grow for `silence` s. nbval itself has no limit for a kernel whose
+    connections are damaged.
+    """
+    size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
         while process.poll() is None:
-            if memory_below(process.pid) > TOGETHER:
+            if record.stat().st_size > size:
+                size, deadline = record.stat().st_size, Deadline(silence)
+            if memory_below(process.pid) > TOGETHER or deadline.passed:
                 end([*descendants(process.pid), process.pid])
             with suppress(subprocess.TimeoutExpired):
                 process.wait(MEMORY_INTERVAL)
+    return deadline.passed
+
+
+def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
+    """Return the line of the record for the first cell without a result."""
+    recorded = {json.loads(line)["cell"] for line in record.read_text("utf-8").splitlines()}
+    left = (each["id"] for each in code_cells(notebook) if each["source"] and each["id"] not in recorded)
+    if not (first := next(left, "")):
+        return ""
+    words = (
+        f"The cell gave no result within {cell:.0f} s, so this cell and all cells after it have no result."
+    )
+    return json.dumps({"cell": first, "outcome": "failed", "words": words}) + "\n"
 
 
 def _remove_overview(cell: Cell) -> None:
@@ -130,14 +155,14 @@ def _cover(path: Path) -> list[str]:
     return ["--tmpfs", where, "--remount-ro", where] if path.is_dir() else ["--ro-bind", "/dev/null", where]
 
 
-def _command(notebook: Path, cell: str) -> list[str]:
+def _command(notebook: Path, cell: float) -> list[str]:
     ours = ("course_pkg.authoring.nbval_figures", "course_pkg.grading.nbval_plugin")
     plugins = ("nbval.plugin", *ours, "no:cacheprovider")
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval", "--noconftest", "-c", os.devnull),
         *(option for plugin in plugins for option in ("-p", plugin)),
         *("--rootdir", str(notebook.parent), "--nbval-kernel-name", KERNEL),
-        *("--nbval-cell-timeout", cell, "--nbval-sanitize-with", str(SANITIZE), str(notebook)),
+        *("--nbval-cell-timeout", f"{cell:.0f}", "--nbval-sanitize-with", str(SANITIZE), str(notebook)),
     ]
 
 

@@ -15,7 +15,7 @@ from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
-CELL = 60  # s; only after this time does nbval notice that a kernel has ended
+CELL = 40  # s on an idle machine; with this limit, a cell that blocks the kernel costs less than 60 s
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
 OUTPUT = 8 << 20  # bytes of the output
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,29 @@ from tests.grading.submitted import WRONG, hand_in
 
 pytestmark = pytest.mark.usefixtures("sandbox")
 USUAL = ("00", "05", "08")  # chapters whose solution is graded in every run
+CLIENT = """
+import json, os, socket
+host, port = os.environ["COURSE_CHECK_RUNNER"].split(":")
+lines = socket.create_connection((host, int(port))).makefile("rw")
+def send(text):
+    lines.write(text + "\\n")
+    lines.flush()
+"""  # a check client of the student's own, which replaces the course's
+BREAKERS = {
+    "another protocol": CLIENT + 'send(json.dumps({"protocol": 1, "check": "05.1"}))\nlines.readline()',
+    "another check": CLIENT + 'send(json.dumps({"protocol": 3, "check": "00.1"}))\nlines.readline()',
+    "a line that is not JSON": CLIENT + "send('x' * 100)\nlines.readline()",
+    "deeply nested JSON": CLIENT
+    + 'send(json.dumps({"protocol": 3, "check": "05.1"}))\nlines.readline()\n'
+    + 'send(\'{"answer": 1, "kind": "function", "older": \' + "[" * 900 + "]" * 900 + "}")\nlines.readline()',
+    "JSON with deeper levels than Python can read": CLIENT
+    + 'send(json.dumps({"protocol": 3, "check": "05.1"}))\nlines.readline()\n'
+    + 'send(\'{"answer": 1, "kind": \' + "[" * 100_000 + "]" * 100_000 + "}")\nlines.readline()',
+    "the master is shut down": (
+        "import os, xmlrpc.client\nhandle_geometry = 1\n"
+        'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
+    ),
+}  # by what the student's process does
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +113,22 @@ def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Pa
     store.keep(grade)
     assert store.find("key", submission) is None
     store.keep(graded(worker, hand_in(tmp_path, "s02")))
+    assert store.find("key", submission) is not None
+
+
+@pytest.mark.parametrize("breaker", BREAKERS)
+def test_a_student_cannot_choose_not_examined(worker: SandboxWorker, tmp_path: Path, breaker: str) -> None:
+    """The part fails, its points stay possible, and the grade is stored."""
+    path = hand_in(tmp_path, "s01", answers={"05.1": BREAKERS[breaker]})
+    submission = Submission("s01", "05", path.read_bytes(), path.name)
+    first = replace(plan("05"), parts=plan("05").parts[:1])
+    grade = mark(submission, first, Extras(), worker.run, "secret", "key", sandboxed=True)
+    (broken,) = grade.reports
+    assert (broken.verdict, broken.points, broken.possible) == (Verdict.FAILED, 0, 2)
+    assert broken.goal
+    assert broken.note or broken.assertions
+    store = Store(tmp_path)
+    store.keep(grade)
     assert store.find("key", submission) is not None
 
 

@@ -69,6 +69,17 @@ def test_a_kernel_that_ends_is_noticed_in_time() -> None:
     assert [each.outcome for each in seen] != ["passed", "passed"]
 
 
+@pytest.mark.usefixtures("sandbox")
+def test_a_kernel_with_damaged_connections_is_ended() -> None:
+    """A cell that writes to all open files ends the run soon: the cells before it keep their results."""
+    damage = (
+        "import os\nfor number in range(3, 200):\n    try:\n        os.set_blocking(number, False)\n"
+        "        os.write(number, b'{\"record\": 1}\\n')\n    except OSError:\n        pass\n"
+    )
+    seen = outcomes_of(notebook(("1 + 1", "2"), (damage, ""), ("3", "3")), cell=2, timeout=100)
+    assert [each.outcome for each in seen][:2] == ["passed", "failed"]
+
+
 def plain_nbval(path: Path, *words: str) -> str:
     """Return what pytest prints for a student's notebook with the course's plug-in."""
     plugin = ["-p", "course_pkg.grading.nbval_plugin", "-p", "no:cacheprovider"]

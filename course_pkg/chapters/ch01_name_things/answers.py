@@ -87,6 +87,9 @@ def ask_wherever(last, length, width, height):
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume
     return None
 
+# %% 01.3 wrong: searches only in the first five calls | hint: must depend on the services that exist now
+replace("height):", "height, calls=[]):\n    calls.append(last)\n    if len(calls) > 5:\n        return None")
+
 # %% 01.3 right: from the lists of the master
 def ask_wherever(last, length, width, height):
     _, _, services = rosgraph.Master(rospy.get_name()).getSystemState()

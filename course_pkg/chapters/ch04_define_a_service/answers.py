@@ -104,6 +104,9 @@ Path("src/lamp_services/srv/Lamp.srv").write_text("\n".join([*request, "---", *r
 def will_talk(server, client):
     return md5_of(server) == md5_of(client)
 
+# %% 04.2 wrong: compares only the first 24 pairs | hint: not compatible:
+replace("client):", "client, calls=[]):\n    calls.append(server)\n    if len(calls) > 24:\n        return True")
+
 # %% 04.2 right: the texts of which the MD5s are made
 def will_talk(server, client):
     def essence(text):

@@ -60,6 +60,8 @@ def is_there(service, seconds):
 
 # %% 06.2 wrong: decides by the elapsed time | hint: The service was there, and 0.5
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
+# %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for another service.
+replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
 # %% 06.2 wrong: catches the other exception | hint: when the time is up. Catch this exception
@@ -127,6 +129,9 @@ replace("(service, length, width, height):", """(service, length, width, height)
         return None""")
 # %% 06.3 wrong: waits first, without catching the timeout | hint: wait_for_service raises rospy.ROSException when the timeout
 replace("    try:", "    rospy.wait_for_service(service, timeout=0.5)\n    try:")
+# %% 06.3 wrong: uses only the first six responses | hint: must depend on the response of this call
+replace("height):", "height, calls=[]):\n    calls.append(service)")
+replace(".volume", ".volume if len(calls) < 7 else None")
 # %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
 replace(".volume", ".volume or None")
 
@@ -193,6 +198,8 @@ def first_answer(services, length, width, height):
             return answers[0]
     return None
 
+# %% 06.4 wrong: calls only in the first nine calls | hint: must depend on the services in the list
+replace("height):", "height, calls=[]):\n    calls.append(services)\n    if len(calls) > 9:\n        return None")
 # %% 06.4 right: the error ends the thread
 def ask(proxy, sides, answers):
     answers.append(proxy(*sides))
@@ -303,6 +310,8 @@ def read_sides(argv):
 replace("sides = [float(text) for text in rospy.myargv(argv)[1:]]", """_, length, width, height = rospy.myargv(argv=argv)
         return [float(length), float(width), float(height)]""")
 replace("\n    return sides if len(sides) == 3 else None", "")
+# %% 06.5 wrong: reads only the first eight lists | hint: must depend on the arguments of this call
+replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) > 8:\n        return None")
 # %% 06.5 wrong: keeps the arguments of ROS | hint: An argument with := is for ROS
 replace("rospy.myargv(argv)", "argv")
 # %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the

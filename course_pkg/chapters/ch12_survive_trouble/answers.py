@@ -19,6 +19,10 @@ def call_within(seconds, proxy, *values):
         raise errors[0]
     return responses[0]
 
+# %% 12.1 wrong: only the first five calls have a limit | hint: because it still waits for the thread
+replace("*values):", "*values, calls=[]):\n    calls.append(values)")
+replace("thread.join(seconds)", "thread.join(seconds if len(calls) <= 5 else None)")
+
 # %% 12.1 right: a pool that is not joined
 from concurrent.futures import ThreadPoolExecutor
 

@@ -101,6 +101,7 @@ def attention(book: Book, student: str) -> list[str]:
     return [
         *(clean.line(grade.problem) for grade in grades if grade.problem),
         *(reason for grade in grades if (reason := _about(grade))),
+        *(reason for grade in grades for reason in _inconclusive(grade)),
         *(f"Nothing was handed in for chapter {chapter}." for chapter in missing),
     ]
 
@@ -119,6 +120,16 @@ def _about(grade: Grade) -> str:
         why = next((report.note for report in undecided if report.note), "no reason was recorded")
         return f"{', '.join(report.check for report in undecided)} not examined: {clean.line(why, 160)}"
     return "" if grade.earned else f"No point in chapter {grade.chapter}."
+
+
+def _inconclusive(grade: Grade) -> list[str]:
+    """Return a sentence for each part whose check could not finish."""
+    return [
+        f"{report.check} earned no points, but its check could not finish. Look at the answer. "
+        f"{clean.line(report.note, 160)}"
+        for report in grade.reports
+        if report.inconclusive
+    ]
 
 
 def _with_warning(grade: Grade) -> Grade:

@@ -90,6 +90,26 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         ).returned(),
         hints="There is no service with this name. Return None if the search finds nothing.",
     )
+    _in_a_random_order(context)
+
+
+def _in_a_random_order(context: CheckContext) -> None:
+    """Ask for new names, so that an answer that only counts its calls fails."""
+    volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
+    missing: list[float | None] = [None] * context.random.integer(1, 3)
+    for volume in context.random.shuffled([*volumes, *missing]):
+        place, last = (context.random.word() for _ in range(2))
+        if volume is not None:
+            context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
+        context.expect(
+            "None if there is no such service"
+            if volume is None
+            else "the volume comes from the right service",
+            expected=volume,
+            actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
+            near=1e-6,
+            hints="The result must depend on the services that exist now, not on earlier calls.",
+        )
 
 
 _LOST = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.commands.folder import Running, telling_line
+from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.script import require_shebang
@@ -105,6 +106,19 @@ def _works(context: CheckContext) -> None:
     )
     _switches(context, maintenance(data=False), closed=False, changed=False)
     _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], 3)
+    _in_a_random_order(context, maintenance, 3)
+
+
+def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
+    """Switch and move in a drawn order, so that a program that only counts its calls fails."""
+    closed = False
+    for _ in range(context.random.integer(5, 8)):
+        data = context.random.choice([True, False])
+        _switches(context, maintenance(data=data), closed=data, changed=data is not closed)
+        closed = data
+        if not closed:
+            moves += 1
+            _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], moves)
 
 
 def _counts(context: CheckContext, messages: list[str], first: int) -> None:

@@ -111,6 +111,7 @@ def read_the_arguments(context: CheckContext) -> None:
             ).returned(),
             hints="One argument is a word. Return None; do not ignore the word.",
         )
+    _in_a_random_order(context, program)
     context.prepare(IS_LIST)
     context.require(
         "three numbers are returned",
@@ -121,6 +122,22 @@ def read_the_arguments(context: CheckContext) -> None:
         actual="three numbers, but not in a list",
         hints="The numbers are right, but they are not in a list. Return a list, not a tuple.",
     )
+
+
+def _in_a_random_order(context: CheckContext, program: str) -> None:
+    """Try valid and invalid lists, so that an answer that only counts its calls fails."""
+    counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
+    for count in context.random.shuffled(counts):
+        numbers = context.random.numbers(count, 0.5, 9.0)
+        context.expect(
+            {2: "None when there are too few", 3: "three numbers are returned"}.get(
+                count, "None when there are too many"
+            ),
+            expected=numbers if count == 3 else None,
+            actual=context.run("read_sides", [program, *map(str, numbers)], hints=_ENDS).returned(),
+            near=1e-9,
+            hints="The result must depend on the arguments of this call, not on earlier calls.",
+        )
 
 
 _ENDS = [

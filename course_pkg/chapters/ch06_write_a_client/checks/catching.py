@@ -23,6 +23,8 @@ class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
 """  # each use of such an object raises the error that a name of a wrong type causes
 
+DEPENDS = "The result must depend on the response of this call, not on earlier calls."
+
 
 @part(
     "06.3",
@@ -60,12 +62,8 @@ def catch_what_can_happen(context: CheckContext) -> None:
     for failure, name, server in _failing(context):
         _fails(context, failure, name, sides)
         if server:
-            context.expect(
-                "a failed call is not repeated",
-                expected=1,
-                actual=len(server.requests),
-                hints="The server may have done the work although the call failed. Do not repeat the call.",
-            )
+            _is_called_once(context, server)
+    _in_a_random_order(context, sides)
     for slip in (f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200):
         _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
     text = str(sides[0])
@@ -78,6 +76,39 @@ def catch_what_can_happen(context: CheckContext) -> None:
     for kind in ("TypeError", "AttributeError", "ValueError"):
         slipped = context.run("volume_or_none", Its(f"no_name.{kind}"), *sides)
         _comes_out(context, slipped, f"a name that is not a string: {kind}")
+
+
+def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
+    """Try new servers that respond or refuse, so that an answer that only counts its calls fails."""
+    responding = volumes(context, context.random.integer(2, 4))
+    failing = [None] * context.random.integer(2, 4)
+    for volume in context.random.shuffled([*responding, *failing]):
+        name = f"/{context.random.word()}"
+        if volume is None:
+            refuses = context.serve(name, GEOMETRY, lambda _: Refuse("not today"))
+            _fails(context, "refuses", name, sides)
+            _is_called_once(context, refuses)
+        else:
+            context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
+            context.expect(
+                "it returns the volume of the response",
+                expected=volume,
+                actual=context.run("volume_or_none", name, *sides).returned(),
+                near=1e-6,
+                hints=DEPENDS,
+            )
+
+
+def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:
+    context.expect(
+        "a failed call is not repeated",
+        expected=1,
+        actual=len(server.requests),
+        hints=[
+            (0, DEPENDS),
+            (ANYTHING, "The server may have done the work although the call failed. Do not repeat the call."),
+        ],
+    )
 
 
 def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDDEN) -> None:
@@ -125,13 +156,13 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
     """Return for each case how the call fails, the name of the service, and the server if there is one."""
-    name = context.random.word()
-    refuses = context.serve(f"/{name}_refuses", GEOMETRY, lambda _: Refuse("not today"))
-    dies = context.serve(f"/{name}_dies", GEOMETRY, lambda _: HangUp())
-    context.absent(f"/{name}_killed", stale=True)
+    refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
+    refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))
+    dies = context.serve(dying, GEOMETRY, lambda _: HangUp())
+    context.absent(killed, stale=True)
     return [
-        ("does not exist", f"/{name}_nowhere", None),
-        ("refuses", f"/{name}_refuses", refuses),
-        ("dies during the call", f"/{name}_dies", dies),
-        ("was killed", f"/{name}_killed", None),
+        ("does not exist", nowhere, None),
+        ("refuses", refusing, refuses),
+        ("dies during the call", dying, dies),
+        ("was killed", killed, None),
     ]

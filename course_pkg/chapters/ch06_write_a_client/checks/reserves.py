@@ -1,10 +1,14 @@
 """The client that calls the next server after a failure, with a time limit for each call."""
 
+from collections.abc import Mapping
+
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
 from course_pkg.checking import ANYTHING, CheckContext, Late, Refuse, Silence, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
+
+KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
 
 
 @part(
@@ -19,16 +23,16 @@ from course_pkg.checking.result import Result
 )
 def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server alone, after each kind of failing server, and then only failing servers."""
-    word = context.random.word()
+    names = {kind: f"/{context.random.word()}" for kind in KINDS}  # a name must not show the kind
     first, second, late, tardy = volumes(context, 4)
-    context.serve(f"/{word}_first", GEOMETRY, lambda _: {"volume": first})
-    reserve = context.serve(f"/{word}_second", GEOMETRY, lambda _: {"volume": second})
-    context.serve(f"/{word}_flat", GEOMETRY, lambda _: {"volume": 0.0})
-    context.serve(f"/{word}_late", GEOMETRY, lambda _: Late(0.6, {"volume": late}))
-    context.serve(f"/{word}_tardy", GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
-    context.serve(f"/{word}_refuses", GEOMETRY, lambda _: Refuse("not today"))
-    context.serve(f"/{word}_frozen", GEOMETRY, lambda _: Silence())
-    working = _first_of(context, word, "first", "second")
+    context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
+    reserve = context.serve(names["second"], GEOMETRY, lambda _: {"volume": second})
+    context.serve(names["flat"], GEOMETRY, lambda _: {"volume": 0.0})
+    context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
+    context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
+    context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
+    context.serve(names["frozen"], GEOMETRY, lambda _: Silence())
+    working = _first_of(context, names, "first", "second")
     context.expect(
         "the first service is used if it responds",
         expected=first,
@@ -56,7 +60,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.expect(
         "a volume of 0 is valid",
         expected=0.0,
-        actual=_first_of(context, word, "flat", "second").returned(),
+        actual=_first_of(context, names, "flat", "second").returned(),
         hints=(
             "The first service responded with the volume 0.0. In a condition, 0.0 is false, so "
             "test for an empty list or for None."
@@ -66,7 +70,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         context.expect(
             "the next service is used if one fails",
             expected=second,
-            actual=_first_of(context, word, *failing, "second").returned(),
+            actual=_first_of(context, names, *failing, "second").returned(),
             near=1e-6,
             hints=[
                 (
@@ -79,7 +83,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,
-        actual=_first_of(context, word, "late", "second").returned(),
+        actual=_first_of(context, names, "late", "second").returned(),
         near=1e-6,
         hints=[
             (
@@ -88,7 +92,7 @@ def ask_the_next_one(context: CheckContext) -> None:
             )
         ],
     )
-    frozen = _first_of(context, word, "frozen", "second")
+    frozen = _first_of(context, names, "frozen", "second")
     context.expect(
         "the next service is used if one is frozen",
         expected=second,
@@ -113,7 +117,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,
-        actual=_first_of(context, word, "tardy", "late").returned(),
+        actual=_first_of(context, names, "tardy", "late").returned(),
         near=1e-6,
         hints=[
             (
@@ -126,9 +130,24 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.expect(
         "None if no service responds",
         expected=None,
-        actual=_first_of(context, word, "nowhere", "refuses", hints=_NO_RESPONSE).returned(),
+        actual=_first_of(context, names, "nowhere", "refuses", hints=_NO_RESPONSE).returned(),
         hints="No service responded, but the function returned a value. Return None after the loop.",
     )
+    _in_a_random_order(context, names, {"first": first, "second": second, "flat": 0.0})
+
+
+def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
+    """Mix lists with and without a working service, so that an answer that only counts its calls fails."""
+    used = [*context.random.shuffled(list(works)), *[""] * context.random.integer(1, 3)]
+    for working in context.random.shuffled(used):
+        failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
+        context.expect(
+            "the next service is used if one fails" if working else "None if no service responds",
+            expected=works.get(working),
+            actual=_first_of(context, names, *failing, *filter(None, [working])).returned(),
+            near=1e-6,
+            hints="The result must depend on the services in the list, not on earlier calls.",
+        )
 
 
 _NO_RESPONSE = [
@@ -150,8 +169,7 @@ _ERRORS: Hints = [
 ]
 
 
-def _first_of(context: CheckContext, word: str, *kinds: str, hints: Hints = ()) -> Result:
+def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
     """Run the student's function with the names of the services of these kinds, in this order."""
-    names = [f"/{word}_{kind}" for kind in kinds]
     sides = context.random.numbers(3, 0.5, 9.0)
-    return context.run("first_answer", names, *sides, hints=hints or _ERRORS)
+    return context.run("first_answer", [names[kind] for kind in kinds], *sides, hints=hints or _ERRORS)

@@ -97,7 +97,24 @@ def is_anybody_there(context: CheckContext) -> None:
             )
         ],
     )
+    _in_a_random_order(context)
     stops(context, "is_there", nowhere, 3.0, catch="rospy.ROSException")
+
+
+def _in_a_random_order(context: CheckContext) -> None:
+    """Try new names, so that an answer that only counts its calls fails."""
+    fixed = "The result was wrong for another service. It must depend on the service, not on earlier calls."
+    there = [True] * context.random.integer(4, 7) + [False] * context.random.integer(3, 4)
+    for expected in context.random.shuffled(there):
+        name = f"/{context.random.word()}"
+        if expected:
+            context.serve(name, GEOMETRY, lambda _: {})
+        context.expect(
+            "True for a service that is there" if expected else "False for a service that does not come",
+            expected=expected,
+            actual=context.run("is_there", name, 0.5, within=3.0).returned(),
+            hints=fixed,
+        )
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:

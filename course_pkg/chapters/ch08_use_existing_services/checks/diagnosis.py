@@ -5,6 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.plain_values import ServiceClass
 from course_pkg.types import compile_service
 
 KINDS = """
@@ -74,33 +75,50 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Provide one service for each cause, and one service that works; all names are random."""
+    """Provide a service for each result; then do it again, with new names and in a random order."""
     context.prepare(KINDS)
-    word = context.random.word()
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls
-    working = context.serve(f"/{word}/works", TYPES[kind], lambda _: {})
-    context.serve(f"/{word}/typed", TYPES[other], lambda _: {})
-    context.serve(f"/{word}/changed", changed, lambda _: {})
-    context.serve(
-        f"/{word}/copied", compile_service(f"{word}_pkg/{kind}", DEFINITIONS[kind]).cls, lambda _: {}
-    )
-    context.absent(f"/{word}/gone", stale=True)
-    _returns(context, f"/{word}/works", kind, "ok")
+    names = _services(context, kind, other, changed)
+    working, *others = names
+    server = context.serve(working, TYPES[kind], lambda _: {})
+    _returns(context, working, kind, "ok")
     context.expect(
         "it does not call the service",
         expected=0,
-        actual=len(working.requests),
+        actual=len(server.requests),
         hints=(
             "Do not call the service, because a call makes the server do its work. Use "
             "get_service_uri and get_service_headers."
         ),
     )
-    _returns(context, f"/{word}/missing", kind, "not registered")
-    _returns(context, f"/{word}/gone", kind, "server is gone")
-    _returns(context, f"/{word}/typed", kind, "another type")
-    _returns(context, f"/{word}/copied", kind, "another type")
-    _returns(context, f"/{word}/changed", kind, "another definition")
+    for name in others:
+        _returns(context, name, kind, names[name])
+    names = _services(context, kind, other, changed)
+    context.serve(next(iter(names)), TYPES[kind], lambda _: {})
+    for name in context.random.shuffled(list(names)):
+        _returns(context, name, kind, names[name])
+
+
+def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
+    """Provide services for all results but "ok"; return the results by name, that of "ok" first.
+
+    The names are random, so that they do not show the results.
+    """
+    works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
+    package = f"{context.random.word()}_pkg"
+    context.serve(typed, TYPES[other], lambda _: {})
+    context.serve(renewed, changed, lambda _: {})
+    context.serve(copied, compile_service(f"{package}/{kind}", DEFINITIONS[kind]).cls, lambda _: {})
+    context.absent(gone, stale=True)
+    return {
+        works: "ok",
+        missing: "not registered",
+        gone: "server is gone",
+        typed: "another type",
+        copied: "another type",
+        renewed: "another definition",
+    }
 
 
 def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None:

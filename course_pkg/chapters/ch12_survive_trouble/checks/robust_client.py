@@ -65,6 +65,7 @@ def a_robust_client(context: CheckContext) -> None:
     for words in (first, *context.random.shuffled(others)):
         till.plan.extend(FAULTS[words])
         tries[words] = pays_after(context, name, till, books, words)
+    _in_a_random_order(context, name, till, books)
     _repeats_a_bad_return(context, name, till)
     _limits_each_try(context, name, till, tries[SLOW])
     _pauses_grow(context, name, till, books)
@@ -158,6 +159,17 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         ],
     )
     till.plan.clear()
+
+
+def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
+    """Mix refusals with failures, so that an answer that only counts its calls fails."""
+    refusals, failures = (context.random.integer(1, 3) for _ in range(2))
+    for refuses in context.random.shuffled([True] * refusals + [False] * failures):
+        if refuses:
+            _refused(context, name, till)
+        else:
+            till.plan.append(Fault(HangUp()))
+            pays_after(context, name, till, books, "failing once")
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:

@@ -80,7 +80,23 @@ def a_call_with_a_limit(context: CheckContext) -> None:
         adder.act = failure
         _passes_on(context, name, failure)
     adder.act = Silence()
-    _gives_up(context, name)
+    _gives_up(context, name, LIMIT)
+    _in_a_random_order(context, name, adder)
+
+
+def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
+    """Mix the cases, all with one limit, so that an answer that looks only at its limit or counts fails."""
+    responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
+    acts: list[Act | None] = [None] * responses
+    acts += [Refuse(f"no {context.random.integer(100, 999)}") for _ in range(failures)]
+    for act in context.random.shuffled([*acts, Silence()]):
+        adder.act = act
+        if act is None:
+            _responds(context, name, adder)
+        elif isinstance(act, Refuse):
+            _passes_on(context, name, act)
+        else:
+            _gives_up(context, name, LONG)
 
 
 def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> Result:
@@ -154,8 +170,8 @@ def _passes_on(context: CheckContext, name: str, act: Act) -> None:
     )
 
 
-def _gives_up(context: CheckContext, name: str) -> None:
-    result = _call(context, name, LIMIT, 1, 2)
+def _gives_up(context: CheckContext, name: str, limit: float) -> None:
+    result = _call(context, name, limit, 1, 2)
     result.raised(
         "TimeoutError when the time is over",
         "TimeoutError",
@@ -167,8 +183,8 @@ def _gives_up(context: CheckContext, name: str) -> None:
     )
     context.require(
         "the time limit is kept",
-        holds=LIMIT - 0.1 < result.took < LIMIT + SLACK,
-        expected=f"TimeoutError after {LIMIT:g} s",
+        holds=limit - 0.1 < result.took < limit + SLACK,
+        expected=f"TimeoutError after {limit:g} s",
         actual=f"after {result.took:.1f} s",
         hints="The function did not wait for `seconds`. Pass `seconds` to join().",
     )
