@@ -238,7 +238,7 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
     ("cases", "stretch"),
     [
         ([("One", "a topci", "So.")], "case 1 expects 'a topci'"),
-        ([CASES[0], CASES[0]], "stands there twice"),
+        ([CASES[0], CASES[0]], "is given twice"),
         ([("One", "a topic")], r"Give \(case, answer, reason\)"),
     ],
 )

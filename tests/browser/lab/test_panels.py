@@ -125,7 +125,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()
         choices.get_by_role("button", name="Show the reasons").click()
-        said = "2 of 2 fit. 1 of 2 fitted the first time, and that is what counts."
+        said = "2 of 2 fit. 1 of 2 of your first choices fit, and only the first choices count."
         expect(choices.get_by_text(said)).to_be_visible()
         figure = lab_page.locator(".jp-RenderedSVG img")
         expect(figure).to_be_visible()
