@@ -169,7 +169,7 @@ def test_what_was_shown_is_played_without_a_kernel(
     expect(graph.locator(".ros-calls .ros-asked")).to_have_count(1)
     seek(graph, 3)
     expect(graph.locator(".ros-calls .ros-waits")).to_have_count(1)
-    expect(graph.locator(".ros-details")).to_contain_text("waits for an answer")
+    expect(graph.locator(".ros-details")).to_contain_text("waits for the response")
     picture(page, f"graph-panel-recorded-{theme}")
     handle.press("ArrowRight")
     expect(graph.get_by_text("3.1 of 8.0 s")).to_be_visible()

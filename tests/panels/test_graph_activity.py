@@ -73,7 +73,7 @@ def test_nobody_listens_and_nobody_speaks() -> None:
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /unheard"] == "no listener"
-    assert wall.now["details"]["topic /unheard"] == [["rate", "no listener, nothing is sent"]]
+    assert wall.now["details"]["topic /unheard"] == [["rate", "no subscriber, so nothing is sent"]]
     assert wall.now["notes"]["topic /unsaid"] == "no publisher"
 
 
@@ -108,7 +108,7 @@ def test_a_publisher_that_does_not_tell() -> None:
     wall = Wall()
     wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
     assert wall.now["notes"]["topic /chatter"] == "not counted"
-    assert wall.now["details"]["topic /chatter"][0][1] == "its publisher does not tell what it sends"
+    assert wall.now["details"]["topic /chatter"][0][1] == "the publisher does not report its message counts"
 
 
 def test_several_publishers_add_up_and_several_listeners_do_not() -> None:

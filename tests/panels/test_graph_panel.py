@@ -179,7 +179,7 @@ def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_
 
 
 @pytest.mark.parametrize(
-    ("script", "stretch"), [("exec sleep 60", "took over"), ("echo bad >&2; exit 3", "failed")]
+    ("script", "stretch"), [("exec sleep 60", "took longer"), ("echo bad >&2; exit 3", "failed")]
 )
 def test_graphviz_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str

@@ -68,7 +68,7 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 
 @pytest.mark.parametrize(
     ("predicted", "actual", "stretch"),
-    [("2.50", 2.5, "so it was"), ("Two", "two", "so it was"), ("3", 2, "otherwise")],
+    [("2.50", 2.5, "that happened"), ("Two", "two", "that happened"), ("3", 2, "something else happened")],
 )
 def test_numbers_and_texts_are_compared_by_what_they_say(
     model: PredictionModel, predicted: str, actual: object, stretch: str
@@ -254,7 +254,7 @@ def test_a_broken_file_of_choices_says_which_and_what_to_do(choice_store: Choice
     """A file of another program is not changed, and the error names it."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
-    with pytest.raises(InvalidPredictions, match=r"choices\.json does not hold choices.*Move the file away"):
+    with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move the file"):
         choice_store.read()
 
 
