@@ -55,7 +55,7 @@ def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: s
     page.set_viewport_size({"width": 390, "height": 1200})
     page.goto(save(widget, tmp_path / "page.html", theme))
     form = panel(page)
-    expect(form.get_by_text("The answers here were recorded from a real server")).to_be_visible()
+    expect(form.get_by_text("The responses here were recorded from a real server")).to_be_visible()
     for name, text in {"length": "1", "width": "2.00", "height": "3e0"}.items():
         form.get_by_label(name).fill(text)
     form.get_by_role("button", name="Call").click()
@@ -147,11 +147,11 @@ def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> 
     readout = drawn.get_by_role("status").last
     expect(readout).to_have_text("Point at the plot, or use the arrow keys, to read its values.")
     expect(drawn.get_by_role("img")).to_have_attribute(
-        "aria-label", "a line of 4 points, data against time since the panel listens (s)"
+        "aria-label", "a line of 4 points, data against time since the subscription began (s)"
     )
     expect(drawn.get_by_text("1 of 4 values are left out")).to_be_visible()
     canvas.focus()
-    since = "time since the panel listens"
+    since = "time since the subscription began"
     for key, text in {
         "ArrowRight": f"{since} 0 s, data 12",
         "End": f"{since} 3 s, data 2.25",

@@ -146,7 +146,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     harness.model.start(GOOD, "5")
-    with pytest.raises(CallInProgress, match="getGeometry is being called already"):
+    with pytest.raises(CallInProgress, match="A call of /getGeometry is running"):
         harness.model.call("5")
     harness.caller.release.set()
     harness.ended()

@@ -63,7 +63,7 @@ def test_what_is_no_name_is_refused(name: str) -> None:
 def test_a_topic_without_a_type_waits_for_one() -> None:
     """The panel uses the type of the publisher, not the type that a subscriber has registered."""
     process = FakeProcess(None)
-    assert "Nobody publishes /speed yet" in process.state["about"]["problem"]
+    assert "No node publishes /speed yet" in process.state["about"]["problem"]
     process.model.see({**EMPTY, "subscribers": [{"node": "/listener", "type": "*"}]})
     assert "message" not in process.state["about"]
     talker = {"node": "/talker", "type": "std_msgs/String"}
@@ -211,7 +211,7 @@ PUBLISHER: PublisherReport = {
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"published": 0}, "Nothing is published yet. The first message makes the publisher."),
+        ({"published": 0}, "Nothing is published yet. The first message creates the publisher."),
         ({}, "Message 3 went to this panel and /listener."),
         ({"reached": 1}, "Message 3 went to 1 subscriber."),
         (
@@ -220,14 +220,14 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
-            "Message 3 went to nobody yet. Latched, it is kept for the next subscriber that connects.",
+            "Message 3 went to nobody yet. It is latched, so the next subscriber gets it.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
             "Message 3 was kept, and went to this panel as soon as it was connected.",
         ),
-        ({"advertised": False}, "The publisher is withdrawn. The next message makes a new one."),
-        ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz, really 9.987 Hz."),
+        ({"advertised": False}, "The publisher is withdrawn. The next message creates a new one."),
+        ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),
         (
             {"rate": 10.0, "statistics": {}, "skipped": 2},
             "Publishing at 10 Hz. 2 messages had to be left out.",
@@ -253,7 +253,7 @@ def test_types_that_differ_are_said_for_each_node() -> None:
     assert [words.split()[0] for words in said] == ["/talker", "/listener"]
     assert f"std_msgs/String (MD5 {STRING.md5[:8]}…)" in said[0]
     assert f"std_msgs/Float64 (MD5 {FLOAT.md5[:8]}…)" in said[0]
-    assert "is not told" in said[1]
+    assert "and no error" in said[1]
 
 
 @pytest.mark.parametrize(

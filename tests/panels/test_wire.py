@@ -262,10 +262,10 @@ def test_failures_are_told_apart() -> None:
     )
     assert titles(connection(GREETED))[-1] == "The client gives up"
     assert titles(RelayedConnection(10.0, refused="Connection refused")) == [
-        "Nobody takes the connection at localhost:1"
+        "No process accepts the connection at localhost:1"
     ]
     probe = (True, header(probe="1", md5sum="*", callerid="/me", service="/x"))
-    assert "Connection header of the client, which only asks" in titles(connection(probe, WELCOME))
+    assert "Connection header of the client, which only probes" in titles(connection(probe, WELCOME))
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:

@@ -155,7 +155,7 @@ def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
     ):
         form = panel(lab_page)
         form.get_by_role("button", name="Call").click()
-        expect(form.get_by_label("The error as ROS words it")).to_contain_text("unavailable")
+        expect(form.get_by_label("The error message of ROS")).to_contain_text("unavailable")
         for label in ("Graph panel", "Service panel"):
             assert panel(lab_page, label).evaluate(FAINT) == []
         picture(form, "service-panel-error")

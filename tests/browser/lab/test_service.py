@@ -138,7 +138,7 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
     fill(form, length="-1")
     form.get_by_label("Wait at most").fill("0.3")
     form.get_by_role("button", name="Call").click()
-    words = form.get_by_label("The error as ROS words it")
+    words = form.get_by_label("The error message of ROS")
     expect(words).to_contain_text("CallTimeout: service [/getGeometry]: no answer within 0.3 s")
     expect(form.get_by_text("Find out what the handler waits for")).to_be_visible()
     picture(form, "service-panel-timeout")

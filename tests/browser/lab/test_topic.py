@@ -36,7 +36,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Message 1 went to nobody: no subscriber was connected")).to_be_visible()
         expect(topic.locator(".ros-deliveries")).to_contain_text("this panel")
-        expect(topic.get_by_text("Nothing heard yet.").first).to_be_visible()
+        expect(topic.get_by_text("Nothing received yet.").first).to_be_visible()
         topic.get_by_label("data").fill("-2.5")
         lab_page.keyboard.press("Enter")
         expect(topic.get_by_text("Message 2 went to this panel.")).to_be_visible()
@@ -65,7 +65,7 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
         topic = listening(lab_page)
         topic.get_by_label("Rate", exact=True).fill("50")
         topic.get_by_role("button", name="Publish at a rate").click()
-        expect(topic.get_by_text(re.compile(r"Publishing at 50 Hz, really [45]\d"))).to_be_visible()
+        expect(topic.get_by_text(re.compile(r"Publishing at 50 Hz \(measured: [45]\d"))).to_be_visible()
         expect(topic.locator(".ros-figures")).to_contain_text(re.compile(r"at [45]\d\.\d Hz"))
         expect(topic.locator("polyline")).to_be_attached()
         picture(topic, "topic-panel-rate")
@@ -148,7 +148,7 @@ threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float
 """
     with running_notebook(lab_page, lab, "later", JOIN, 'TopicPanel("/later")', later):
         topic = panel(lab_page, "Topic panel")
-        expect(topic.get_by_text("Nobody publishes /later yet")).to_be_visible()
+        expect(topic.get_by_text("No node publishes /later yet")).to_be_visible()
         expect(topic.get_by_label("data")).to_be_visible()
         expect(topic.locator(".ros-about")).to_contain_text("std_msgs/Float64")
 

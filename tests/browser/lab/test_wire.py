@@ -100,7 +100,7 @@ def test_a_failure_says_where_it_came_from(page: Page, tmp_path: Path) -> None:
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
     """A call that no server accepts is described; of a long field, the beginning and the length are shown."""
     wire = show(page, tmp_path, WireView("/nobody"))
-    expect(wire.locator("[aria-current]")).to_contain_text("Nobody serves it")
+    expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
     expect(wire.get_by_text("unavailable")).to_be_visible()
     headers = {"long": "x" * 3000}
     wire = show(page, tmp_path, WireView("/getGeometry", None, headers, **SIDES))
