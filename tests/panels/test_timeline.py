@@ -136,7 +136,7 @@ def test_the_state_is_bounded() -> None:
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
     assert len(kinds) == MOST
     assert kinds.count("wait") == 1
-    said = "Drawn are 4,000 events: 6,006 messages and callbacks from 1.998 s on are left out."
+    said = "4,000 events are drawn: 6,006 messages and callbacks from 1.998 s on are left out."
     assert kept["notes"] == [said]
     assert len(json.dumps(kept)) < 400_000
     assert kept["waits"]["streams"][0]["published"] == 5000
@@ -147,7 +147,7 @@ def test_too_many_calls() -> None:
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
-    assert kept["notes"] == ["Drawn are 4,000 events: 2,000 events from 666.4 s on are left out."]
+    assert kept["notes"] == ["4,000 events are drawn: 2,000 events from 666.4 s on are left out."]
 
 
 def test_nothing_recorded() -> None:
@@ -194,7 +194,7 @@ def test_in_plain_sentences() -> None:
     late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
     found = recording(late, lookup, error, *call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator"))
     assert timeline_text(found).splitlines() == [
-        "/customer called /nope, and reached nobody.",
+        "/customer called /nope, and reached no server.",
         "/customer called /x and waited for /cashier.",
         "/late called /x and waited for /cashier, to the end of the recording.",
         "/robot published /joints and waited for nobody; /simulator heard it.",
@@ -211,7 +211,7 @@ def test_messages_that_nobody_heard() -> None:
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1
 
 
-@pytest.mark.parametrize(("failed", "words"), [(1, "in vain"), (2, "at times in vain")])
+@pytest.mark.parametrize(("failed", "words"), [(1, "and each call failed"), (2, "and some calls failed")])
 def test_failures_in_plain_sentences(failed: int, words: str) -> None:
     """The text counts failed calls: all of them, or some of several."""
     error = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
