@@ -1,4 +1,4 @@
-"""What a timeline draws of a recording, and its description as text."""
+"""The data of a timeline, and its description as text."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return the arrows by the kinds of their ends."""
+    """Return each arrow as the kinds of its two events."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If only one side of a call or message was recorded, there is no arrow."""
+    """If only one end of a call or message was recorded, there is no arrow."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -67,7 +67,7 @@ def test_what_was_not_recorded_is_not_drawn() -> None:
         assert drawn(recording(*events)) == []
 
 
-def test_no_answer_reaches_who_gave_up() -> None:
+def test_a_call_that_timed_out_has_no_response() -> None:
     """A call that timed out has no answer, even if the handler ended later; a refusal is an answer."""
     *asked, handler, _ = call()
     gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
@@ -77,7 +77,7 @@ def test_no_answer_reaches_who_gave_up() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """A call that has not ended has no answer; a wait that began earlier shows where its request went."""
+    """A call that has not ended has no response; its only arrow leads from the wait to the handler."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -202,8 +202,8 @@ def test_in_plain_sentences() -> None:
     assert timeline_text(Recording()) == "Nothing was recorded."
 
 
-def test_messages_that_nobody_heard() -> None:
-    """If it was recorded that no subscriber was connected, the text contains it; otherwise it does not."""
+def test_messages_without_a_subscriber() -> None:
+    """The text says that no subscriber was connected, but only if this was recorded."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
     lost = replace(sent, note="nobody was connected")
