@@ -184,9 +184,7 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
     expect(shape(graph, "node /node_15")).not_to_be_attached()
 
 
-def test_a_recording_does_not_play_out_of_sight(
-    widget: GraphPanel, page: Page, tmp_path: Path
-) -> None:
+def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """A recording out of sight is paused; with reduced motion it shows one picture per second."""
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))

@@ -116,9 +116,7 @@ def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
     assert sorted(path.name for path in store.path.parent.iterdir()) == [".lock", "predictions.json"]
 
 
-def test_predictions_are_in_the_state_folder(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The store is in the course's state folder by default."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     assert PredictionStore().path == tmp_path / "predictions-2.json"
