@@ -65,8 +65,8 @@ export function numeral(value, digits = 4) {
   return String(size >= 10 ** digits ? Math.round(value) : Number(value.toPrecision(digits)));
 }
 
-/** Returns a number with an exponent, such as "2.5e-7". @param {number} value @param {number} decimals @returns
- * {string} */
+/** Returns a number with an exponent, such as "2.5e-7".
+ * @param {number} value @param {number} decimals @returns {string} */
 export function power(value, decimals) {
   return value === 0 ? "0" : value.toExponential(decimals).replace(/\.?0*e\+?/, "e");
 }

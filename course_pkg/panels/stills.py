@@ -26,7 +26,7 @@ from course_pkg.panels.wire.still import still as wire
 
 
 class Still(NamedTuple):
-    """The function that draws a panel's picture. `measured` means that it shows times that differ per run."""
+    """The function that draws a panel's picture. `measured` means that the picture shows measured times."""
 
     draw: Callable[[State], str]
     measured: bool = False

@@ -193,7 +193,7 @@ class LabView {
   }
 
   /** Sends the message of a button, unless the button is disabled. @param {HTMLElement} button @param {object} content
-   * */
+   */
   #ask(button, content) {
     if (button.hasAttribute("aria-disabled") || !send(this.model, content)) return;
     clearTimeout(this.slow);

@@ -1,4 +1,4 @@
-"""The state of the lab, without a page or a kernel: the caller provides what causes faults and uses tools."""
+"""The state of the lab. It needs no page and no kernel: `stage` and `use` are functions of its caller."""
 
 from __future__ import annotations
 

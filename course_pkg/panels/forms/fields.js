@@ -6,7 +6,7 @@ import { afterPress, freshId, h, same, say, setAttribute } from "../kit.js";
 /** @typedef {{input: HTMLInputElement, note: HTMLElement, help: string, touched: boolean, error: string}} Control */
 
 /** The form for one message. `edited` is called after every keystroke. `empty` is the text for a type without fields.
- * */
+ */
 export class FieldsForm {
   /** @param {() => void} edited @param {string} empty */
   constructor(edited, empty) {
@@ -21,8 +21,8 @@ export class FieldsForm {
     this.fields = [];
   }
 
-  /** Builds all controls again. @param {Field[]} fields @param {{name: string, value: any}[]} constants @param {any}
-   * draft */
+  /** Builds all controls again.
+   * @param {Field[]} fields @param {{name: string, value: any}[]} constants @param {any} draft */
   show(fields, constants, draft) {
     this.fields = fields;
     this.constants = constants;
@@ -212,8 +212,8 @@ function put(tree, path, value) {
   steps.reduce((branch, key) => branch[key], tree)[last] = value;
 }
 
-/** Returns the tree with empty texts. Drafts with the same result need the same controls. @param {any} tree @returns
- * {any} */
+/** Returns the tree with empty texts. Drafts with the same result need the same controls.
+ * @param {any} tree @returns {any} */
 function shape(tree) {
   if (Array.isArray(tree)) return tree.map(shape);
   if (tree && typeof tree === "object") return Object.fromEntries(Object.entries(tree).map(([key, value]) => [key, shape(value)]));

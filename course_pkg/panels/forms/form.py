@@ -9,7 +9,7 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-CONTROLS = 16  # an array with more elements is edited as one line of text, without a control for each
+CONTROLS = 16  # an array with more elements is edited as one line of text
 LIMIT = 200  # rows of a table
 ELEMENTS = 32  # elements of an array that a table shows
 _NANO = 10**9

@@ -9,8 +9,8 @@ export function command(label, pre, what) {
 
 /** @typedef {{depth: number, name: string, type: string, text: string}} Row */
 
-/** Returns a message as a table, or the text `empty` if the message has no fields. @param {Row[]} rows @param {string}
- * empty */
+/** Returns a message as a table, or the text `empty` if the message has no fields.
+ * @param {Row[]} rows @param {string} empty */
 export function valueTable(rows, empty) {
   if (!rows.length) return h("p", { class: "ros-muted", text: empty });
   return h("table", { class: "ros-values" }, h("tbody", {}, ...rows.map((row) => h("tr", {},

@@ -206,7 +206,7 @@ class GraphActivity:
         return note, _shortened(details, "connections")
 
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
-        """Return the rate of a topic: for each publisher, its fastest connection counts."""
+        """Return the rate of a topic: the sum of the rates of each publisher's fastest connection."""
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):
             return "not counted"

@@ -60,9 +60,9 @@ export class Canvas {
     this.el.firstElementChild?.classList.toggle("ros-some-chosen", some);
   }
 
-  /** @param {import("./sentences.js").Activity} activity @param {number | null} [clock] the time of the activity in s
-   * since
-   * the epoch; without it, the activity is the present one, and its lines fade */
+  /** @param {import("./sentences.js").Activity} activity
+   * @param {number | null} [clock] the time of the activity in s since the epoch; without it, the activity is the
+   * present one, and its lines fade */
   happen(activity, clock = null) {
     this.activity = activity;
     this.clock = clock;

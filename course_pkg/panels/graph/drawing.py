@@ -1,4 +1,4 @@
-"""Draws a layout as SVG, in a pure function. The colours are in a style sheet, which only a file contains."""
+"""Draws a layout as SVG, in a pure function. The colours come from a style sheet, not from the drawing."""
 
 from __future__ import annotations
 

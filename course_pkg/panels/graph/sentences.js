@@ -6,9 +6,10 @@ import { h } from "../kit.js";
 /** @typedef {{notes?: Record<string, string>, details?: Record<string, [string, string][]>,
  *   callers?: Record<string, Caller[]>, calls?: {tail: string, head: string, last: number, running: number}[]}} Activity */
 
-/** Returns each fact of a shape, and its activity. @param {Fact} fact @param {Activity} activity
- * @param {number | null} now in s since the epoch, for texts such as "5 s ago"; null for the time of day @returns
- * {HTMLElement[]} */
+/** Returns each fact of a shape, and its activity.
+ * @param {Fact} fact @param {Activity} activity
+ * @param {number | null} now in s since the epoch, for texts such as "5 s ago"; null for the time of day
+ * @returns {HTMLElement[]} */
 export function pairs(fact, activity, now) {
   const lost = fact.lost && fact.kind !== "namespace" ? [["state", "does not answer"]] : [];
   const told = [...lost, ...fact.facts.filter(([label]) => label !== "address"), ...(activity.details?.[fact.key] ?? [])];

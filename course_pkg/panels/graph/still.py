@@ -35,7 +35,7 @@ def still(state: State) -> str:
     wide, high = (float(root.get(side, "0")) for side in ("width", "height"))
     paper = Paper(f"The ROS graph: {counts}", max(WIDTH, wide + 2 * EDGES))
     scale = 1.0
-    if wide + 2 * EDGES > 2 * WIDTH:  # on a page, the letters of a wider picture would be too small to read
+    if wide + 2 * EDGES > 2 * WIDTH:  # the letters of a wider picture would be too small to read
         scale = (2 * WIDTH - 2 * EDGES) / wide
         paper.width = 2 * WIDTH
     if trouble:

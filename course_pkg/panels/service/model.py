@@ -1,4 +1,4 @@
-"""The state of a service panel, without a page, a kernel or ROS: `connect` returns what calls a service."""
+"""The state of a service panel. It needs no page, no kernel and no ROS: `connect` returns a Caller."""
 
 from __future__ import annotations
 

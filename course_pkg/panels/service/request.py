@@ -21,7 +21,7 @@ Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 
 
 class FormState(TypedDict, total=False):
-    """The selected service, its node and type, and the problem if there is no form ("" if there is one)."""
+    """The selected service, its node and type. `problem` says why there is no form ("" if there is one)."""
 
     service: str
     node: str
@@ -89,7 +89,7 @@ class RequestForm(MessageForm):
 
 
 def seconds(text: str) -> float:
-    """Return the typed deadline in s. Raises FieldError if it is no number or out of range."""
+    """Return the typed deadline in s. Raises FieldError if it is not a number or out of range."""
     try:
         value = float(text)
     except ValueError:

@@ -223,7 +223,7 @@ class ServiceView {
   /** @param {KeyboardEvent} event */
   #key(event) {
     if (event.key === "Escape") this.#cancel();
-    // JupyterLab prevents that the Enter key submits a form, so this code does it.
+    // JupyterLab stops the Enter key from submitting a form, so this code does it.
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();
     this.#call();

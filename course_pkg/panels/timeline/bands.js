@@ -6,10 +6,9 @@ const CLOSE = 3; // px; events that are narrower and closer are not drawn one by
 const MANY = 5; // calls or messages that make a band
 const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 
-/** Returns the bands of the events in view. Events of the chosen exchange are not put into bands. @param
- * {import("./scene.js").Scene} scene
- * @param {(time: number) => number} x the position of a time @param {number} width px @param {number} chosen the key of the chosen exchange, or -1
- * @returns {Band[]} */
+/** Returns the bands of the events in view. Events of the chosen exchange are not put into bands.
+ * @param {import("./scene.js").Scene} scene @param {(time: number) => number} x the position of a time
+ * @param {number} width px @param {number} chosen the key of the chosen exchange, or -1 @returns {Band[]} */
 export function bandsOf(scene, x, width, chosen) {
   /** @type {Map<string, Band>} */
   const open = new Map();

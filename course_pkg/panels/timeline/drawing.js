@@ -182,8 +182,8 @@ export class Drawing {
     if (chosen >= 0) this.#outline(pen, chosen);
   }
 
-  /** Draws events that are too small and too close as bands with a number; returns these events. @param
-   * {CanvasRenderingContext2D} pen */
+  /** Draws events that are too small and too close as bands with a number; returns these events.
+   * @param {CanvasRenderingContext2D} pen */
   #drawBands(pen) {
     const bands = bandsOf(this.scene, (time) => this.x(time), this.width, this.key);
     pen.textAlign = "center";
@@ -257,9 +257,9 @@ export class Drawing {
     this.#drawWord(pen, each, kind, left, wide, y, high);
   }
 
-  /** Writes a text into a bar, on a plain background if the bar is hatched, and nothing if there is no room. @param
-   * {CanvasRenderingContext2D} pen
-   * @param {number} each @param {string} kind @param {number} left @param {number} wide @param {number} y @param {number} high */
+  /** Writes a text into a bar, on a plain background if the bar is hatched, and nothing if there is no room.
+   * @param {CanvasRenderingContext2D} pen @param {number} each @param {string} kind @param {number} left
+   * @param {number} wide @param {number} y @param {number} high */
   #drawWord(pen, each, kind, left, wide, y, high) {
     if (wide < 30 || high < 11) return;
     const open = this.scene.open[each];

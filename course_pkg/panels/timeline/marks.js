@@ -11,7 +11,7 @@ export function head(pen, x1, y1, x2, y2) {
 
 /** Draws a bar with a jagged right end, which means that the event had not ended.
  * @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} wide @param {number} high
- * */
+ */
 export function torn(pen, x, y, wide, high) {
   const teeth = Math.max(2, Math.round(high / 6));
   pen.moveTo(x, y);

@@ -44,7 +44,7 @@ class Lane(TypedDict):
 
 
 class Columns(TypedDict):
-    """The events, one list for each property; `name` to `note` are numbers of `strings`."""
+    """The events, one list for each property; `name` to `note` are indices of `strings`."""
 
     kind: list[int]
     lane: list[int]
@@ -141,7 +141,7 @@ class _Thread:
 
 
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
-    """Return the row of each event on its node, and the number of its thread's events that contain it.
+    """Return each event's row on its node, and its depth: how many events of its thread contain it.
 
     A thread stays on one row. Several threads can use a row, one after another.
     """

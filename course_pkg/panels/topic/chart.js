@@ -88,8 +88,8 @@ export class Chart {
     this.#read(this.#nearest((event.clientX - frame.left) * scale, (event.clientY - frame.top) * scale));
   }
 
-  /** Returns the nearest point; the vertical distance counts less than the horizontal one. @param {number} x @param
-   * {number} y */
+  /** Returns the nearest point; the vertical distance counts less than the horizontal one.
+   * @param {number} x @param {number} y */
   #nearest(x, y) {
     const far = this.data.points.map((/** @type {Point} */ point) => {
       const [left, top] = this.toPage(point);
@@ -131,8 +131,8 @@ export class Chart {
   }
 }
 
-/** Makes an SVG element; `text` sets its text. @param {string} tag @param {Record<string, any>} [props] @param
- * {...Node} children */
+/** Makes an SVG element; `text` sets its text.
+ * @param {string} tag @param {Record<string, any>} [props] @param {...Node} children */
 function s(tag, props = {}, ...children) {
   const element = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
   for (const [key, value] of Object.entries(props)) {
@@ -154,8 +154,8 @@ function extent(values) {
   return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 }
 
-/** Returns the horizontal axis with as many ticks as there is room for. @param {[number, number]} ends @param {number}
- * width */
+/** Returns the horizontal axis with as many ticks as there is room for.
+ * @param {[number, number]} ends @param {number} width */
 function marksThatFit([low, high], width) {
   for (const most of [10, 8, 6, 5, 4, 3, 2]) {
     const made = axis(low, high, most, true);

@@ -53,7 +53,7 @@ class Settings:
 
     @property
     def hertz(self) -> float:
-        """The rate in 1/s. Raises FieldError if it is no number or out of range."""
+        """The rate in 1/s. Raises FieldError if it is not a number or out of range."""
         return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
 
     @property
@@ -67,7 +67,7 @@ class Settings:
 
 
 class About(TypedDict, total=False):
-    """The topic, the fields and numbers of its type, and the problem if there is no form ("" if there is)."""
+    """The topic, the fields and numbers of its type. `problem` says why there is no form, or is ""."""
 
     topic: str
     problem: str

@@ -204,7 +204,7 @@ class TopicView {
 
   #drawLatest() {
     const rows = this.model.get("latest");
-    // A single field is already in the list of messages.
+    // The list of messages already shows all of a message with one field.
     this.latest.replaceChildren(...(rows.length > 1 ? [valueTable(rows, "")] : []));
   }
 
@@ -272,7 +272,7 @@ class TopicView {
     say(this.waiting, "");
   }
 
-  /** JupyterLab prevents that the Enter key submits a form, so this code does it. @param {KeyboardEvent} event */
+  /** JupyterLab stops the Enter key from submitting a form, so this code does it. @param {KeyboardEvent} event */
   #key(event) {
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();

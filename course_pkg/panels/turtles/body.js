@@ -1,8 +1,8 @@
 /* The drawing of a turtle. */
 import { SIDE, pixel } from "./recording.js";
 
-/** Draws a turtle and its name, seen from above. @param {CanvasRenderingContext2D} pen @param
- * {import("./recording.js").Place} place @param {string} body
+/** Draws a turtle and its name, seen from above.
+ * @param {CanvasRenderingContext2D} pen @param {import("./recording.js").Place} place @param {string} body
  * @param {string} name @param {boolean} dark */
 export function drawTurtle(pen, place, body, name, dark) {
   const [x, y] = pixel(place.x, place.y);

@@ -18,7 +18,7 @@ HOME = 5.544444561  # m, where the first turtle begins
 SLOW = 1.1
 BRISK = 3.0  # m/s; up to this speed, the line often reaches under the turtle
 STILL = 1e-4  # m; a turtle that moves less between two observations is at rest
-SETTLED = 2  # observations at rest, or moving, after which the line is under the turtle
+SETTLED = 2  # successive observations, at rest or moving, until the line is under the turtle
 
 
 @dataclass(frozen=True)
