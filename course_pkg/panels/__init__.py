@@ -1,6 +1,6 @@
-"""What a student sees: panels in the notebook, each a pure model, a widget, and one ES module.
+"""The panels of the notebooks. Each panel consists of a pure model, a widget and one ES module.
 
-The names are looked up on first use, so that a model can be had without widgets and without ROS.
+A name is imported on its first use. So a model can be imported where widgets or ROS are not installed.
 """
 
 from typing import TYPE_CHECKING

@@ -1,8 +1,8 @@
-"""The files of a front end, joined into the one module and the one sheet that a widget carries.
+"""The files of a panel's front end, joined into the one ES module and the one style sheet of its widget.
 
-A widget's code travels as a single string, so an ES module cannot import its neighbours at run
-time. The sources stay ordinary modules that editors and Node understand; joining them is a matter of
-leaving out the imports.
+A widget sends its code to the page as a single string. Therefore, an ES module of a widget cannot import its
+neighbours in the browser. The sources stay ordinary modules, which editors and Node understand. This module
+joins them: it inserts the imported files and removes the import statements.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 
 @cache
 def module(path: Path, frame: Path | None = None) -> str:
-    """Return the ES module at `path` with the relative modules it imports written into it, each once.
+    """Return the ES module at `path`, in which each relative module that it imports is inserted once.
 
-    `frame` is a module with a function `framed`, through which what the panel renders goes.
+    `frame` is a module with a function `framed`. The panel's render function is wrapped in this function.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""
@@ -30,7 +30,7 @@ def module(path: Path, frame: Path | None = None) -> str:
 
 @cache
 def sheet(*paths: Path) -> str:
-    """Return the style sheets at `paths`, one after the other."""
+    """Return the text of all style sheets at `paths`, one after the other."""
     return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
 

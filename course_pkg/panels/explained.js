@@ -1,9 +1,9 @@
-/* What every panel offers below an error of its own: what it means, and what to do about it. */
+/* The explanation that a panel shows below an error of its own: the cause, and what to do. */
 import { h, prose, setAttribute } from "./kit.js";
 
 /** @typedef {(context: {model: import("./kit.js").Model, el: HTMLElement, signal?: AbortSignal}) => any} Render */
 
-/** Have a panel drawn with that. @param {Render} render @returns {Render} */
+/** Returns a render function that also adds the explanation to the panel. @param {Render} render @returns {Render} */
 export function framed(render) {
   return (context) => {
     const end = render(context);
@@ -13,7 +13,8 @@ export function framed(render) {
   };
 }
 
-/** Below the place for errors, or the banner, where there is one. @param {Element} panel @param {import("./kit.js").Model} model */
+/** Puts the explanation below the panel's error or banner, or at the end of a panel that has neither.
+ * @param {Element} panel @param {import("./kit.js").Model} model */
 function placeMeaning(panel, model) {
   const body = h("div", { class: "ros-meaning" });
   const el = h("details", { class: "ros-explained", hidden: true }, h("summary", { text: "What this error means" }), body);

@@ -1,19 +1,19 @@
-/* What the front ends of all panels share. */
+/* Functions that the front ends of all panels share. */
 
 /** @typedef {{get(name: string): any, set(name: string, value: any): void, save_changes(): void,
  *   on(name: string, callback: Function): void, send(content: object): void}} Model */
 
 let made = 0;
 
-/** An id that no other element of the page has. @param {string} stem @returns {string} */
+/** Returns an id that no other element of the page has. @param {string} stem @returns {string} */
 export function freshId(stem) {
   made += 1;
   return `${stem}-${made}-${Math.random().toString(36).slice(2, 8)}`;
 }
 
 /**
- * Make an element. Keys of `props` that start with "on" listen; `text` is its text; the rest are attributes, where
- * false, null and undefined leave the attribute out.
+  * Makes an element. A key of `props` that starts with "on" adds an event listener, and `text` sets the text. Every
+ * other key is an attribute, which is left out if its value is false, null or undefined.
  * @param {string} tag @param {Record<string, any>} [props] @param {...(Node | string | null)} children
  * @returns {HTMLElement}
  */
@@ -24,7 +24,7 @@ export function h(tag, props = {}, ...children) {
     else if (key === "text") element.textContent = value;
     else setAttribute(element, key, value);
   }
-  // JupyterLab takes keys such as Enter and the arrows for the notebook unless a control asks it not to.
+  // JupyterLab uses keys such as Enter and the arrow keys itself, unless the control has this attribute.
   if (["button", "select", "summary"].includes(tag) || /^(checkbox|radio)$/.test(props.type ?? ""))
     element.setAttribute("data-lm-suppress-shortcuts", "true");
   element.append(...children.filter((child) => child !== null));
@@ -37,25 +37,27 @@ export function setAttribute(element, name, value) {
   else element.setAttribute(name, value === true ? "" : String(value));
 }
 
-/** Set text only where it differs, so that a selection and a live region stay undisturbed.
+/** Sets the text only if it differs. So a selection stays, and a screen reader does not read the text again.
  * @param {Element} element @param {string} text */
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Do what may move the page when no press is under way: a button that moved under the pointer hears no click.
+/** Runs `work`, which may move parts of the page, as soon as no mouse button is pressed on the element. If a button
+ * moved away during a press, the browser would not report the click.
  * @param {Element} element @param {() => void} work */
 export function afterPress(element, work) {
   if (!element.matches(":root:active *")) return work();
-  addEventListener("mouseup", () => setTimeout(work), { once: true, capture: true }); // the click comes between
+  addEventListener("mouseup", () => setTimeout(work), { once: true, capture: true }); // the browser reports the click before the timeout
 }
 
-/** Text in which `words` between backticks are code. @param {string} text @returns {(Node | string)[]} */
+/** Returns a text as nodes; the parts between backticks are code. @param {string} text @returns {(Node | string)[]} */
 export function prose(text) {
   return text.split("`").map((part, index) => (index % 2 ? h("code", { text: part }) : part));
 }
 
-/** A number as one reads it aloud: up to `digits` significant digits, no exponent between 0.0001 and a million.
+/** Returns a number as text: rounded to `digits` significant digits or to a whole number, and without an exponent
+ * between 0.0001 and a million.
  * @param {number} value @param {number} [digits] @returns {string} */
 export function numeral(value, digits = 4) {
   const size = Math.abs(value);
@@ -63,7 +65,8 @@ export function numeral(value, digits = 4) {
   return String(size >= 10 ** digits ? Math.round(value) : Number(value.toPrecision(digits)));
 }
 
-/** 2.5e-7. @param {number} value @param {number} decimals @returns {string} */
+/** Returns a number with an exponent, such as "2.5e-7".
+ * @param {number} value @param {number} decimals @returns {string} */
 export function power(value, decimals) {
   return value === 0 ? "0" : value.toExponential(decimals).replace(/\.?0*e\+?/, "e");
 }
@@ -73,7 +76,8 @@ export function same(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);
 }
 
-/** A button that copies what `read` returns and says so. @param {string} label @param {() => string} read
+/** Returns a button that copies the text from `read` and then shows "Copied". @param {string} label @param {() =>
+ * string} read
  * @returns {HTMLElement} */
 export function copyButton(label, read) {
   const button = h("button", { type: "button", class: "ros-quiet", "aria-label": `Copy ${label}`, text: "Copy" });
@@ -91,7 +95,7 @@ async function copied(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return copiedBySelection(text); // no clipboard without https or localhost
+    return copiedBySelection(text); // browsers offer the clipboard only with https or on localhost
   }
 }
 
@@ -109,22 +113,22 @@ function copiedBySelection(text) {
   return done;
 }
 
-/** Send a message; false when there is nobody to send it to. @param {Model} model @param {object} content */
+/** Sends a message to the kernel. Returns false if it cannot be sent. @param {Model} model @param {object} content */
 export function send(model, content) {
   try {
     model.send(content);
     return true;
   } catch {
-    return false; // the kernel was shut down, and its connection with it
+    return false; // the kernel was shut down, and its connection was closed
   }
 }
 
-const PATIENCE = 1500; // ms; an idle kernel answers within 50
+const ANSWER_TIMEOUT = 1500; // ms; an idle kernel answers within 50 ms
 const HEARTBEAT = 4000; // ms
 
 /**
- * The way to the kernel. A saved page has none, and nothing but silence tells: `changed(live)` hears false when a
- * greeting is not answered in time, and true whenever one is.
+  * The connection to the kernel. A saved page has no kernel, and no event reports this. So the page sends a greeting.
+ * `changed(false)` is called if no answer comes in time, and `changed(true)` after each answer.
  * @param {Model} model @param {AbortSignal} signal @param {(live: boolean) => void} changed
  */
 export function kernelLink(model, signal, changed) {
@@ -132,8 +136,8 @@ export function kernelLink(model, signal, changed) {
   let timer = 0;
   let heart = 0;
   let open = true;
-  // JupyterLab says nothing when a kernel is shut down, but from then on it cannot send. A busy kernel is no dead one:
-  // here only a message that cannot be sent counts.
+  // JupyterLab sends no event when a kernel is shut down, but after that no message can be sent. A busy kernel only
+  // answers late. So here the kernel counts as lost only if a message cannot be sent.
   const beat = () => {
     if (!send(model, { kind: "here" })) lose();
   };
@@ -143,7 +147,7 @@ export function kernelLink(model, signal, changed) {
   };
   const greet = () => {
     clearTimeout(timer);
-    if (send(model, { kind: "hello", view })) timer = setTimeout(lose, PATIENCE);
+    if (send(model, { kind: "hello", view })) timer = setTimeout(lose, ANSWER_TIMEOUT);
     else lose();
   };
   const leave = () => {
@@ -159,7 +163,7 @@ export function kernelLink(model, signal, changed) {
     heart = setInterval(beat, HEARTBEAT);
     changed(true);
   });
-  model.on("comm_live_update", greet); // the kernel restarted or went away
+  model.on("comm_live_update", greet); // the kernel was restarted, or its connection was lost
   window.addEventListener("pagehide", leave, { signal });
   signal.addEventListener("abort", leave);
   greet();

@@ -1,4 +1,4 @@
-"""What all panels have in common: a widget with one ES module, whose errors never stop the kernel."""
+"""The base class of all panels: a widget with one ES module. Its errors never stop the kernel."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from course_pkg.ros.explain import explain
 
 HERE = Path(__file__).parent
 
-# A message from the page, or to it: JSON, of which ipywidgets says no more.
+# A message from the page or to the page: a JSON object. ipywidgets does not define a more exact type.
 PageMessage: TypeAlias = dict[str, Any]
 
 
 class Panel(anywidget.AnyWidget):
     """A widget that any thread may update, and that knows whether a page shows it.
 
-    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`, answers the page's
-    messages in `received`, and overrides `shown` and `hidden` if it does something only while a page shows
-    it.
+    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. It handles the
+    messages of the page in `received`. If a panel works only while a page shows it, it overrides `shown` and
+    `hidden`.
     """
 
     front_end: ClassVar[Path]
@@ -38,8 +38,9 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # Held while a message from the page is handled, and while a thread changes a trait. ipywidgets swaps
-        # methods on the instance while it handles a message, and would lose a change that is made meanwhile.
+        # A thread holds this lock while it handles a message from the page, and while it changes a trait.
+        # ipywidgets replaces methods of the instance while it handles a message. A change by another thread
+        # would be lost during that time.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()
@@ -55,31 +56,34 @@ class Panel(anywidget.AnyWidget):
         return sheet(HERE / "look.css", HERE / "explained.css", *self.shared_sheets, self.style_sheet)
 
     def error_message(self) -> str:
-        """Return the error message that the panel shows, "" for none; the first trait of `errors` counts."""
+        """Return the error message that the panel shows, or "" if there is none.
+
+        If several traits of `errors` have a message, the first one in `errors` is returned.
+        """
         messages = (getattr(self, name, "") for name in self.errors)
         return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Begin what the panel does only while a page shows it; called again for each further view."""
+        """Start the work that is needed only while a page shows the panel; called for each new view."""
 
     def hidden(self) -> None:
-        """End what shown() began; called when the last view is gone."""
+        """Stop the work that shown() started; called after the last view was closed."""
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a message of the page."""
+        """Handle a message of the page."""
 
     def publish(self, **traits: object) -> None:
-        """Set traits from any thread; the page gets them as one message."""
+        """Set traits; any thread may call this. The page gets all of them in one message."""
         with self.turn, self.hold_sync():
             for name, value in traits.items():
                 setattr(self, name, value)
 
     def complain(self, error: Exception) -> None:
-        """Show an error of the panel's own, from any thread."""
+        """Show an error of the panel itself; any thread may call this."""
         self.publish(notice=f"{type(error).__name__}: {error}")
 
     def close(self) -> None:
-        """Take the panel off every page and end what it runs."""
+        """Remove the panel from every page and stop its work."""
         if not hasattr(self, "turn"):
             return  # the constructor raised an error, and ipywidgets closes the unfinished widget
         with self.turn:
@@ -89,7 +93,7 @@ class Panel(anywidget.AnyWidget):
             super().close()
 
     def _explain(self, _change: Bunch) -> None:
-        """Offer an explanation of the error that the panel shows, if there is one."""
+        """Publish an explanation of the error message that the panel shows, if the course has one."""
         message = self.error_message()
         meaning = explain(message) if message else None
         self.explained = meaning.as_dict() if meaning and meaning.known else {}
@@ -111,5 +115,5 @@ class Panel(anywidget.AnyWidget):
                     self.hidden()
             elif kind != "here":
                 self.received(kind, content)
-        except Exception as error:  # noqa: BLE001 - the panel shows it, and no cell
+        except Exception as error:  # noqa: BLE001 - the panel shows the error, because it belongs to no cell
             self.complain(error)

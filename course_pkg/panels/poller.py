@@ -1,4 +1,4 @@
-"""A thread that reads a value again and again, and reports it when it has changed."""
+"""A thread that reads a value repeatedly, and reports the value when it has changed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Value = TypeVar("Value")
 
 
 class Poller(Generic[Value]):
-    """Calls `read` every `every` s on a thread of its own, from start() to stop().
+    """Calls `read` every `every` s on its own thread, between start() and stop().
 
-    `changed` gets a value that differs from the one before, `failed` an error whose text differs. Both run
-    on the thread.
+    `changed` is called with each value that differs from the previous one. `failed` is called with an error
+    if its text differs from the previous error's text. The poller's thread makes both calls.
     """
 
     def __init__(
@@ -31,20 +31,23 @@ class Poller(Generic[Value]):
         self._stop: threading.Event | None = None
 
     def start(self) -> None:
-        """Begin to poll; a second start changes nothing."""
+        """Start to poll; a second call changes nothing."""
         if self._stop is None:
             self._stop = threading.Event()
             thread = threading.Thread(target=self._poll, args=(self._stop,), daemon=True, name="panel-poller")
             thread.start()
 
     def stop(self) -> None:
-        """End the thread after at most one read. Do not wait: the caller may hold a lock that it needs."""
+        """Stop the thread after at most one more read.
+
+        This does not wait for the thread, because `read` may need a lock that the caller holds.
+        """
         if self._stop is not None:
             self._stop.set()
             self._stop = None
 
     def once(self) -> None:
-        """Read now, on this thread."""
+        """Read once on the calling thread, and report the value."""
         self._read_and_report(None, threading.Event())
 
     def _poll(self, stop: threading.Event) -> None:
@@ -59,7 +62,7 @@ class Poller(Generic[Value]):
             now = self._read()
             if now != before and not stop.is_set():
                 self._changed(now)
-        except Exception as error:  # noqa: BLE001 - the thread must go on: its owner shows the error
+        except Exception as error:  # noqa: BLE001 - the thread must continue: its owner shows the error
             now = f"{type(error).__name__}: {error}"
             if now != before and not stop.is_set():
                 self._failed(error)

@@ -1,11 +1,11 @@
-/* Playing what was recorded: a button, a handle, the moment in words, and the clock that moves them. */
+/* The controls that play a recording: a button, a slider, the time as text, and the clock that moves them. */
 import { freshId, h, say, setAttribute } from "./kit.js";
 
-const NEAR = 50; // ms before the end, from which Play begins anew
-const ARROW = 100; // ms that an arrow key goes
-const CALM = 1000; // ms between two pictures for who asked for less motion
+const NEAR = 50; // ms; if Play is pressed this near the end, the recording starts again
+const ARROW = 100; // ms that an arrow key moves the slider
+const CALM = 1000; // ms between two pictures if the reader asked the system for less motion
 
-/** Tell whether an element can be seen, now and whenever that changes.
+/** Calls `told` with whether an element is visible: now, and whenever this changes.
  * @param {Element} element @param {AbortSignal} signal @param {(visible: boolean) => void} told */
 export function watch(element, signal, told) {
   const observer = new IntersectionObserver(([entry]) => told(entry.isIntersecting && !document.hidden));
@@ -15,8 +15,8 @@ export function watch(element, signal, told) {
 }
 
 export class Replay {
-  /** @param {(time: number) => void} moved hears to which time (ms) the reader or the clock went
-   * @param {...HTMLElement} more what stands after the moment */
+  /** @param {(time: number) => void} moved gets the new time (ms) when the reader or the clock moves it
+   * @param {...HTMLElement} more elements after the text of the time */
   constructor(moved, ...more) {
     this.moved = moved;
     this.time = 0; // ms
@@ -34,7 +34,7 @@ export class Replay {
     this.el = h("div", { class: "ros-replay" }, this.play, this.scrub, this.moment, ...more);
   }
 
-  /** Take over where it is and how long it is (ms), without moving anything; show() writes it.
+  /** Sets the time and the length (ms) of the recording, without moving anything; show() updates the page.
    * @param {number} time @param {number} length @param {boolean} some */
   be(time, length, some) {
     this.length = length;
@@ -42,12 +42,12 @@ export class Replay {
     this.some = some;
   }
 
-  /** Write the moment, where it differs. */
+  /** Writes the time to the page if it differs. */
   show() {
     const [time, length] = [this.time, this.length].map((each) => (each / 1000).toFixed(1));
-    const step = this.length < 10 * ARROW ? 1 : ARROW; // a handle stands on steps only, so a short recording has finer ones
+    const step = this.length < 10 * ARROW ? 1 : ARROW; // a slider stops only at steps, so a short recording has smaller steps
     setAttribute(this.scrub, "step", step);
-    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // or the handle would not reach the end
+    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // otherwise, the slider could not reach the end
     this.scrub.value = String(this.time);
     say(this.moment, `${time} of ${length} s`);
     setAttribute(this.scrub, "aria-valuetext", `${time} of ${length} seconds`);
@@ -61,7 +61,7 @@ export class Replay {
     this.frame = 0;
   }
 
-  /** Nothing is played that nobody sees; it goes on from there. @param {boolean} visible */
+  /** The clock stops while the recording is not visible, and continues at the same time. @param {boolean} visible */
   see(visible) {
     this.visible = visible;
     this.#run();

@@ -1,7 +1,7 @@
-"""The still picture of each panel: what a page without widgets shows in its place.
+"""The still picture of each panel, which a page without widgets shows instead of the panel.
 
-A picture is a pure function of the panel's traits. So it is drawn when a notebook is stored, outside of the
-kernel, and costs a student's notebook nothing.
+A picture depends only on the traits of the panel. So it is drawn outside the kernel when a notebook is
+stored, and a student's notebook spends no time on it.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from course_pkg.panels.wire.still import still as wire
 
 
 class Still(NamedTuple):
-    """How the picture of a panel is drawn, and whether it shows measured times, which differ in each run."""
+    """The function that draws a panel's picture. `measured` means that the picture shows measured times."""
 
     draw: Callable[[State], str]
     measured: bool = False
 
     @property
     def code(self) -> str:
-        """The source of the function; when it changes, a measured picture has to be drawn again."""
+        """The source code that draws the picture; if it changes, a measured picture is drawn again."""
         files = (sys.modules[self.draw.__module__].__file__, paper.__file__)
         return "".join(Path(str(file)).read_text("utf-8") for file in files)
 
 
-# By the folder of the panel, which is also the name by which a saved state tells which panel it is.
+# The keys are the folders of the panels. A saved state names its panel by the same folder.
 STILLS = {
     "breakit": Still(breakit),
     "choices": Still(choices),

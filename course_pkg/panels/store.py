@@ -22,14 +22,14 @@ class Keyed(Protocol):
 
     @property
     def key(self) -> str:
-        """The chapter and the name of the prediction."""
+        """The chapter and the name, with a dot between them."""
 
 
 Record = TypeVar("Record", bound=Keyed)
 
 
 class Store(Generic[Record]):
-    """The records of one kind, by key, in a file of the course's state or at `path`."""
+    """The records of one kind, by key, in the file `path`; by default in the state folder of the course."""
 
     record: type[Record]
     file: ClassVar[str]
@@ -39,7 +39,7 @@ class Store(Generic[Record]):
         self.path = path or state_folder() / self.file
 
     def read(self) -> dict[str, Record]:
-        """Return all records; none if there is no file yet. Raises InvalidPredictions."""
+        """Return all records by key, or {} if there is no file yet. Raises InvalidPredictions."""
         try:
             records = json.loads(self.path.read_text(encoding="utf-8"))
             return {key: self._checked(self.record(**record)) for key, record in records.items()}
@@ -47,22 +47,22 @@ class Store(Generic[Record]):
             return {}
         except (OSError, ValueError, TypeError, AttributeError) as error:
             raise InvalidPredictions(
-                f"{self.path} does not hold {self.what} as the course writes them ({error}). "
-                "Move the file away to start afresh."
+                f"{self.path} does not contain valid {self.what} ({error}). "
+                "Move the file to another folder to start again without them."
             ) from error
 
     def _checked(self, record: Record) -> Record:
-        """Return a record whose fields have the declared types. Raises TypeError for another one."""
+        """Return `record` if its fields have the declared types. Otherwise, raise TypeError."""
         for each in fields(record):
             if type(getattr(record, each.name)).__name__ != str(each.type).partition("[")[0]:
                 raise TypeError(f"{each.name} of {record.key} is not of the type {each.type}")
         return record
 
     def write(self, record: Record) -> Record:
-        """Write a record in place of the one with the same key, and return it. The file is replaced whole.
+        """Store a record in place of the record with the same key, and return it.
 
-        Another kernel may write another record at the same time: both stay. Raises what `read` does, and
-        OSError if the file cannot be written.
+        The whole file is replaced while a lock is held. So a record that another kernel writes at the same
+        time is not lost. Raises the same errors as `read`, and OSError if the file cannot be written.
         """
         with locked(self.path.parent):
             records = {**self.read(), record.key: record}
@@ -71,6 +71,9 @@ class Store(Generic[Record]):
 
 
 def of_chapter(records: Iterable[Record], chapter: str) -> list[Record]:
-    """Return the records of a chapter (`05` has `05.reply_none`), or all for "", sorted by key."""
+    """Return the records of a chapter, or all records if `chapter` is "", sorted by key.
+
+    The chapter `05` has, for example, the record `05.reply_none`.
+    """
     chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
     return sorted(chosen, key=lambda each: each.key)

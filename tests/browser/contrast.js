@@ -1,5 +1,5 @@
-// The texts below `root` whose contrast with their ground is under 4.5 : 1 (WCAG 2.2, 1.4.3), the ground being that of
-// the nearest ancestor that has one. Controls that are out of use are exempt, and so are texts for screen readers.
+// Returns the texts in `root` whose contrast to their background is below 4.5 : 1 (WCAG 2.2, 1.4.3). The background
+// is that of the nearest ancestor that has one. Disabled controls and texts for screen readers are not checked.
 (root) => {
   const numbers = (color) => (color.match(/[\d.]+/g) ?? []).map(Number);
   const linear = (part) => (part / 255 <= 0.03928 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4);

@@ -23,7 +23,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.browser.pages import READY
 from tests.support import eventually
 
-# Functions of the page. The first closes all notebooks without a dialog, and opens one with its kernel.
+# Functions of the page. The first one closes all notebooks without a dialog, and opens one with its kernel.
 OPEN = """async (path) => {
   const { commands, shell } = window.jupyterapp;
   for (const open of [...shell.widgets("main")]) open.dispose();
@@ -33,7 +33,7 @@ OPEN = """async (path) => {
   await shown.sessionContext.ready;
 }"""
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
-OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's own
+OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's settings
 BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # of the course's terminals
 
 

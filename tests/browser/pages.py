@@ -16,7 +16,7 @@ from course_pkg.panels.panel import Panel
 HERE = Path(__file__).parent
 # JupyterLab's own files in a stack; the course's scripts are at blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
-READY = 60_000  # ms: a browser, a server and a kernel start on a machine that may be busy
+READY = 60_000  # ms; a browser, a server and a kernel start on a machine that may be busy
 HOST = (HERE / "host.html").read_text()
 
 # A function of the page: it returns the texts in an element whose contrast is too low.

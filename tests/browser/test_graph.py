@@ -108,7 +108,7 @@ def test_a_large_graph_can_be_read(
     picture(page, f"graph-panel-large-{theme}-{width}-whole")
 
 
-def test_a_saved_namespace_tells_what_is_in_it(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
+def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """Without a kernel nothing can be unfolded, and the details list what is inside."""
     page.goto(save(widget, tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
@@ -150,10 +150,10 @@ def seek(graph: Locator, seconds: float) -> None:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_what_was_shown_is_played_without_a_kernel(
+def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The recording is named as one, starts at its end, and is moved by slider and keys, and replayed."""
+    """The page names the recording, which is at its end. Slider and keys move it, and Play replays it."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -169,7 +169,7 @@ def test_what_was_shown_is_played_without_a_kernel(
     expect(graph.locator(".ros-calls .ros-asked")).to_have_count(1)
     seek(graph, 3)
     expect(graph.locator(".ros-calls .ros-waits")).to_have_count(1)
-    expect(graph.locator(".ros-details")).to_contain_text("waits for an answer")
+    expect(graph.locator(".ros-details")).to_contain_text("waits for the response")
     picture(page, f"graph-panel-recorded-{theme}")
     handle.press("ArrowRight")
     expect(graph.get_by_text("3.1 of 8.0 s")).to_be_visible()
@@ -184,9 +184,7 @@ def test_what_was_shown_is_played_without_a_kernel(
     expect(shape(graph, "node /node_15")).not_to_be_attached()
 
 
-def test_a_recording_does_not_play_where_nobody_sees_it(
-    widget: GraphPanel, page: Page, tmp_path: Path
-) -> None:
+def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """A recording out of sight is paused; with reduced motion it shows one picture per second."""
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))
@@ -212,8 +210,8 @@ def test_a_recording_does_not_play_where_nobody_sees_it(
     expect(graph.get_by_role("button", name="Pause")).to_be_attached()
 
 
-def test_lines_of_calls_lead_somewhere(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A saved panel is drawn before it is attached to a page, where nothing has a size yet."""
+def test_lines_of_calls_are_drawn_on_a_saved_page(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
+    """A saved panel is drawn before the page shows it. The lines of calls still get their positions."""
     troubles: list[str] = []
     page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -223,7 +221,7 @@ def test_lines_of_calls_lead_somewhere(widget: GraphPanel, page: Page, tmp_path:
     assert troubles == []
 
 
-def test_paper_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
+def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """In print, a dark panel is black on white, complete, and without controls."""
     page.goto(save(widget, tmp_path / "page.html", "dark"))
     page.emulate_media(media="print")
@@ -238,7 +236,7 @@ def test_paper_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
     picture(page, "graph-panel-print")
 
 
-def test_a_still_picture_stands_alone(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
+def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
     """The downloaded file is an image with a name and with its own colours for light, dark and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")

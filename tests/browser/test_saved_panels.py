@@ -32,7 +32,7 @@ def answer(form: Locator, name: str) -> Locator:
     return form.get_by_role("row", name=name).get_by_role("cell").first
 
 
-def test_a_saved_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
+def test_a_saved_service_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -> None:
     """The last response is shown, Call is disabled, and a sentence gives the reason."""
     widget = ServicePanel("/getGeometry")
     widget.call(length=2.0, width=3.0, height=4.0)
@@ -46,8 +46,8 @@ def test_a_saved_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A recorded request is answered in each notation of its numbers; another is reported as not recorded."""
+def test_a_recording_replaces_the_kernel(page: Page, tmp_path: Path, theme: str) -> None:
+    """A recorded request gets its response in any notation of its numbers; another request is refused."""
     widget = ServicePanel("/getGeometry")
     widget.record(
         [{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": 4.0, "width": 5.0, "height": 6.0}]
@@ -55,7 +55,7 @@ def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: s
     page.set_viewport_size({"width": 390, "height": 1200})
     page.goto(save(widget, tmp_path / "page.html", theme))
     form = panel(page)
-    expect(form.get_by_text("The answers here were recorded from a real server")).to_be_visible()
+    expect(form.get_by_text("The responses here were recorded from a real server")).to_be_visible()
     for name, text in {"length": "1", "width": "2.00", "height": "3e0"}.items():
         form.get_by_label(name).fill(text)
     form.get_by_role("button", name="Call").click()
@@ -75,7 +75,7 @@ def test_a_recording_answers_for_the_kernel(page: Page, tmp_path: Path, theme: s
     picture(page, f"service-panel-recorded-{theme}")
 
 
-def test_a_saved_picture_of_the_graph_can_be_asked(page: Page, tmp_path: Path) -> None:
+def test_shapes_of_a_saved_graph_can_be_clicked(page: Page, tmp_path: Path) -> None:
     """A click still describes a shape, and the page states that the picture is a saved one."""
     page.goto(save(GraphPanel(), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
@@ -84,7 +84,7 @@ def test_a_saved_picture_of_the_graph_can_be_asked(page: Page, tmp_path: Path) -
     expect(graph.locator(".ros-details")).to_contain_text("course_pkg/geometry")
 
 
-def test_a_saved_question_is_out_of_use(page: Page, tmp_path: Path) -> None:
+def test_a_saved_question_is_disabled(page: Page, tmp_path: Path) -> None:
     """Without a kernel, no prediction can be entered, because it could not be stored."""
     store = PredictionStore(tmp_path / "predictions.json")
     page.goto(save(Question("05.x", "What?", ["this", "that"], store=store), tmp_path / "page.html"))
@@ -114,7 +114,7 @@ def test_saved_choices_can_be_read(page: Page, tmp_path: Path) -> None:
     picture(choices, "choices-saved-dark")
 
 
-def test_a_saved_topic_panel_says_that_it_is_one(page: Page, tmp_path: Path) -> None:
+def test_a_saved_topic_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -> None:
     """The form and the commands are shown, the buttons are disabled, and a sentence gives the reason."""
     page.set_viewport_size({"width": 560, "height": 1200})
     page.goto(save(TopicPanel("/speed", "std_msgs/Float64"), tmp_path / "page.html"))
@@ -147,11 +147,11 @@ def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> 
     readout = drawn.get_by_role("status").last
     expect(readout).to_have_text("Point at the plot, or use the arrow keys, to read its values.")
     expect(drawn.get_by_role("img")).to_have_attribute(
-        "aria-label", "a line of 4 points, data against time since the panel listens (s)"
+        "aria-label", "a line of 4 points, data against time since the subscription began (s)"
     )
     expect(drawn.get_by_text("1 of 4 values are left out")).to_be_visible()
     canvas.focus()
-    since = "time since the panel listens"
+    since = "time since the subscription began"
     for key, text in {
         "ArrowRight": f"{since} 0 s, data 12",
         "End": f"{since} 3 s, data 2.25",

@@ -85,7 +85,7 @@ def drawn(page: Page) -> None:
     page.evaluate("new Promise(requestAnimationFrame)")
 
 
-def test_a_click_says_what_it_is(page: Page, tmp_path: Path) -> None:
+def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
     """A click on an event describes it as text with milliseconds; a click beside it hides the text."""
     timeline = show(page, tmp_path, recording())
     details = timeline.locator(".ros-details")
@@ -104,7 +104,7 @@ def test_a_click_says_what_it_is(page: Page, tmp_path: Path) -> None:
     expect(details).to_contain_text("Click anything")
 
 
-def test_what_waits_is_hatched(page: Page, tmp_path: Path) -> None:
+def test_waiting_is_hatched(page: Page, tmp_path: Path) -> None:
     """The blocked caller is striped, the handler has one colour, and idle time has none."""
     timeline = show(page, tmp_path, recording())
     colours = {
@@ -120,7 +120,7 @@ def test_what_waits_is_hatched(page: Page, tmp_path: Path) -> None:
     )
 
 
-def test_the_keyboard_does_it_all(page: Page, tmp_path: Path) -> None:
+def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
     """Down and up move through the events in time, Enter zooms in on one, 0 shows all again."""
     timeline = show(page, tmp_path, recording())
     details, whole = timeline.locator(".ros-details"), ticks(timeline)
@@ -145,7 +145,7 @@ def test_the_keyboard_does_it_all(page: Page, tmp_path: Path) -> None:
     expect(details).to_contain_text("Click anything")
 
 
-def test_look_up_and_connection_open_up(page: Page, tmp_path: Path) -> None:
+def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
     """A small mark can be selected, and becomes a bar when the view zooms in on it."""
     timeline = show(page, tmp_path, recording())
     drawing(timeline).focus()
@@ -240,7 +240,7 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
     picture(timeline, f"timeline-{theme}-{width}")
 
 
-def test_on_paper(page: Page, tmp_path: Path) -> None:
+def test_in_print(page: Page, tmp_path: Path) -> None:
     """In print, the drawing is on white in both themes."""
     timeline = show(page, tmp_path, recording(), "dark")
     ground = "canvas => getComputedStyle(canvas.closest('section')).backgroundColor"

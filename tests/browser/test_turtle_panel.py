@@ -56,7 +56,7 @@ def recorded() -> TurtleRecording:
     return recording
 
 
-def test_turtles_are_seen_as_they_are(lab: Lab, lab_page: Page) -> None:
+def test_the_panel_follows_the_turtles(lab: Lab, lab_page: Page) -> None:
     """The table follows the services: it shows a new turtle, and the new place of a moved one."""
     with running_notebook(lab_page, lab, "turtles", SETUP, "TurtlePanel()", LATER):
         turtles = panel(lab_page, "Turtle panel")
@@ -73,7 +73,7 @@ def test_turtles_are_seen_as_they_are(lab: Lab, lab_page: Page) -> None:
         expect(turtles.get_by_role("row", name="MyTurtle")).to_be_visible()
 
 
-def test_nobody_there(lab: Lab, lab_page: Page) -> None:
+def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
     """Without a simulator, the panel names the command that starts one."""
     with running_notebook(
         lab_page, lab, "no_turtles", SETUP.replace("simulator", "# simulator"), "TurtlePanel()"
@@ -86,7 +86,7 @@ def test_nobody_there(lab: Lab, lab_page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """The recording is named as one, shows its end, moves to any moment, and replays from start to end."""
+    """The page names the recording, which shows its end, moves to any moment, and replays from the start."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})
@@ -106,7 +106,7 @@ def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, them
 
 
 def test_the_trail_is_on_the_paper(page: Page, tmp_path: Path) -> None:
-    """There is ink on the turtle's way, and nowhere else."""
+    """The line is drawn on the turtle's way, and nowhere else."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.goto(save(widget, tmp_path / "page.html"))

@@ -27,7 +27,7 @@ def options(browser: Locator) -> Locator:
     return browser.get_by_role("option")
 
 
-def test_one_searches_opens_and_copies_by_keyboard(lab: Lab, lab_page: Page) -> None:
+def test_search_open_and_copy_by_keyboard(lab: Lab, lab_page: Page) -> None:
     """Typing narrows the list, arrows and Enter open a type, and its buttons work."""
     with running_notebook(lab_page, lab, "types", SERVE, "TypeBrowser()"):
         browser = panel(lab_page, "Type browser")

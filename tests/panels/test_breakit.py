@@ -24,14 +24,14 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """A stage that causes no fault and records what it is asked to do."""
+    """A stage that causes no fault and records how it is used."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
     holds: threading.Event | None = None
 
     def stage(self, fault: Fault) -> Sheet:
-        """Cause a fault."""
+        """Return the scene of a fault."""
         return Sheet(self, fault.name)
 
     def use(self, sheet: Sheet, tool: str) -> Seen:
@@ -44,14 +44,14 @@ class Paper:
 
 @dataclass
 class Sheet:
-    """A made-up fault."""
+    """A scene that records when its fault is caused and undone."""
 
     paper: Paper
     name: str
     keeper: Seen = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
 
     def cause(self) -> None:
-        """Record the start, or fail."""
+        """Record the start, or raise an error."""
         if self.paper.fails:
             raise ConnectionRefusedError(111, "Connection refused")
         self.paper.done.append(f"cause {self.name}")
@@ -80,24 +80,24 @@ class Lab:
         return self.case
 
     def settle(self) -> None:
-        """Wait until no look is running."""
+        """Wait until no tool is running."""
         eventually(lambda: self.case["phase"] in ("ready", "over"))
 
     @property
     def case(self) -> dict[str, Plain]:
-        """Return what the page knows of the case."""
+        """Return the state of the case that the page gets."""
         return dict(self.state["case"])
 
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """Return all cases, with made-up stages."""
+    """Return a lab with all cases, on a stage that causes no fault."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
 
 
-def test_numbers_say_nothing() -> None:
+def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
     """The order differs from the catalogue's order, and each fault has the same number in every selection."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
@@ -128,7 +128,7 @@ def test_right_answers_are_not_always_in_one_place() -> None:
 
 
 def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
-    """Before the answer, the page receives neither name nor reason nor the index of the right option."""
+    """Before the answer, the page does not get the fault's name, its reason, or the right option."""
     case = lab.begin("stale")
     assert lab.paper.done == ["cause stale", "again stale"]
     assert case["looks"][0]["said"] == "what again printed"
@@ -140,7 +140,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """A click is ignored while another look is running; the symptom and the latest eight looks are kept."""
+    """A click is ignored while a tool is running; the symptom and the latest eight outputs are kept."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -158,8 +158,8 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
     assert lab.case["phase"] == "ready"
 
 
-def test_a_wrong_answer_says_what_would_hold_then(lab: Lab) -> None:
-    """A wrong diagnosis shows its reason. The right one afterwards counts, but not as a first answer."""
+def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
+    """The page shows the reason of the chosen fault. A right answer after that is no first answer."""
     case = lab.begin("stale")
     wrong = next(
         each for each in every_fault() if each.diagnosis in case["diagnoses"] and each.name != "stale"
@@ -179,7 +179,7 @@ def test_a_wrong_answer_says_what_would_hold_then(lab: Lab) -> None:
     assert lab.store.read()["stale"].tries == 3
 
 
-def test_a_right_first_answer_counts_as_such(lab: Lab, tmp_path: Path) -> None:
+def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
     """The result is saved on disk, and another lab reads it."""
     lab.begin("md5")
     lab.model.answer(named("md5").diagnosis, named("md5").remedy)
@@ -189,7 +189,7 @@ def test_a_right_first_answer_counts_as_such(lab: Lab, tmp_path: Path) -> None:
     assert sorted(each["state"] for each in again.state["cases"]) == ["new", "solved"]
 
 
-def test_who_looks_at_the_answer_has_not_found_it(lab: Lab) -> None:
+def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
     """The model shows the right answer; choosing it afterwards does not count as a first answer."""
     lab.begin("died")
     lab.model.reveal()
@@ -201,7 +201,7 @@ def test_who_looks_at_the_answer_has_not_found_it(lab: Lab) -> None:
     assert lab.state["score"]["first"] == 0
 
 
-def test_another_case_undoes_the_one_before(lab: Lab) -> None:
+def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
     """There are never two faults at the same time."""
     lab.begin("stale")
     lab.begin("md5")
@@ -215,8 +215,8 @@ def test_another_case_undoes_the_one_before(lab: Lab) -> None:
     assert lab.case["phase"] == "over"
 
 
-def test_undo_waits_for_what_is_under_way(lab: Lab) -> None:
-    """A page that is closed during a look leaves no fault on the graph."""
+def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
+    """If the page is closed while a tool is running, no fault stays on the graph."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -226,8 +226,8 @@ def test_undo_waits_for_what_is_under_way(lab: Lab) -> None:
     assert lab.paper.done[-1] == "undo stale"
 
 
-def test_a_case_is_gone_through_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The symptom and the looks are kept, the fault is undone, and the answer is not shown."""
+def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
+    """The symptom and the outputs are kept, the fault is undone, and the answer is not shown."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
@@ -236,7 +236,7 @@ def test_a_case_is_gone_through_for_a_page_without_a_kernel(lab: Lab) -> None:
 
 
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
-    """`explain` knows the error message, and what was started is undone."""
+    """`explain` knows the error message, and everything that was started is undone."""
     lab.paper.fails = True
     lab.begin("stale")
     assert "Connection refused" in lab.state["trouble"]
@@ -247,13 +247,13 @@ def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
     assert lab.state["trouble"] == ""
 
 
-def test_what_there_is_not_is_refused() -> None:
+def test_an_unknown_fault_is_refused() -> None:
     """An unknown name of a fault raises an error that lists the known names."""
     with pytest.raises(UnknownFault, match="groups serving, calling, masters"):
         BreakIt("rust")
 
 
-def test_its_text_is_the_same_for_everybody(tmp_path: Path) -> None:
+def test_the_repr_of_the_lab_is_the_same_in_every_run(tmp_path: Path) -> None:
     """The text of the lab is the same in every run, so nbval can compare it."""
     store = CaseStore(tmp_path / "cases.json")
     assert repr(BreakIt(store=store)) == "BreakIt()"
@@ -261,7 +261,7 @@ def test_its_text_is_the_same_for_everybody(tmp_path: Path) -> None:
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """Showing the lab changes nothing; opening a case causes its fault; hiding or closing the lab ends it."""
+    """Showing the lab changes nothing. Opening a case causes its fault; hiding or closing the lab ends it."""
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

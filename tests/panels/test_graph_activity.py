@@ -1,4 +1,4 @@
-"""The activity of the graph as text: rates of topics, callers of services, and never an invented number."""
+"""The activity on the graph: the rates of topics and the callers of services."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Wall:
 
     @property
     def now(self) -> dict[str, Plain]:
-        """Return what the page shows now."""
+        """Return the activity that the page shows now."""
         return next(each for each in reversed(self.said) if "activity" in each)["activity"]
 
 
@@ -59,7 +59,7 @@ def counts(*messages: int, every: float = 2.0) -> list[Activity]:
     ]
 
 
-def test_a_rate_is_told_at_its_topic_and_by_connection() -> None:
+def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
     """The rate is below the name of the topic; the details name the publisher and the subscriber."""
     wall = Wall()
     for activity in counts(100, 120, 140):
@@ -68,12 +68,12 @@ def test_a_rate_is_told_at_its_topic_and_by_connection() -> None:
     assert wall.now["details"]["topic /chatter"] == [["/talker → /listener", "10 Hz"]]
 
 
-def test_nobody_listens_and_nobody_speaks() -> None:
+def test_a_topic_without_publisher_or_subscriber_has_no_rate() -> None:
     """Without a publisher or a subscriber there is no rate, and the details give the reason."""
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /unheard"] == "no listener"
-    assert wall.now["details"]["topic /unheard"] == [["rate", "no listener, nothing is sent"]]
+    assert wall.now["details"]["topic /unheard"] == [["rate", "no subscriber, so nothing is sent"]]
     assert wall.now["notes"]["topic /unsaid"] == "no publisher"
 
 
@@ -85,8 +85,8 @@ def test_before_the_second_count_there_is_no_rate() -> None:
     assert wall.now["details"]["topic /chatter"] == [["/talker → /listener", "1 message since it connected"]]
 
 
-def test_silence_is_told_with_what_was_sent() -> None:
-    """A topic without messages has a rate of 0 Hz."""
+def test_a_topic_without_new_messages_has_a_rate_of_zero() -> None:
+    """If the number of messages does not change, the details show 0 Hz and this number."""
     wall = Wall()
     for activity in counts(3, 3, 3):
         wall.model.count(activity)
@@ -95,7 +95,7 @@ def test_silence_is_told_with_what_was_sent() -> None:
     ]
 
 
-def test_ends_that_are_not_connected() -> None:
+def test_nodes_that_are_not_connected() -> None:
     """A publisher and a subscriber of different types never connect; the details name this reason."""
     wall = Wall()
     wall.model.count(Activity(0.0))
@@ -103,16 +103,16 @@ def test_ends_that_are_not_connected() -> None:
     assert "same type?" in wall.now["details"]["topic /chatter"][0][1]
 
 
-def test_a_publisher_that_does_not_tell() -> None:
+def test_a_publisher_that_does_not_report_counts() -> None:
     """A node that does not count messages has no rate; the panel does not report it as silent."""
     wall = Wall()
     wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
     assert wall.now["notes"]["topic /chatter"] == "not counted"
-    assert wall.now["details"]["topic /chatter"][0][1] == "its publisher does not tell what it sends"
+    assert wall.now["details"]["topic /chatter"][0][1] == "the publisher does not report its message counts"
 
 
 def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
-    """The rate of a topic is the rate of the subscriber that receives most messages."""
+    """The rate of a topic is the sum over its publishers; the number of subscribers does not matter."""
     topic = TopicSeen("/chatter", "std_msgs/String", ("/talker", "/server"), ("/listener", "/client"))
     wall = Wall(graph(topics=(topic,)))
     for turn in range(3):
@@ -122,7 +122,7 @@ def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
     assert wall.now["notes"]["topic /chatter"] == "20 Hz"
 
 
-def test_numbers_never_draw_anew_and_are_told_only_when_they_change() -> None:
+def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
     """If nothing changes on the graph, the panel sends nothing more after the rates are known."""
     wall = Wall()
     for activity in counts(*range(0, 800, 20)):
@@ -131,7 +131,7 @@ def test_numbers_never_draw_anew_and_are_told_only_when_they_change() -> None:
     assert len(wall.said) < 5
 
 
-def test_notes_are_short_enough_for_their_place() -> None:
+def test_notes_fit_below_the_name_of_a_topic() -> None:
     """The text below the name of a topic has at most 12 characters."""
     wall = Wall()
     for activity in [*counts(0, 20, 40), Activity(6.0), Activity(8.0, silent=frozenset({"/talker"}))]:
@@ -141,7 +141,7 @@ def test_notes_are_short_enough_for_their_place() -> None:
     assert max(map(len, notes)) <= 12
 
 
-def test_a_topic_of_many_is_shortened() -> None:
+def test_many_connections_are_shortened() -> None:
     """A hundred connections appear as one summary instead of a hundred lines."""
     listeners = tuple(f"/listener_{number}" for number in range(100))
     wall = Wall(graph(topics=(TopicSeen("/chatter", "a/B", ("/talker",), listeners),)))
@@ -157,7 +157,7 @@ CALLERS = {
 }
 
 
-def test_callers_are_told_and_those_who_are_gone() -> None:
+def test_callers_are_listed_and_ended_callers_are_marked() -> None:
     """Each service lists its callers, the latest first; a caller that has left the graph is marked."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
@@ -179,14 +179,14 @@ def test_a_killed_caller_is_gone() -> None:
     assert wall.now["calls"] == []
 
 
-def test_a_server_that_does_not_tell_is_not_one_that_nobody_calls() -> None:
-    """A service without counts has no text about its calls."""
+def test_a_server_that_does_not_report_callers_is_left_out() -> None:
+    """If a server does not report its callers, its service is not in the list of callers."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
     assert set(wall.now["callers"]) == {"service /robot/tell"}
 
 
-def test_the_line_of_a_call_leads_to_the_box_that_its_service_is_in() -> None:
+def test_the_line_of_a_call_leads_to_the_folded_box_of_its_service() -> None:
     """A folded namespace has one line for all its services: that of the latest call."""
     wall = Wall()
     later = {**CALLERS, "/robot/tell": (ServiceCaller("/client", 1, 2000.0, 1),)}
@@ -199,7 +199,7 @@ def test_the_line_of_a_call_leads_to_the_box_that_its_service_is_in() -> None:
 
 
 def test_a_hidden_caller_is_not_gone() -> None:
-    """The kernel's own node can be hidden from the picture; the list still contains it."""
+    """If the kernel's own node is hidden, its calls are still listed as calls of a running node."""
     said: list[dict[str, Plain]] = []
     model = GraphModel(lambda **parts: said.append(parts), own="/client")
     model.see(graph())
@@ -208,7 +208,7 @@ def test_a_hidden_caller_is_not_gone() -> None:
     assert not said[-1]["activity"]["callers"]["service /robot/ask"][0]["gone"]
 
 
-def test_a_type_is_told_with_its_fields() -> None:
+def test_the_details_contain_the_fields_of_a_type() -> None:
     """A click on a topic or a service shows the fields of its type."""
     wall = Wall()
     facts = {each["key"]: dict(each["facts"]) for each in wall.said[-1]["facts"]}
@@ -228,7 +228,7 @@ def test_a_type_that_is_not_here(kind: str) -> None:
     assert facts.get("fields", "").startswith("nowhere/Thing: no message type" if "/" in kind else "")
 
 
-def test_a_still_picture_has_its_colours_its_rates_and_its_words_in_it() -> None:
+def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
     """A saved picture needs no other file and has no buttons."""
     wall = Wall()
     for activity in counts(100, 120, 140):
@@ -251,7 +251,7 @@ def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) ->
 
 
 @pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
-def test_a_steady_rate_is_found_and_stands_still(rate: float) -> None:
+def test_a_steady_rate_is_found_and_does_not_change(rate: float) -> None:
     """After 30 s the panel shows the publisher's rate, no matter when it reads the counts."""
     seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
     assert len(seen) == 1
@@ -264,8 +264,8 @@ def test_two_counts_are_enough_for_a_first_number() -> None:
     assert counted(10, 2).rate == pytest.approx(10, abs=1)
 
 
-def test_silence_and_a_new_rate_are_seen_soon() -> None:
-    """A publisher that stops is at 0 Hz after two looks; after a change of rate, old counts are left out."""
+def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
+    """A publisher that stops has 0 Hz soon; after a change of the rate, old counts are not used."""
     meter = counted(10, 30)
     for at in (32.0, 34.0, 36.0):
         meter.read(at, 300)
@@ -275,7 +275,7 @@ def test_silence_and_a_new_rate_are_seen_soon() -> None:
     assert meter.rate == pytest.approx(40, rel=0.05)
 
 
-def test_a_publisher_that_began_anew_is_counted_anew() -> None:
+def test_a_restarted_publisher_is_counted_from_its_start() -> None:
     """A count that decreases belongs to a new connection; the rate is never negative."""
     meter = counted(10, 30)
     meter.read(32.0, 4)
@@ -318,13 +318,13 @@ def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, show
         (12300, "12.3 kHz"),
     ],
 )
-def test_a_rate_in_words(rate: float, shown: str) -> None:
+def test_a_rate_as_text(rate: float, shown: str) -> None:
     """The rate has a unit, and fits below the name of a topic."""
     assert rate_text(rate) == shown
     assert len(shown) <= 12
 
 
-def test_a_connection_that_is_gone_is_forgotten() -> None:
+def test_a_connection_that_has_ended_has_no_rate() -> None:
     """A topic that is no longer counted has no rate."""
     rates, carried = Rates(), Traffic("/t", "/a", "/b", 1, 10)
     rates.read(Activity(0.0, (carried,)))

@@ -1,4 +1,4 @@
-"""Namespaces of the graph's picture: framed, or folded into one box."""
+"""Namespaces in the picture of the graph: with a frame, or folded into one box."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ def names(shown: Picture) -> set[str]:
     return {each.name for each in shown.shapes}
 
 
-def test_a_namespace_holds_two_or_more() -> None:
-    """A single name in a namespace is not grouped; of two equal groups, the inner one is used."""
+def test_a_namespace_has_two_or_more_shapes() -> None:
+    """A namespace with one shape is not used; if two have the same shapes, the inner one is used."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -68,14 +68,14 @@ def test_a_namespace_holds_two_or_more() -> None:
 
 
 def test_a_small_graph_is_framed_and_not_folded() -> None:
-    """All shapes are drawn, and a frame shows which belong to one namespace."""
+    """All shapes are drawn, and a frame shows which shapes belong to a namespace."""
     shown = folded(picture(TURTLE), {})
     assert names(shown) == names(picture(TURTLE))
     assert {frame.name: len(frame.members) for frame in shown.frames} == {"/turtle1/": 3}
 
 
-def test_a_folded_namespace_is_one_box_with_the_lines_of_all() -> None:
-    """A line to a shape inside leads to the box, once for each direction and kind."""
+def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
+    """A line to a shape in the namespace leads to the box, once for each direction and kind."""
     shown = folded(picture(TURTLE), {"/turtle1/": True})
     assert names(shown) == {"/sim", "/monitor", "/teleop", "/clear", "/turtle1/"}
     box = "namespace /turtle1/"
@@ -93,7 +93,7 @@ def test_a_folded_namespace_is_one_box_with_the_lines_of_all() -> None:
     }
 
 
-def test_what_runs_inside_of_a_box_is_not_seen() -> None:
+def test_lines_inside_a_box_are_not_drawn() -> None:
     """A box has no line to itself."""
     shown = folded(picture(NESTED), {"/robot/": True})
     assert names(shown) == {"/screen", "/robot/"}
@@ -112,8 +112,8 @@ def test_a_box_within_a_frame() -> None:
     assert folded(picture(NESTED), {"/robot/": True, "/robot/arm/": True}).frames == ()
 
 
-def test_a_crowd_folds_by_itself_unless_somebody_chose() -> None:
-    """Large graphs fold namespaces, except one that a student has unfolded; small graphs do not fold."""
+def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
+    """In a large graph, namespaces are folded, except one that the student has unfolded."""
     crowd, few = picture(many(CROWD // 3)), picture(many(3))
     assert len(crowd.shapes) > CROWD
     assert len(folded(crowd, {}).shapes) == 2 + CROWD // 3
@@ -123,7 +123,7 @@ def test_a_crowd_folds_by_itself_unless_somebody_chose() -> None:
     assert names(folded(few, {})) == names(few)
 
 
-def test_a_crowd_in_one_namespace_is_not_folded_away() -> None:
+def test_a_namespace_with_most_shapes_is_not_folded() -> None:
     """A namespace that contains most of the graph is not folded; the namespaces inside it are."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
@@ -131,7 +131,7 @@ def test_a_crowd_in_one_namespace_is_not_folded_away() -> None:
     assert len(shown.shapes) == 2 + 12
 
 
-def test_who_does_not_answer_is_said_of_the_box() -> None:
+def test_a_box_shows_that_a_node_does_not_answer() -> None:
     """A dead node is visible even if its namespace is folded."""
     seen = graph(("/robot/a", "/robot/x", "/robot/b"))
     nodes = tuple(NodeSeen(each.name, each.uri, "refused") for each in seen.nodes[:1]) + seen.nodes[1:]
@@ -141,7 +141,7 @@ def test_who_does_not_answer_is_said_of_the_box() -> None:
     assert dict(box.facts)["does not answer"] == "/robot/a"
 
 
-def test_frames_enclose_what_is_theirs_and_nothing_else() -> None:
+def test_a_frame_contains_exactly_its_shapes() -> None:
     """The frame contains exactly the shapes of the namespace."""
     layout = laid_out(folded(picture(NESTED), {}))
     assert [framed.frame.name for framed in layout.frames] == ["/robot/", "/robot/arm/", "/robot/base/"]
@@ -168,7 +168,7 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """Frame and box have the same key and state whether they are expanded, so the focus survives folding."""
+    """A frame and its box have the same key, so the focus stays. Both say whether they are expanded."""
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")
@@ -185,7 +185,7 @@ def said() -> tuple[GraphModel, list[dict[str, object]]]:
     return GraphModel(lambda **parts: heard.append(parts)), heard
 
 
-def test_what_is_folded_stays_folded_when_the_graph_changes() -> None:
+def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
     """A new node does not unfold a namespace that the student has folded."""
     model, heard = said()
     model.see(TURTLE)
@@ -198,8 +198,8 @@ def test_what_is_folded_stays_folded_when_the_graph_changes() -> None:
     assert heard[-1]["spaces"] == [{"name": "/turtle1/", "folded": False}]
 
 
-def test_the_words_tell_also_of_what_is_folded_away() -> None:
-    """The list below the drawing contains the whole graph; a click folds and unfolds a namespace there."""
+def test_the_list_contains_folded_shapes() -> None:
+    """The list below the drawing contains all shapes, even if a namespace is folded."""
     model, heard = said()
     model.see(TURTLE)
     before = heard[-1]["facts"]

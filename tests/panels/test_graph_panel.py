@@ -41,7 +41,7 @@ LOGGERS = ServiceSeen(
 WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/listener")
 
 
-def test_lines_run_the_way_that_data_goes() -> None:
+def test_lines_have_the_direction_of_the_data() -> None:
     """Lines lead from publisher to topic to subscriber, and both ways between a node and its service."""
     assert set(picture(WHOLE).lines) == {
         Line("node /talker", "topic /chatter"),
@@ -50,7 +50,7 @@ def test_lines_run_the_way_that_data_goes() -> None:
     }
 
 
-def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
+def test_rosout_and_loggers_are_hidden_by_default() -> None:
     """/rosout and the logger services are hidden at first."""
     assert {shape.name for shape in picture(WHOLE).shapes} == {
         "/talker",
@@ -62,7 +62,7 @@ def test_what_every_graph_has_is_left_out_unless_asked_for() -> None:
     assert {"/rosout", "/server/get_loggers"} <= {shape.name for shape in picture(WHOLE, noise=True).shapes}
 
 
-def test_a_hidden_node_takes_its_services_and_its_own_topics_along() -> None:
+def test_a_hidden_node_hides_its_services_and_its_own_topics() -> None:
     """No line leads to a node that is not drawn."""
     shown = picture(WHOLE, hide=["/server", "/talker"])
     assert {shape.name for shape in shown.shapes} == {"/listener", "/chatter"}
@@ -75,8 +75,8 @@ def test_the_order_of_the_snapshot_does_not_matter() -> None:
     assert picture(turned) == picture(WHOLE)
 
 
-def test_the_graph_in_words_names_no_port() -> None:
-    """The text is the same in every run: it lists who publishes, subscribes and provides which service."""
+def test_the_graph_as_text_contains_no_port() -> None:
+    """The text is the same in every run: it lists what each node publishes, subscribes to and serves."""
     assert graph_text(WHOLE) == (
         "/listener\n  subscribes /chatter  (std_msgs/String)\n"
         "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
@@ -112,8 +112,8 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
     assert f"topic {name}" in svg(laid_out(shown))
 
 
-def test_the_drawing_says_in_words_what_it_shows() -> None:
-    """Each shape is a button with a name; the name of a node that does not answer includes this fact."""
+def test_each_shape_has_an_accessible_name() -> None:
+    """Each shape is a button with a name; the name of a node that does not answer says so."""
     root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
@@ -126,7 +126,7 @@ def test_the_drawing_says_in_words_what_it_shows() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # an arrow each, two for the service, and its shape
+    )  # an arrow for each line, two for the service, and the service's shape
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
@@ -154,7 +154,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
     assert len(wall.said) == 1
 
 
-def test_a_choice_draws_anew() -> None:
+def test_a_choice_draws_again() -> None:
     """The option shows the hidden names."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
@@ -163,7 +163,7 @@ def test_a_choice_draws_anew() -> None:
     assert "/getGeometry" not in wall.said[-1]["drawing"]
 
 
-def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Without Graphviz, one sentence names what to install, and the list contains the whole graph."""
     monkeypatch.setenv("PATH", str(tmp_path))
     wall = Wall()
@@ -179,7 +179,7 @@ def test_without_graphviz_the_facts_remain(monkeypatch: pytest.MonkeyPatch, tmp_
 
 
 @pytest.mark.parametrize(
-    ("script", "stretch"), [("exec sleep 60", "took over"), ("echo bad >&2; exit 3", "failed")]
+    ("script", "stretch"), [("exec sleep 60", "took longer"), ("echo bad >&2; exit 3", "failed")]
 )
 def test_graphviz_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str
@@ -193,7 +193,7 @@ def test_graphviz_has_a_deadline(
         laid_out(picture(WHOLE), timeout=0.2)
 
 
-def test_a_graph_that_cannot_be_seen_keeps_the_old_picture() -> None:
+def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
     """Without a master the panel shows the reason; when the master is back, it shows the picture again."""
     wall = Wall()
     wall.model.see(WHOLE)

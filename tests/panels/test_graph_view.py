@@ -57,7 +57,7 @@ def test_the_repr_is_stable(panel: GraphPanel) -> None:
     assert repr(panel) == "GraphPanel()"
 
 
-def test_a_rate_comes_by_itself_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
+def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
     """A connected subscriber is counted and shown with a rate; a hidden panel calls no node."""
     kernel.run("from course_pkg.ros import join\nnode = join('listener')")
     kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
@@ -67,8 +67,8 @@ def test_a_rate_comes_by_itself_while_a_page_shows_the_panel(panel: GraphPanel, 
     assert panel._counts._stop is None
 
 
-def test_what_was_shown_is_handed_over_once_when_no_page_shows_it(panel: GraphPanel) -> None:
-    """While a page shows the panel, no recording grows; a hidden panel keeps the pictures of that time."""
+def test_the_recording_is_sent_once_when_no_page_shows_the_panel(panel: GraphPanel) -> None:
+    """While a page shows the panel, the recording is not sent; after that, it is sent once."""
     told: list[object] = []
     panel.observe(lambda change: told.append(change["new"]), "history")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -86,8 +86,8 @@ def test_what_was_shown_is_handed_over_once_when_no_page_shows_it(panel: GraphPa
     assert panel.history == {}
 
 
-def test_a_panel_that_stays_as_it_is_keeps_nothing(pulse: NodeProcess) -> None:
-    """With live=False there is one picture."""
+def test_a_panel_that_is_not_live_records_nothing(pulse: NodeProcess) -> None:
+    """With live=False there is one picture and no recording."""
     assert pulse.running
     panel = GraphPanel(live=False)
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A node that misses one look is called again before the panel reports it as gone."""
+    """If a node does not answer once, the panel calls it again before it reports that the node is lost."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -132,8 +132,8 @@ def test_a_node_that_is_late_once_is_not_lost(
     assert not node.reachable
 
 
-def test_what_does_not_change_is_kept_once() -> None:
-    """If nothing happens on the graph, the recording is one picture without a replay."""
+def test_an_unchanged_graph_has_no_recording() -> None:
+    """If nothing changes on the graph, there is nothing to play."""
     assert filled(*[shown()] * 5).state(BEGAN + 9) == {}
 
 
@@ -155,7 +155,7 @@ def test_moments_stay_in_order_if_the_clock_is_set_back() -> None:
     assert [moment[0] for moment in history.state(BEGAN - 3600)["moments"]] == [0, 1000, 1000]
 
 
-def test_nothing_is_kept_before_the_start_and_after_the_end() -> None:
+def test_nothing_is_recorded_before_the_start_and_after_the_end() -> None:
     """A panel without a page records nothing, and a new start deletes the previous recording."""
     history = History()
     history.add(BEGAN, *shown("a"))
@@ -168,7 +168,7 @@ def test_nothing_is_kept_before_the_start_and_after_the_end() -> None:
     assert history.state(BEGAN + 4) == {}
 
 
-def test_it_is_bounded_in_number() -> None:
+def test_the_number_of_moments_is_limited() -> None:
     """After hours the recording contains the newest moments, and the first of them is at 0 ms."""
     kept = filled(*(shown("a", turn=str(turn)) for turn in range(3 * MOMENTS)))
     moments = kept.state(BEGAN + 3 * MOMENTS)["moments"]
@@ -176,8 +176,8 @@ def test_it_is_bounded_in_number() -> None:
     assert (moments[0][0], moments[-1][2]) == (0, {"notes": {"turn": str(3 * MOMENTS - 1)}})
 
 
-def test_it_is_bounded_in_bytes() -> None:
-    """Large different drawings replace the oldest ones and their moments."""
+def test_the_size_of_a_recording_is_limited() -> None:
+    """If there are too many large drawings, the oldest ones and their moments are removed."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES

@@ -55,7 +55,7 @@ def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Pane
 
 
 def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -> None:
-    """The explanation appears before the graph's and goes with the error; unknown errors have none."""
+    """The explanation of the panel's own error has priority; an unknown error has no explanation."""
     panel = TypeBrowser()
     panel.complain(GraphError("ServiceException: service [/x] unavailable"))
     assert "No node provides" in panel.explained["cause"]
@@ -79,7 +79,7 @@ def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaste
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_framed(entry: Path) -> None:
-    """All drawings use the shared frame, and the joined script declares no name twice."""
+    """The script of each panel uses the shared frame, and declares no name twice."""
     joined = module(entry, PANELS / "explained.js")
     assert joined.count("export default { render: framed(render) };") == 1
     assert joined.count("export ") == 1
@@ -107,14 +107,14 @@ class Polled:
         return self.now
 
     def read_again(self) -> bool:
-        """Wait for further reads."""
+        """Return whether the value is read again within the deadline."""
         before = self.reads
         return eventually(lambda: self.reads > before + 2)
 
 
 @pytest.fixture
 def polled() -> Iterator[Polled]:
-    """Return a polled value, and end its poller."""
+    """Return a polled value, and stop its poller after the test."""
     polled = Polled()
     yield polled
     polled.poller.stop()
@@ -174,7 +174,7 @@ def test_stop_ends_the_thread(polled: Polled) -> None:
     eventually(lambda: len(polled.seen) == 2)
 
 
-def test_imports_are_written_in_once(tmp_path: Path) -> None:
+def test_each_import_is_inserted_once(tmp_path: Path) -> None:
     """A module that two others import is in the joined script once, before both."""
     (tmp_path / "kit.js").write_text("export const one = 1;\n")
     (tmp_path / "a.js").write_text(
@@ -207,7 +207,7 @@ def test_there_are_panels_to_join() -> None:
     assert panels <= {entry.stem for entry in ENTRIES}
 
 
-def test_sheets_stand_in_the_order_given(tmp_path: Path) -> None:
+def test_style_sheets_are_in_the_given_order(tmp_path: Path) -> None:
     """The shared styles come first, so that a panel can override them."""
     (tmp_path / "a.css").write_text("a {}")
     (tmp_path / "b.css").write_text("b {}")

@@ -1,4 +1,4 @@
-"""Predictions and choices: kept on disk, compared with the result, the same text for every student."""
+"""Predictions and choices are stored on disk; their text is the same for every student."""
 
 from __future__ import annotations
 
@@ -68,9 +68,9 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 
 @pytest.mark.parametrize(
     ("predicted", "actual", "stretch"),
-    [("2.50", 2.5, "so it was"), ("Two", "two", "so it was"), ("3", 2, "otherwise")],
+    [("2.50", 2.5, "that happened"), ("Two", "two", "that happened"), ("3", 2, "something else happened")],
 )
-def test_numbers_and_texts_are_compared_by_what_they_say(
+def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str
 ) -> None:
     """2.50 equals 2.5, and upper case does not matter."""
@@ -86,7 +86,7 @@ def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
     assert len(of_chapter(store.read().values(), "")) == 3
 
 
-def test_a_broken_file_says_which_and_what_to_do(store: PredictionStore) -> None:
+def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> None:
     """A file of another program is not changed, and the error names it."""
     store.path.parent.mkdir()
     store.path.write_text("{")
@@ -116,9 +116,7 @@ def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
     assert sorted(path.name for path in store.path.parent.iterdir()) == [".lock", "predictions.json"]
 
 
-def test_predictions_lie_with_the_state_of_the_course(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The store is in the course's state folder by default."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     assert PredictionStore().path == tmp_path / "predictions-2.json"
@@ -156,7 +154,7 @@ def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
     assert repr(Predictions("05", store=store)) == "predictions('05')"
 
 
-def test_the_widgets_show_what_is_kept(store: PredictionStore) -> None:
+def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
     """The prediction shows the stored answer, the comparison both values, and the summary one row."""
     Question("05.x", "What?", CHOICES, store=store).received("answer", {"answer": "an error"})
     prediction = Question("05.x", "What?", CHOICES, store=store)
@@ -205,7 +203,7 @@ def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesM
     assert choices_model.verdicts[1].reason == "Somebody waits for it."
 
 
-def test_what_is_compared_stays_as_it_is(choices_model: ChoicesModel) -> None:
+def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: ChoicesModel) -> None:
     """A choice that is made while the reasons are visible is not stored."""
     decide(choices_model, *["a topic"] * 3)
     choices_model.compare()
@@ -238,11 +236,11 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
     ("cases", "stretch"),
     [
         ([("One", "a topci", "So.")], "case 1 expects 'a topci'"),
-        ([CASES[0], CASES[0]], "stands there twice"),
+        ([CASES[0], CASES[0]], "is given twice"),
         ([("One", "a topic")], r"Give \(case, answer, reason\)"),
     ],
 )
-def test_a_slip_of_the_author_is_named(
+def test_a_mistake_of_the_author_raises_an_error(
     cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
 ) -> None:
     """A prediction whose right answer is not among its options raises an error."""
@@ -250,11 +248,11 @@ def test_a_slip_of_the_author_is_named(
         ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
 
 
-def test_a_broken_file_of_choices_says_which_and_what_to_do(choice_store: ChoiceStore) -> None:
+def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: ChoiceStore) -> None:
     """A file of another program is not changed, and the error names it."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
-    with pytest.raises(InvalidPredictions, match=r"choices\.json does not hold choices.*Move the file away"):
+    with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move the file"):
         choice_store.read()
 
 

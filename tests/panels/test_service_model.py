@@ -1,4 +1,4 @@
-"""The service panel's model: no page, no kernel, no ROS."""
+"""The model of the service panel, without a page, a kernel or ROS."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ TYPES = {
 
 
 def find_type(name: str) -> ServiceType:
-    """A catalogue with two types."""
+    """Return one of two known types."""
     if name not in TYPES:
         raise UnknownType(name, f"{name} is not known here.")
     return TYPES[name]
@@ -93,7 +93,7 @@ GOOD = {"length": "1.2", "width": "5.2", "height": "8.9"}
 
 @pytest.fixture
 def harness() -> Harness:
-    """Select the geometry service."""
+    """Return a model in which the geometry service is selected."""
     harness = Harness()
     harness.model.offer([GEOMETRY_OFFER])
     harness.model.pick("/getGeometry")
@@ -112,7 +112,7 @@ def test_a_call_is_two_messages(harness: Harness) -> None:
     assert harness.model.response.area == pytest.approx(6.24)
 
 
-def test_what_is_wrong_is_said_at_its_field_and_nothing_is_called(harness: Harness) -> None:
+def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness) -> None:
     """Each wrong field is named with the allowed values, and no request is sent."""
     harness.model.start({"length": "abc", "width": "5.2", "height": "1e39"}, "5")
     check = harness.state["check"]
@@ -146,7 +146,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     harness.model.start(GOOD, "5")
-    with pytest.raises(CallInProgress, match="getGeometry is being called already"):
+    with pytest.raises(CallInProgress, match="A call of /getGeometry is running"):
         harness.model.call("5")
     harness.caller.release.set()
     harness.ended()
@@ -164,8 +164,8 @@ def test_cancel_ends_the_call(harness: Harness) -> None:
     assert "handler continues" in outcome["error"]["cause"]
 
 
-def test_an_error_is_shown_in_its_own_words_and_explained(harness: Harness) -> None:
-    """The error message is unchanged, and the table explains it."""
+def test_an_error_message_is_shown_unchanged_and_explained(harness: Harness) -> None:
+    """The page gets the unchanged error message and its explanation."""
     harness.caller.raises = RuntimeError("service [/getGeometry] unavailable")
     harness.model.start(GOOD, "5")
     error = harness.ended()["error"]
@@ -187,7 +187,7 @@ def test_history_is_bounded_and_can_refill_the_form(harness: Harness) -> None:
     assert history[0]["said"].startswith("area 0.0")
 
 
-def test_fill_refuses_what_does_not_fit_and_keeps_the_form(harness: Harness) -> None:
+def test_fill_refuses_a_wrong_value_and_keeps_the_form(harness: Harness) -> None:
     """A value from Python is checked in the same way as a typed one."""
     harness.model.fill({"length": 1.2})
     with pytest.raises(FieldError, match="width"):
@@ -205,7 +205,7 @@ def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> Non
     assert harness.ended()["phase"] == "failed"
 
 
-def test_a_service_that_goes_away_is_said_and_what_was_typed_stays(harness: Harness) -> None:
+def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> None:
     """If the service disappears, the form stays, with a sentence until the service is back."""
     harness.model.edit(GOOD)
     harness.model.offer([])
@@ -237,7 +237,7 @@ def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
         harness.model.call("5")
 
 
-def test_nothing_picked_says_how_to_pick() -> None:
+def test_a_call_without_a_service_names_the_next_step() -> None:
     """A call from Python without a service raises an error that names the next step."""
     with pytest.raises(NoServiceSelected, match=r"ServicePanel\('/getGeometry'\)"):
         Harness().model.call("5")

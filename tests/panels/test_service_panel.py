@@ -56,7 +56,7 @@ def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
 
 
 def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
-    """Its repr and text/plain are the same before and after a call, so that nbval can compare notebooks."""
+    """The repr and text/plain are the same before and after a call, so that nbval can compare notebooks."""
     before = repr(panel)
     panel.call()
     assert repr(panel) == before == "ServicePanel('/getGeometry')"
@@ -102,7 +102,7 @@ def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
 
 
 @pytest.mark.parametrize("panel_class", [ServicePanel, GraphPanel])
-def test_no_master_is_a_sentence(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
+def test_without_a_master_it_shows_the_reason(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
     """Without a master the panel opens and gives the reason for being empty."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
     panel = panel_class()

@@ -41,7 +41,7 @@ def graph_state() -> State:
         Line("node /camera", "topic /pictures"),
         Line("topic /pictures", "node /rostopic_123_1700000000000"),
     )
-    words = "2 nodes, 1 topic, 1 service. The list after the drawing says the same in words."
+    words = "2 nodes, 1 topic, 1 service. The list after the drawing shows the same as text."
     facts = [
         {"key": each.key, "kind": each.kind.value, "name": each.name, "lost": not each.reachable, "facts": []}
         for each in shapes
@@ -170,7 +170,7 @@ def _traits(panel: object) -> State:
 
 @pytest.fixture(autouse=True)
 def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nobody has predicted or chosen anything yet."""
+    """Use a state folder without predictions and choices."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
 
 
@@ -181,8 +181,8 @@ def test_each_kind_of_panel_has_a_picture() -> None:
 
 
 @pytest.mark.parametrize("name", STATES)
-def test_a_picture_stands_alone(name: str) -> None:
-    """It is well-formed, has a title, an opaque ground and a size, needs nothing else, and repeats itself."""
+def test_a_picture_is_complete(name: str) -> None:
+    """The SVG is well-formed and complete, has a title and a background, and is the same each time."""
     panel, state = STATES[name]
     given = state()
     first = STILLS[panel].draw(given)
@@ -202,8 +202,8 @@ def test_a_picture_stands_alone(name: str) -> None:
             assert float(text.get("x", "0")) < width
 
 
-def test_what_differs_from_run_to_run_is_left_out() -> None:
-    """A picture that is not marked as measured holds no port, no time of day, no number of a process."""
+def test_values_that_differ_in_each_run_are_left_out() -> None:
+    """A picture that is not marked as measured contains no port, no time of day and no process number."""
     graph = STILLS["graph"].draw(graph_state())
     assert "1700000000000" not in graph
     assert "1 topic" in graph
@@ -239,7 +239,7 @@ def test_lines_fit_and_keep_every_word() -> None:
 
 
 def test_text_from_outside_stays_text() -> None:
-    """Markup and characters that XML does not know break no picture."""
+    """Markup, and characters that XML does not allow, do not break a picture."""
     written = Paper("<b>&\x00")
     written.write("<script>\x1b[31m")
     root = fromstring(written.svg())  # noqa: S314 - it is our own

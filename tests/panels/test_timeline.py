@@ -1,4 +1,4 @@
-"""What a timeline draws of a recording, and its description as text."""
+"""The data of a timeline, and its description as text."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return the arrows by the kinds of their ends."""
+    """Return each arrow as the kinds of its two events."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If only one side of a call or message was recorded, there is no arrow."""
+    """If only one end of a call or message was recorded, there is no arrow."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -67,7 +67,7 @@ def test_what_was_not_recorded_is_not_drawn() -> None:
         assert drawn(recording(*events)) == []
 
 
-def test_no_answer_reaches_who_gave_up() -> None:
+def test_a_call_that_timed_out_has_no_response() -> None:
     """A call that timed out has no answer, even if the handler ended later; a refusal is an answer."""
     *asked, handler, _ = call()
     gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
@@ -77,7 +77,7 @@ def test_no_answer_reaches_who_gave_up() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """A call that has not ended has no answer; a wait that began earlier shows where its request went."""
+    """A call that has not ended has no response; its only arrow leads from the wait to the handler."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -136,7 +136,7 @@ def test_the_state_is_bounded() -> None:
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
     assert len(kinds) == MOST
     assert kinds.count("wait") == 1
-    said = "Drawn are 4,000 events: 6,006 messages and callbacks from 1.998 s on are left out."
+    said = "4,000 events are drawn: 6,006 messages and callbacks from 1.998 s on are left out."
     assert kept["notes"] == [said]
     assert len(json.dumps(kept)) < 400_000
     assert kept["waits"]["streams"][0]["published"] == 5000
@@ -147,7 +147,7 @@ def test_too_many_calls() -> None:
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
-    assert kept["notes"] == ["Drawn are 4,000 events: 2,000 events from 666.4 s on are left out."]
+    assert kept["notes"] == ["4,000 events are drawn: 2,000 events from 666.4 s on are left out."]
 
 
 def test_nothing_recorded() -> None:
@@ -194,7 +194,7 @@ def test_in_plain_sentences() -> None:
     late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
     found = recording(late, lookup, error, *call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator"))
     assert timeline_text(found).splitlines() == [
-        "/customer called /nope, and reached nobody.",
+        "/customer called /nope, and reached no server.",
         "/customer called /x and waited for /cashier.",
         "/late called /x and waited for /cashier, to the end of the recording.",
         "/robot published /joints and waited for nobody; /simulator heard it.",
@@ -202,8 +202,8 @@ def test_in_plain_sentences() -> None:
     assert timeline_text(Recording()) == "Nothing was recorded."
 
 
-def test_messages_that_nobody_heard() -> None:
-    """If it was recorded that no subscriber was connected, the text contains it; otherwise it does not."""
+def test_messages_without_a_subscriber() -> None:
+    """The text says that no subscriber was connected, but only if this was recorded."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
     lost = replace(sent, note="nobody was connected")
@@ -211,7 +211,7 @@ def test_messages_that_nobody_heard() -> None:
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1
 
 
-@pytest.mark.parametrize(("failed", "words"), [(1, "in vain"), (2, "at times in vain")])
+@pytest.mark.parametrize(("failed", "words"), [(1, "and each call failed"), (2, "and some calls failed")])
 def test_failures_in_plain_sentences(failed: int, words: str) -> None:
     """The text counts failed calls: all of them, or some of several."""
     error = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")

@@ -46,7 +46,7 @@ def test_a_form_and_its_commands_are_there_at_once() -> None:
 
 
 def test_a_measurement_is_drawn_first() -> None:
-    """The number of a message, `header.seq`, stays among the choices, but it is not drawn by default."""
+    """The first number of a message, `header.seq`, can be chosen, but it is not drawn by default."""
     process = FakeProcess(message_type("sensor_msgs/JointState"), "/joint_states")
     assert process.state["about"]["numbers"][0] == "header.seq"
     assert process.state["settings"]["path"] == "position[0]"
@@ -54,8 +54,8 @@ def test_a_measurement_is_drawn_first() -> None:
 
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
-def test_what_is_no_name_is_refused(name: str) -> None:
-    """A misspelt name would create another topic, so the panel points to similar names."""
+def test_an_invalid_name_is_refused(name: str) -> None:
+    """A misspelt name would create another topic, so the error says what a name looks like."""
     with pytest.raises(NotATopic, match="Give a full name"):
         FakeProcess(topic=name)
 
@@ -63,7 +63,7 @@ def test_what_is_no_name_is_refused(name: str) -> None:
 def test_a_topic_without_a_type_waits_for_one() -> None:
     """The panel uses the type of the publisher, not the type that a subscriber has registered."""
     process = FakeProcess(None)
-    assert "Nobody publishes /speed yet" in process.state["about"]["problem"]
+    assert "No node publishes /speed yet" in process.state["about"]["problem"]
     process.model.see({**EMPTY, "subscribers": [{"node": "/listener", "type": "*"}]})
     assert "message" not in process.state["about"]
     talker = {"node": "/talker", "type": "std_msgs/String"}
@@ -72,7 +72,7 @@ def test_a_topic_without_a_type_waits_for_one() -> None:
     assert process.commands == [("type", {"name": "std_msgs/String", "text": ""}), ("plot", {"path": ""})]
 
 
-def test_the_first_message_tells_the_type() -> None:
+def test_the_first_message_gives_the_type() -> None:
     """A latched message that arrives before the first snapshot is shown."""
     process = FakeProcess(None)
     process.model.report({"messages": [message(1, "2.5")]})
@@ -80,14 +80,14 @@ def test_the_first_message_tells_the_type() -> None:
     assert process.state["about"]["message"]["name"] == "std_msgs/Float64"
 
 
-def test_a_type_that_is_not_known_here_is_said() -> None:
+def test_an_unknown_type_is_reported() -> None:
     """A publisher may use a type that has no definition on this machine."""
     process = FakeProcess(None)
     process.model.see({**EMPTY, "publishers": [{"node": "/talker", "type": "their_pkg/Thing"}]})
     assert "their_pkg/Thing" in process.state["about"]["problem"]
 
 
-def test_a_new_process_is_told_the_type_and_the_path() -> None:
+def test_a_new_process_gets_the_type_and_the_path() -> None:
     """The next topic process receives the choices of the page; a type from a notebook is sent as text."""
     kind = compile_message("demo/Two", "float64 a\nfloat64 b\n")
     process = FakeProcess(kind)
@@ -97,7 +97,7 @@ def test_a_new_process_is_told_the_type_and_the_path() -> None:
     assert process.commands == [("type", {"name": "demo/Two", "text": kind.text}), ("plot", {"path": "b"})]
 
 
-def test_a_click_publishes_what_stands_in_the_form() -> None:
+def test_a_click_publishes_the_values_of_the_form() -> None:
     """Values, latch and queue are sent to the topic process; a burst has a count, a repetition a rate."""
     process = FakeProcess()
     process.commands.clear()
@@ -139,7 +139,7 @@ def test_nothing_is_published_while_something_is_wrong(
     assert not [do for do, _ in process.commands if do != "plot"]
 
 
-def test_a_wrong_rate_does_not_keep_one_from_publishing_once() -> None:
+def test_a_wrong_rate_does_not_prevent_a_single_message() -> None:
     """Only the fields that the click needs are checked."""
     process = FakeProcess()
     process.model.act("publish", {"data": "1"}, Settings(rate="often", path="data"))
@@ -211,7 +211,7 @@ PUBLISHER: PublisherReport = {
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"published": 0}, "Nothing is published yet. The first message makes the publisher."),
+        ({"published": 0}, "Nothing is published yet. The first message creates the publisher."),
         ({}, "Message 3 went to this panel and /listener."),
         ({"reached": 1}, "Message 3 went to 1 subscriber."),
         (
@@ -220,22 +220,22 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
-            "Message 3 went to nobody yet. Latched, it is kept for the next subscriber that connects.",
+            "Message 3 went to nobody yet. It is latched, so the next subscriber gets it.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
             "Message 3 was kept, and went to this panel as soon as it was connected.",
         ),
-        ({"advertised": False}, "The publisher is withdrawn. The next message makes a new one."),
-        ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz, really 9.987 Hz."),
+        ({"advertised": False}, "The publisher is withdrawn. The next message creates a new one."),
+        ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),
         (
             {"rate": 10.0, "statistics": {}, "skipped": 2},
             "Publishing at 10 Hz. 2 messages had to be left out.",
         ),
     ],
 )
-def test_what_became_of_a_message_in_words(change: PublisherReport, words: str) -> None:
-    """The panel reports only counted messages."""
+def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> None:
+    """The sentence says what the report says, and nothing else."""
     assert published({**PUBLISHER, **change}, "/panel") == words
 
 
@@ -247,13 +247,13 @@ def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connection
     return {"publishers": publishers, "subscribers": subscribers, "sources": sources}
 
 
-def test_types_that_differ_are_said_for_each_node() -> None:
+def test_different_types_are_reported_for_each_node() -> None:
     """The warning names both nodes and both MD5s, and which node receives nothing."""
     said = mismatches(FLOAT, seen("std_msgs/String", "std_msgs/UInt32"), "/panel", message_type)
     assert [words.split()[0] for words in said] == ["/talker", "/listener"]
     assert f"std_msgs/String (MD5 {STRING.md5[:8]}…)" in said[0]
     assert f"std_msgs/Float64 (MD5 {FLOAT.md5[:8]}…)" in said[0]
-    assert "is not told" in said[1]
+    assert "and no error" in said[1]
 
 
 @pytest.mark.parametrize(
@@ -265,7 +265,7 @@ def test_types_that_differ_are_said_for_each_node() -> None:
         seen("std_msgs/Float64", "their_pkg/Other") | {"subscribers": [{"node": "/panel", "type": "x/Y"}]},
     ],
 )
-def test_types_that_agree_need_no_words(seen: Connections) -> None:
+def test_equal_types_cause_no_warning(seen: Connections) -> None:
     """Nodes of any type, nodes that do not answer, and the panel itself cause no warning."""
     assert mismatches(FLOAT, seen, "/panel", message_type) == []
 
@@ -277,6 +277,6 @@ def test_one_name_with_two_definitions_is_a_mismatch() -> None:
 
 
 def test_a_type_that_is_unknown_here_is_a_mismatch_by_name() -> None:
-    """The MD5 is unknown."""
+    """If the MD5 is not known, the names of the types are compared."""
     said = mismatches(FLOAT, seen(subscriber="their_pkg/Other"), "/panel", message_type)
     assert "subscribes to their_pkg/Other, this panel" in said[0]

@@ -87,7 +87,7 @@ def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> 
     assert kernel.run("count = heard.count; node.call; result = heard.count - count") == 0
 
 
-def test_it_comes_back_with_what_was_typed(panel: TopicPanel) -> None:
+def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) -> None:
     """A panel that is shown again has another node, with the same type and plot."""
     click(panel, "publish", "2.5")
     first = panel.connections["own"]
@@ -100,7 +100,7 @@ def test_it_comes_back_with_what_was_typed(panel: TopicPanel) -> None:
     assert eventually(lambda: '"count": 1' in panel.curve)
 
 
-def test_a_page_in_a_hurry_leaves_nothing_behind(panel: TopicPanel, master: PrivateMaster) -> None:
+def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master: PrivateMaster) -> None:
     """After many quick shows and hides there is one node, or none."""
     for _ in range(8):
         panel.hidden()
@@ -112,7 +112,7 @@ def test_a_page_in_a_hurry_leaves_nothing_behind(panel: TopicPanel, master: Priv
     eventually(lambda: not look(master.uri).nodes)
 
 
-def test_another_type_is_said(panel: TopicPanel, kernel: Kernel) -> None:
+def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
     """A publisher of another type is named with its type."""
     kernel.run("""
         from course_pkg.ros import join
@@ -141,7 +141,7 @@ def test_the_text_is_the_same_in_every_run(panel: TopicPanel) -> None:
     assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "TopicPanel('/speed')"
 
 
-def test_a_slip_in_the_cell_is_an_error_in_the_cell() -> None:
+def test_a_mistake_in_the_cell_raises_an_error() -> None:
     """An unknown type and an invalid name raise errors."""
     with pytest.raises(UnknownType, match="Flaot64"):
         TopicPanel("/speed", "std_msgs/Flaot64")
@@ -149,7 +149,7 @@ def test_a_slip_in_the_cell_is_an_error_in_the_cell() -> None:
         TopicPanel("/my speed", "std_msgs/Float64")
 
 
-def test_without_a_master_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     """The panel shows the form, and the reason why it receives nothing."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     panel = TopicPanel("/speed", "std_msgs/Float64")

@@ -10,7 +10,7 @@ from course_pkg.panels.turtles.pen import HOME, USUAL, Colour, Observation
 from course_pkg.panels.turtles.recording import BACKGROUND, MOST, UP, TurtleRecording
 
 RED: Colour = (255, 0, 0)
-LOOK = 50  # ms
+LOOK = 50  # ms between two poses
 
 
 def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: float = 2.0) -> Observation:
@@ -33,8 +33,8 @@ def test_a_turtle_that_rests_makes_one_row() -> None:
     assert recording.length == 1199 * LOOK
 
 
-def test_a_start_after_a_rest_is_not_a_creep() -> None:
-    """The last pose before a movement has its own row, so that the replay does not glide during the pause."""
+def test_a_turtle_stands_still_in_the_replay_until_it_starts() -> None:
+    """The last pose before a movement has its own row, so that the turtle stands still in the replay, too."""
     recording = filmed(*[at(3.0, speed=0.0)] * 10, at(3.1))
     assert [row[:3] for row in recording.rows] == [(0, 0, 3000), (9 * LOOK, 0, 3000), (10 * LOOK, 0, 3100)]
 
@@ -45,13 +45,13 @@ def test_the_usual_pen_until_more_is_known() -> None:
     assert recording.palette[recording.rows[-1][5]] == USUAL
 
 
-def test_a_colour_read_twice_while_it_is_slow_is_its_pens() -> None:
+def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
     """The colour sensor reads the turtle's own line; from then on the line has that colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 
 
-def test_a_line_that_is_crossed_is_not_its_pen() -> None:
+def test_a_crossed_line_does_not_change_the_pen() -> None:
     """A single pose with another colour changes nothing."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, RED), at(3.3, USUAL))
     assert {row[5] for row in recording.rows[1:]} == {recording.palette.index(USUAL)}
@@ -64,7 +64,7 @@ def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
     assert recording.rows[-1][5] == UP
 
 
-def test_a_fast_turtle_on_plain_paper_may_draw_all_the_same() -> None:
+def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
     """A moving turtle reads the paper in front of its line; its pen colour is known only at rest."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
@@ -90,7 +90,7 @@ def test_reset_is_seen_by_the_first_turtle() -> None:
 
 
 def test_a_turtle_that_leaves_and_comes_back() -> None:
-    """A turtle that appears again keeps its number, and no line joins the two lives."""
+    """A turtle that appears again keeps its number, and no line connects its old and its new place."""
     recording = filmed(at(3.0))
     recording.miss(100, "turtle1")
     recording.see(200, "turtle1", at(9.0))

@@ -44,7 +44,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_service_is_told_with_fields_comments_and_lines() -> None:
+def test_a_service_type_has_fields_comments_and_lines() -> None:
     """The browser shows fields, MD5, text, and commands that work unchanged."""
     told = described("std_srvs/SetBool", "srv")
     request, response = told["parts"]
@@ -62,7 +62,7 @@ def test_a_service_is_told_with_fields_comments_and_lines() -> None:
     assert (told["problem"], told["warning"]) == ("", "")
 
 
-def test_messages_within_are_a_tree_and_constants_are_told() -> None:
+def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
     """Nested messages and arrays list their own fields; a time lists its two parts."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
@@ -76,7 +76,7 @@ def test_messages_within_are_a_tree_and_constants_are_told() -> None:
     assert [each["name"] for each in points["fields"][0]["fields"]] == ["x", "y", "z"]
 
 
-def test_a_broken_file_is_told_with_file_and_line(folder: Path) -> None:
+def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
     """For an invalid definition the browser shows the error with its line, and the text."""
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
@@ -137,7 +137,7 @@ def test_everything_on_the_path_can_be_opened() -> None:
     assert [name for name in services if described(name, "srv")["problem"]] == []
 
 
-def test_a_type_that_vanishes_is_told(folder: Path) -> None:
+def test_a_changed_file_is_reported(folder: Path) -> None:
     """When a file changes, the page shows the change without another click."""
     wall = Wall()
     root = package(folder, "short_pkg", Lived_srv="int8 x\n---\n")
@@ -150,7 +150,7 @@ def test_a_type_that_vanishes_is_told(folder: Path) -> None:
     assert all(each["srv"] != ["Lived"] for each in wall.last("packages"))
 
 
-def test_the_same_is_not_told_twice() -> None:
+def test_an_unchanged_type_is_not_sent_again() -> None:
     """If no file has changed, the model sends nothing."""
     wall = Wall()
     wall.model.update(catalogue())

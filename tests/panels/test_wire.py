@@ -71,7 +71,7 @@ VALUES = {
 
 
 def sized(data: bytes) -> bytes:
-    """Return the bytes with their length in front."""
+    """Return the bytes with their length before them."""
     return struct.pack("<I", len(data)) + data
 
 
@@ -81,7 +81,7 @@ def header(**fields: str) -> bytes:
 
 
 def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
-    """Return the bytes of a message from genpy, without a length in front."""
+    """Return the bytes of a message from genpy, without a length before them."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()
@@ -120,7 +120,7 @@ def titles(*conversations: RelayedConnection, kind: ServiceType | None = GEOMETR
 
 
 def unknown(name: str) -> ServiceType:
-    """Find no type."""
+    """Raise the error for an unknown type."""
     raise UnknownType(name, f"there is no {name}")
 
 
@@ -170,14 +170,14 @@ def test_any_bytes_are_shown(seed: int) -> None:
         assert len(pieces) <= MOST + 2
 
 
-def test_a_count_that_lies_ends() -> None:
+def test_a_wrong_count_is_read_in_no_time() -> None:
     """Four billion elements without fields take no bytes and no time."""
     kind = compile_message("x/Empties", "std_msgs/Empty[] nothing\nuint8 last")
     pieces = request_pieces(sized(b"\xff\xff\xff\xff\x05"), kind)
     assert values(pieces)["last"] == "5"
 
 
-def test_what_is_long_is_bounded() -> None:
+def test_long_values_are_shortened() -> None:
     """A large image, a long string and many points give a page of a few kilobytes."""
     kind = compile_message("x/Long", "uint8[] data\nstring text\ngeometry_msgs/Point[] points\nint32 last")
     point = {"x": 1.0, "y": 2.0, "z": 3.0}
@@ -248,7 +248,7 @@ def test_a_persistent_connection_has_many_requests() -> None:
     assert steps[3:7] == ["Request", "Response", "Request", "Response"]
 
 
-def test_failures_are_told_apart() -> None:
+def test_failures_are_distinguished() -> None:
     """The view handles an ok byte of 0, a refused handshake, a lost connection, no server, and a probe."""
     refusal = (False, b"\0" + sized(b"no"))
     assert "Error" in titles(connection(GREETED, WELCOME, ASKED, refusal))
@@ -262,10 +262,10 @@ def test_failures_are_told_apart() -> None:
     )
     assert titles(connection(GREETED))[-1] == "The client gives up"
     assert titles(RelayedConnection(10.0, refused="Connection refused")) == [
-        "Nobody takes the connection at localhost:1"
+        "No process accepts the connection at localhost:1"
     ]
     probe = (True, header(probe="1", md5sum="*", callerid="/me", service="/x"))
-    assert "Connection header of the client, which only asks" in titles(connection(probe, WELCOME))
+    assert "Connection header of the client, which only probes" in titles(connection(probe, WELCOME))
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:
@@ -275,7 +275,7 @@ def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:
     assert [piece["role"] for piece in request["pieces"]] == ["length", "raw"]
 
 
-def test_many_steps_are_bounded_and_said() -> None:
+def test_many_steps_are_limited_with_a_note() -> None:
     """Of many calls the first steps are shown, and a note gives the total number."""
     wire = Wire(
         "/x", connections=[connection(GREETED, WELCOME, *[ASKED, ANSWERED] * 50)], kind=GEOMETRY, skipped=3

@@ -1,1 +1,1 @@
-"""The lab: cases in which something is really broken, to be diagnosed from the symptom."""
+"""The lab Break it: cases with a real fault, which the student diagnoses from the symptom."""

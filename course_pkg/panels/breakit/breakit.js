@@ -1,9 +1,9 @@
-/* The lab: a row of cases, what is seen of the one that is open, tools, and an answer. All of it is the model's. */
+/* The lab: a row of cases, the open case with the outputs of its tools, and an answer. The model holds all state. */
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { block, lookTitle } from "./parts.js";
 
-const STATES = { new: "not answered", wrong: "answered wrongly so far", shown: "answer looked at", solved: "solved" };
-const SLOW = 1500; // ms after which a click that the kernel has not taken is explained
+const STATES = { new: "not answered", wrong: "no right answer yet", shown: "answer looked at", solved: "solved" };
+const SLOW = 1500; // ms; if the kernel has not handled a click by then, the panel says why
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -59,7 +59,7 @@ class LabView {
       onclick: (/** @type {Event} */ event) => this.#ask(/** @type {HTMLElement} */ (event.currentTarget), { kind: "open", case: number }) });
   }
 
-  /** One stop for the Tab key in the row of cases; arrows go from case to case. @param {KeyboardEvent} event */
+  /** The Tab key stops once in the row of cases; the arrow keys go from case to case. @param {KeyboardEvent} event */
   #arrow(event) {
     const at = this.buttons.indexOf(/** @type {HTMLElement} */ (document.activeElement));
     const steps = { ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: this.buttons.length - 1 };
@@ -138,11 +138,11 @@ class LabView {
 
   /** @param {any} open */
   #words(open) {
-    const words = { causing: "Breaking something, and looking at what one sees of it…", looking: "Looking…", ready: "The fault is there. Look closer, and answer.",
-      over: "The fault is undone. Press the case again to have it back." };
-    if (!this.live) return "This is how the case stood.";
-    if (this.model.get("trouble")) return "Nothing is broken yet. Press the case again when that is mended.";
-    if (open.phase === "ready" && settled(open)) return "The fault is still there: look closer with what you know now, or undo it.";
+    const words = { causing: "Causing the fault, and collecting its symptom…", looking: "Looking…", ready: "The fault is there. Look closer, and answer.",
+      over: "The fault is undone. Press the case again to cause it again." };
+    if (!this.live) return "This is the last saved state of the case.";
+    if (this.model.get("trouble")) return "The fault is not there yet. Solve the problem above, and press the case again.";
+    if (open.phase === "ready" && settled(open)) return "The fault is still there. Use the tools again now that you know the answer, or undo the fault.";
     return words[/** @type {keyof typeof words} */ (open.phase)] ?? "";
   }
 
@@ -152,7 +152,7 @@ class LabView {
     const before = this.drawn.looks ?? [];
     this.drawn.looks = open.looks;
     const [first, ...rest] = open.looks;
-    this.symptom.replaceChildren(...(first ? [h("h4", { text: "What one sees" }), ...block(first)] : []));
+    this.symptom.replaceChildren(...(first ? [h("h4", { text: "What you see" }), ...block(first)] : []));
     const newest = rest.length && !before.some((/** @type {any} */ each) => each.number === rest[rest.length - 1].number);
     this.looks.replaceChildren(...[...rest].reverse().map((/** @type {any} */ look, /** @type {number} */ index) => h("li", {},
       h("details", { open: index === 0 }, h("summary", {}, ...prose(lookTitle(look, open.tools))), ...block(look)))));
@@ -164,7 +164,7 @@ class LabView {
     if (same(verdict, this.drawn.verdict)) return;
     this.drawn.verdict = verdict;
     this.verdict.className = `ros-outcome ros-${verdict.state ?? "none"}`;
-    const told = verdict.diagnosis ? [h("p", {}, h("b", { text: "What it is: " }), ...prose(verdict.diagnosis)), h("p", {}, h("b", { text: "Why: " }), ...prose(verdict.reason)),
+    const told = verdict.diagnosis ? [h("p", {}, h("b", { text: "What is wrong: " }), ...prose(verdict.diagnosis)), h("p", {}, h("b", { text: "Why: " }), ...prose(verdict.reason)),
       h("p", {}, h("b", { text: "What helps: " }), ...prose(verdict.remedy)), h("p", { class: "ros-muted", text: `Taught in ${verdict.taught}.` })]
       : verdict.reason ? [h("p", {}, ...prose(verdict.reason))] : [];
     const server = verdict.server ? [h("details", {}, h("summary", { text: "The server of this case" }), h("pre", { class: "ros-shown ros-whole", tabindex: "0", "aria-label": "The server's program", text: verdict.server }))] : [];
@@ -192,14 +192,15 @@ class LabView {
     this.#ask(this.check, { kind: "answer", diagnosis: this.diagnoses.picked(), remedy: this.remedies.picked() });
   }
 
-  /** Send what a button is for, unless it is out of use. @param {HTMLElement} button @param {object} content */
+  /** Sends the message of a button, unless the button is disabled. @param {HTMLElement} button @param {object} content
+   */
   #ask(button, content) {
     if (button.hasAttribute("aria-disabled") || !send(this.model, content)) return;
     clearTimeout(this.slow);
     this.slow = setTimeout(() => say(this.status, "Waiting for the kernel: it is busy with another cell."), SLOW);
   }
 
-  /** The kernel has taken a click. */
+  /** The kernel has handled a click. */
   #taken() {
     clearTimeout(this.slow);
     this.#draw();
@@ -212,12 +213,12 @@ class LabView {
   }
 }
 
-/** Whether the answer is known. @param {any} open @returns {boolean} */
+/** Returns whether the student knows the solution. @param {any} open @returns {boolean} */
 function settled(open) {
   return ["right", "shown"].includes(open.verdict?.state);
 }
 
-/** Some options of which one is picked. @param {string} title @param {() => void} changed */
+/** Returns a group of options, of which the student picks one. @param {string} title @param {() => void} changed */
 function question(title, changed) {
   const name = freshId("ros-question");
   const list = h("div", { class: "ros-options" });

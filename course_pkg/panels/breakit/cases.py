@@ -1,4 +1,4 @@
-"""The cases of the lab: their numbers, the options of each, and the student's answers."""
+"""The cases of the lab: the number and the options of each case, and the student's answers."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from course_pkg.faults.catalogue import every_fault, select
 from course_pkg.faults.fault import Fault
 from course_pkg.panels.store import Store
 
-OPTIONS = 5  # diagnoses to choose from, the right one included
+OPTIONS = 5  # diagnoses to choose from, including the right one
 
 
 @dataclass(frozen=True)
 class Case:
-    """A fault under a number that says nothing about it."""
+    """A fault with a number that does not reveal the fault."""
 
     number: int
     fault: Fault
@@ -25,10 +25,10 @@ class Case:
 
 @dataclass(frozen=True)
 class CaseRecord:
-    """One case, by the name of its fault, and the number of answers to it.
+    """The student's answers to one case; `key` is the name of its fault, and `tries` the number of answers.
 
-    `first` is whether the first answer was right, `solved` whether any was. `shown` is whether the student
-    looked at the solution before that.
+    `first` says whether the first answer was right, and `solved` whether any answer was right. `shown` says
+    whether the student looked at the solution before a right answer.
     """
 
     key: str
@@ -46,7 +46,7 @@ class CaseRecord:
 
 
 class CaseStore(Store[CaseRecord]):
-    """The answers in one file, by fault."""
+    """The answers in one file, by the name of the fault."""
 
     record = CaseRecord
     file = "cases.json"
@@ -54,9 +54,9 @@ class CaseStore(Store[CaseRecord]):
 
 
 def cases(*chosen: str) -> tuple[Case, ...]:
-    """Return the cases for these faults and groups, or all cases, by number. Raises UnknownFault.
+    """Return the cases of the chosen faults and groups, or all cases, sorted by number.
 
-    A fault has the same number in every selection.
+    A fault has the same number in every selection. Raises UnknownFault for a name that does not exist.
     """
     everything = every_fault()
     wanted = set(select(*chosen))
@@ -67,7 +67,7 @@ def cases(*chosen: str) -> tuple[Case, ...]:
 
 
 def fault_with(diagnosis: str) -> Fault | None:
-    """Return the fault with this diagnosis."""
+    """Return the fault with this diagnosis, or None if there is none."""
     return next((fault for fault in every_fault() if fault.diagnosis == diagnosis), None)
 
 
@@ -86,7 +86,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether another fault has a symptom of the same kind, and a diagnosis that is wrong here."""
+    """Return whether `other` has a similar symptom, and a diagnosis that would be wrong for `fault`."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 
@@ -96,5 +96,5 @@ def _shuffled(salt: str, texts: Sequence[str]) -> tuple[str, ...]:
 
 
 def _sort_key(salt: str, text: str) -> str:
-    """Return a key for an order that looks random, and is the same in every run."""
+    """Return a key for an order that looks random but is the same in every run."""
     return hashlib.sha256(f"{salt}: {text}".encode()).hexdigest()

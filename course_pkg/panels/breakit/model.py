@@ -1,4 +1,4 @@
-"""The state of the lab, without page or kernel: its caller causes the faults and uses the tools."""
+"""The state of the lab. It needs no page and no kernel: `stage` and `use` are functions of its caller."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from course_pkg.panels.breakit.cases import Case, CaseRecord, CaseStore, fault_w
 from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
-STEP = 30.0  # s for each step of a case that is recorded
-LOG = 8  # uses of tools that stay on the page, besides the symptom
+STEP = 30.0  # s, timeout of each step when a case is recorded
+LOG = 8  # outputs of tools that stay on the page, in addition to the symptom
 
 
 class ToolUse(TypedDict):
-    """What a tool showed: what it printed, and whether it still waits for an answer."""
+    """One use of a tool: what was run, what it printed, and whether it still waits for a response."""
 
     number: int
     tool: str
@@ -31,7 +31,7 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The verdict on an answer, or the solution, with the program of the server if there is one."""
+    """The verdict on an answer, or the solution; `server` is the program of the server, if there is one."""
 
     state: Literal["right", "half", "wrong", "shown"]
     words: str
@@ -43,7 +43,7 @@ class Verdict(TypedDict, total=False):
 
 
 class CaseState(TypedDict, total=False):
-    """The open case: its story, what tools showed of it, the options, and the verdict."""
+    """The open case: its story, the outputs of its tools, the options, and the verdict."""
 
     number: int
     story: str
@@ -63,7 +63,7 @@ class Listed(TypedDict):
 
 
 class Score(TypedDict):
-    """How many cases are solved, and how many of these with the first answer, `of` all."""
+    """How many of the `of` cases are solved, and how many were solved with the first answer."""
 
     solved: int
     first: int
@@ -78,15 +78,15 @@ class Overview(TypedDict):
 
 
 class Scene(Protocol):
-    """A fault on a stage."""
+    """A fault that can be caused on the graph and undone."""
 
     keeper: Program | None
 
     def cause(self) -> None:
-        """Cause it."""
+        """Cause the fault."""
 
     def undo(self) -> None:
-        """Undo it."""
+        """Undo the fault."""
 
 
 SceneType = TypeVar("SceneType", bound=Scene)
@@ -95,9 +95,9 @@ SceneType = TypeVar("SceneType", bound=Scene)
 class LabModel(Generic[SceneType]):
     """Causes the fault of a case, shows its symptom, uses tools, checks the answer, and undoes the fault.
 
-    Everything that touches the graph runs on one thread, in its order. `changed` gets by keyword, from any
-    thread: `cases`, `score`, `case`, `trouble`. `stage` makes the scene of a fault, `use` uses a tool on
-    it.
+    Everything that touches the graph runs on one worker thread, in the order of the calls. `changed` is
+    called from any thread with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns
+    the scene of a fault. `use` uses a tool on a scene and returns its output.
     """
 
     def __init__(
@@ -135,7 +135,7 @@ class LabModel(Generic[SceneType]):
         return {"cases": listed, "score": {"solved": len(solved), "first": first, "of": len(listed)}}
 
     def open(self, number: int) -> None:
-        """Undo the present fault and cause that of case `number`; `changed` gets the symptom."""
+        """Undo the current fault and cause the fault of case `number`; `changed` gets its symptom."""
         case = self._cases[number]
         with self._turn:
             if self._state.get("phase") in ("causing", "looking"):
@@ -155,7 +155,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(partial(self._begin, case))
 
     def use(self, tool: str) -> None:
-        """Use a tool on the case that is open."""
+        """Use a tool on the open case."""
         with self._turn:
             if self._state.get("phase") != "ready" or tool not in TOOLS:
                 return
@@ -182,18 +182,18 @@ class LabModel(Generic[SceneType]):
             self._report_all()
 
     def reveal(self) -> None:
-        """Show the solution; the record of the case says so."""
+        """Show the solution, and record that it was shown."""
         with self._turn:
             if self._case is None or self._settled:
                 return
             record = self._record(self._case)
             self._store.write(replace(record, shown=record.shown or not record.solved))
-            solution = _solution(self._case.fault, "shown", "This is it.")
+            solution = _solution(self._case.fault, "shown", "This is the solution.")
             self._state["verdict"] = {**solution, "server": self._server()}
             self._report_all()
 
     def play(self, name: str, tools: Iterable[str]) -> None:
-        """Cause the named fault, use the tools, and undo the fault, on this thread; for a saved page."""
+        """Cause the named fault, use the tools, and undo the fault, so that a saved page shows them."""
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
         self._worker.finish(STEP)
@@ -203,7 +203,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Undo the present fault, after the running job."""
+        """Undo the current fault after the running job; return at once."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -211,7 +211,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(self._undo)
 
     def close(self, timeout: float = 15.0) -> None:
-        """Undo the present fault, and return when it is undone, or after `timeout` s."""
+        """Undo the current fault, and return when it is undone, or after `timeout` s."""
         self.undo()
         self._worker.finish(timeout)
 
@@ -260,7 +260,7 @@ class LabModel(Generic[SceneType]):
         self._report(cases=overview["cases"], score=overview["score"])
 
     def _server(self) -> str:
-        """Return the text of the program that serves in this case, "" if none does."""
+        """Return the text of the server's program, or "" if the case has no server."""
         keeper = self._scene.keeper if self._scene else None
         return keeper.shown.rstrip() if keeper else ""
 
@@ -283,15 +283,15 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 
 
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
-    """Return the verdict on an answer; for a wrong one, the symptom of the fault that it names."""
+    """Return the verdict on an answer; for a wrong answer, with the symptom of the fault in the answer."""
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:
         words = "The diagnosis is right. Another remedy fits it better."
         return {"state": "half", "words": words, "reason": ""}
     other = fault_with(diagnosis)
-    reason = f"If it were that, this would hold: {other.reason}" if other else ""
-    return {"state": "wrong", "words": "Not this.", "reason": reason}
+    reason = f"That fault would look different: {other.reason}" if other else ""
+    return {"state": "wrong", "words": "This is not the fault.", "reason": reason}
 
 
 def _solution(fault: Fault, state: Literal["right", "shown"], words: str) -> Verdict:

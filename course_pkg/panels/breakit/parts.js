@@ -1,4 +1,4 @@
-/* What is seen of a case: a program or a command, and what it printed. */
+/* One output of a case: the program or command that was run, and what it printed. */
 import { h } from "../kit.js";
 
 /** @typedef {{number: number, tool: string, shown: string, said: string, verdict: string, waiting: boolean}} Look */

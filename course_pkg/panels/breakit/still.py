@@ -1,4 +1,4 @@
-"""The lab as a still picture: the cases; of the open one the story, what tools showed, and the verdict."""
+"""The still picture of the lab: the cases, and the open case with its story, outputs and verdict."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ VERDICTS = {"right": GOOD, "half": ACCENT, "wrong": ERROR, "shown": ACCENT}
 
 
 def still(state: State) -> str:
-    """Return the list of cases, and the open one if there is one."""
+    """Return the picture of the list of cases and, if a case is open, of this case."""
     cases, score, case = state["cases"], state["score"], state.get("case") or {}
     paper = Paper(f"The lab Break it: {len(cases)} cases, {score['solved']} of them solved")
     paper.put("Break it", EDGES, paper.y + PLAIN.height / 2, Style(12.0, bold=True, colour=ACCENT))

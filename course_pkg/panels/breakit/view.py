@@ -1,4 +1,4 @@
-"""The lab as a widget; text/plain is the same for every student."""
+"""The widget of the lab; its text/plain is the same for every student."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ HERE = Path(__file__).parent
 
 
 class BreakIt(Panel):
-    """Cases in which something is really broken, on the running graph: find out what, from the symptom.
+    """Cases with a real fault on the running graph: the student finds the fault from its symptom.
 
-    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; none for all. A fault
-    is undone when another case begins, when no page shows the lab any more, and when the kernel ends. The
-    page gets the fault of a case only after the answer. Raises UnknownFault.
+    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; without a name, all
+    cases are shown. A fault is undone when another case begins, when no page shows the lab any more, and when
+    the kernel ends. The page gets the fault of a case only after the answer. Raises UnknownFault if a name is
+    neither a fault nor a group.
     """
 
     front_end: ClassVar[Path] = HERE / "breakit.js"
     style_sheet: ClassVar[Path] = HERE / "breakit.css"
 
     cases = List(Dict(), help="the cases by number, and the state of each").tag(sync=True)
-    score = Dict(help="how many are solved, how many at the first try, of how many").tag(sync=True)
-    case = Dict(help="the case that is open, what was seen of it, and the verdict").tag(sync=True)
+    score = Dict(help="the number of solved cases, of those solved at once, and of all cases").tag(sync=True)
+    case = Dict(help="the open case, the outputs of its tools, and the verdict").tag(sync=True)
     trouble = Unicode(help="why a case could not be set up").tag(sync=True)
 
     def __init__(self, *chosen: str, store: CaseStore | None = None) -> None:
@@ -41,19 +42,19 @@ class BreakIt(Panel):
         self.publish(**self._model.overview())
 
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
-        """Play cases, with the tools to use in each, for a page without a kernel; the last one stays.
+        """Run cases and use tools in each, for a page without a kernel; the page shows the last case.
 
-        `cases` are names of faults with names of tools: {"stale": ["services", "ping"]}.
+        `cases` maps names of faults to names of tools: {"stale": ["services", "ping"]}.
         """
         for name, tools in cases.items():
             self._model.play(name, tools)
 
     def hidden(self) -> None:
-        """Undo the present fault."""
+        """Undo the current fault."""
         self._model.undo()
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click."""
+        """Handle a click on the page."""
         if kind == "open":
             self._model.open(int(content["case"]))
         elif kind == "use":
@@ -67,7 +68,7 @@ class BreakIt(Panel):
         self.send({"kind": "taken"})
 
     def close(self) -> None:
-        """Take the lab off every page and undo the present fault, which takes up to 0.3 s."""
+        """Remove the lab from every page and undo the current fault, which takes up to 0.3 s."""
         super().close()
         if hasattr(self, "_model"):  # the constructor may have raised an error
             self._model.close()

@@ -1,4 +1,4 @@
-"""A thread for the jobs of the lab, such as causing a fault, which take longer than a page may wait."""
+"""A thread for the lab's jobs, such as causing a fault, for which a page cannot wait."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Does jobs in their order on a thread, which exists only while there are jobs.
+    """Runs jobs one after the other on a thread, which exists only while there are jobs.
 
-    `failed` gets the error of a job, on that thread.
+    `failed` is called on that thread with the error of a job.
     """
 
     def __init__(self, failed: Callable[[Exception], None]) -> None:
@@ -20,7 +20,7 @@ class Worker:
         self._thread: threading.Thread | None = None
 
     def do(self, job: Callable[[], None]) -> None:
-        """Do `job` after the jobs before it; return at once."""
+        """Add `job` to the queue, and return at once."""
         with self._turn:
             self._jobs.append(job)
             if self._thread is None:
@@ -28,12 +28,12 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Drop the jobs that have not begun."""
+        """Remove the jobs that have not begun."""
         with self._turn:
             self._jobs.clear()
 
     def finish(self, timeout: float) -> bool:
-        """Wait until there are no jobs, at most `timeout` s; return whether there are none."""
+        """Wait for at most `timeout` s until all jobs are done; return whether they are."""
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout)
@@ -50,5 +50,5 @@ class Worker:
         while (job := self._next()) is not None:
             try:
                 job()
-            except Exception as error:  # noqa: BLE001 -- the thread must go on: its owner shows the error
+            except Exception as error:  # noqa: BLE001 -- the thread must continue: its owner shows the error
                 self._failed(error)

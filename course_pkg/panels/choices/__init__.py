@@ -1,1 +1,1 @@
-"""Choices: many cases, the same few options, a reason for each."""
+"""Choices: many cases with the same few options, and a reason for each case."""

@@ -1,4 +1,4 @@
-"""The cases that choose() shows without others: a topic, a service or an action, each with its reason."""
+"""The default cases of choose(): situations for a topic, a service or an action, each with its reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-/* Choices: a row a case, one button, and then for each row whether it fits and why. */
+/* Choices: a row for each case, and one button. After a press, each row shows whether the choice fits and why. */
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 
 /** @typedef {{chosen: string, fits: boolean, answer: string, reason: string}} Verdict */
@@ -17,7 +17,7 @@ class ChoicesView {
   constructor(model) {
     this.model = model;
     this.live = true;
-    this.asked = false; // whether the button was pressed while cases were open
+    this.asked = false; // whether the button was pressed before all cases were decided
     /** @type {Map<number, string>} */
     this.sent = new Map(); // options by case that the kernel has not confirmed yet
     this.rows = model.get("cases").map((/** @type {string} */ text, /** @type {number} */ number) => this.#row(text, number));
@@ -48,7 +48,7 @@ class ChoicesView {
     return { el, inputs, verdict };
   }
 
-  /** @returns {string[]} the option of each case, also those that the kernel has not confirmed yet */
+  /** @returns {string[]} the option of each case, including those that the kernel has not confirmed yet */
   #chosen() {
     return this.model.get("chosen").map((/** @type {string} */ option, /** @type {number} */ number) => this.sent.get(number) ?? option);
   }
@@ -76,7 +76,7 @@ class ChoicesView {
       input.disabled = !this.live || Boolean(verdict);
     }
     row.el.className = verdict ? (verdict.fits ? "ros-right" : "ros-wrong") : this.asked && !chosen ? "ros-open" : "";
-    const said = verdict ? [verdict.fits ? "Fits." : `Does not fit. Better: ${verdict.answer}.`, verdict.reason] : [this.asked && !chosen ? "Still open." : "", ""];
+    const said = verdict ? [verdict.fits ? "Fits." : `Does not fit. Better: ${verdict.answer}.`, verdict.reason] : [this.asked && !chosen ? "Not decided yet." : "", ""];
     if (same(said, row.said)) return;
     row.said = said;
     row.verdict.replaceChildren(...(said[0] ? [h("b", {}, ...prose(said[0])), " ", ...prose(said[1])] : []));
@@ -87,7 +87,7 @@ class ChoicesView {
     const notice = this.model.get("notice");
     const first = this.model.get("first");
     const open = chosen.filter((each) => !each).length;
-    const counts = first.of ? ` ${first.fit} of ${first.of} fitted the first time, and that is what counts.` : "";
+    const counts = first.of ? ` ${first.fit} of ${first.of} of your first choices fit, and only the first choices count.` : "";
     if (notice) return `The panel itself failed: ${notice}`;
     if (!this.live) return "No kernel answers: run the notebook to choose.";
     if (verdicts.length) {

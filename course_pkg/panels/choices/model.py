@@ -1,4 +1,4 @@
-"""Decide many cases, then see the reasons: no page, no kernel."""
+"""The model of a table of choices: decide all cases, then read the reasons. It needs no kernel."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.state import now
 
 @dataclass(frozen=True)
 class Case:
-    """A situation, the option that is expected for it, and why."""
+    """A situation, the option that is expected for it, and the reason."""
 
     text: str
     answer: str
@@ -31,11 +31,11 @@ class Verdict:
 
 @dataclass(frozen=True)
 class ChoiceRecord:
-    """The choices for one table of cases; `chosen` and `first` hold an option by the text of the case.
+    """The choices for one table of cases. `chosen` and `first` map the text of a case to an option.
 
-    `first` are the choices at `compared`, the time (ISO 8601 in UTC, "" for not yet) at which the reasons
-    were first shown. These count: `fit` of them were the expected ones. `shown` is whether the reasons are
-    shown now.
+    `compared` is the time (ISO 8601 in UTC) at which the reasons were first shown, or "" if they were never
+    shown. `first` are the choices at that time, and only these count: `fit` of them were the expected
+    options. `shown` says whether the reasons are shown now.
     """
 
     key: str
@@ -56,7 +56,10 @@ class ChoiceRecord:
 
 
 class ChoiceStore(Store[ChoiceRecord]):
-    """The choices in one file, by key; `choices.json` is the first edition's file, as with predictions."""
+    """The choices in one file, by key.
+
+    The first edition of the course used `choices.json`. That file is neither read nor changed.
+    """
 
     record = ChoiceRecord
     file = "choices-2.json"
@@ -86,7 +89,7 @@ class ChoicesModel:
 
     @property
     def record(self) -> ChoiceRecord:
-        """The stored record; a fresh one if there is none."""
+        """The stored record, or an empty one if nothing is stored."""
         fresh = ChoiceRecord(self.key, self.question)
         return replace(self._store.read().get(self.key, fresh), question=self.question, cases=len(self.cases))
 
@@ -98,21 +101,21 @@ class ChoicesModel:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """A verdict for each case once the reasons are shown; none before."""
+        """A verdict for each case if the reasons are shown; otherwise an empty list."""
         if not self.record.shown:
             return []
         pairs = zip(self.cases, self.chosen, strict=True)
         return [Verdict(chosen, chosen == case.answer, case.answer, case.reason) for case, chosen in pairs]
 
     def choose(self, number: int, option: str) -> ChoiceRecord:
-        """Choose for case `number`, from 0; not while the reasons are shown."""
+        """Store the choice for case `number` (from 0), unless the reasons are shown."""
         record = self.record
         if record.shown or option not in self.options:
             return record
         return self._store.write(replace(record, chosen={**record.chosen, self.cases[number].text: option}))
 
     def compare(self) -> ChoiceRecord:
-        """Show the reasons if every case is decided; the choices at the first time count."""
+        """Show the reasons if every case is decided; the choices at the first time are stored as `first`."""
         record = self.record
         if "" in self.chosen:
             return record
@@ -123,7 +126,7 @@ class ChoicesModel:
         return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Hide the reasons and delete the choices; those that count stay."""
+        """Hide the reasons and delete the choices; the first choices stay stored."""
         return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:
@@ -131,12 +134,12 @@ class ChoicesModel:
         for number, case in enumerate(self.cases, start=1):
             if case.answer not in self.options:
                 raise NotAChoice(
-                    f"choose({self.key!r}): case {number} expects {case.answer!r}, which is none of the "
+                    f"choose({self.key!r}): case {number} expects {case.answer!r}, which is not one of the "
                     f"options {', '.join(map(repr, self.options))}."
                 )
             if texts.count(case.text) > 1:
                 raise NotAChoice(
-                    f"choose({self.key!r}): the case {case.text!r} stands there twice. Give it once."
+                    f"choose({self.key!r}): the case {case.text!r} is given twice. Remove one of the two."
                 )
 
 
@@ -144,5 +147,5 @@ def _case(key: str, given: tuple[str, str, str]) -> Case:
     try:
         text, answer, reason = given
     except (TypeError, ValueError) as error:
-        raise NotAChoice(f"choose({key!r}): {given!r} is no case. Give (case, answer, reason).") from error
+        raise NotAChoice(f"choose({key!r}): {given!r} is not a case. Give (case, answer, reason).") from error
     return Case(str(text), str(answer), str(reason))

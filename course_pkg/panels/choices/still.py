@@ -1,4 +1,4 @@
-"""A table of choices as a still picture: the cases, the options, and the reasons once they are shown."""
+"""The still picture of a table of choices: the cases, the options and, if they are shown, the reasons."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-INDENT = 24.0  # px from the number of a case to the case
+INDENT = 24.0  # px from the number of a case to its text
 
 
 def still(state: State) -> str:
-    """Return every case with its options."""
+    """Return the picture of all cases with their options."""
     paper = Paper(f"{prose(state['question'])} {len(state['cases'])} cases, each with the same options")
     paper.put("Choose", EDGES, paper.y + PLAIN.height / 2, Style(12.0, bold=True, colour=ACCENT))
     paper.write(prose(state["question"]), HEADING, left=EDGES + 56)

@@ -1,4 +1,4 @@
-"""Choices as a widget; text/plain is the same for every student."""
+"""The widget of a table of choices; its text/plain is the same for every student."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HERE = Path(__file__).parent
 
 
 class _First(TypedDict, total=False):
-    """Of the first choices: how many fit, of how many, and whether they are the present ones."""
+    """The first choices: how many fit, how many there are, and whether they are the present choices."""
 
     fit: int
     of: int
@@ -42,10 +42,10 @@ class Choices(Panel):
     question = Unicode().tag(sync=True)
     options = List(Unicode()).tag(sync=True)
     cases = List(Unicode()).tag(sync=True)
-    chosen = List(Unicode(), help="an option for each case, or an empty text").tag(sync=True)
-    verdicts = List(Dict(), help="for each case whether the choice fits, and why").tag(sync=True)
+    chosen = List(Unicode(), help="the chosen option for each case, or an empty string").tag(sync=True)
+    verdicts = List(Dict(), help="whether the choice fits and why, for each case").tag(sync=True)
     first = Dict(
-        help="of the first choices: how many fit, of how many, and whether they are the present ones"
+        help="the first choices: how many fit, how many there are, and whether they are the present ones"
     ).tag(sync=True)
 
     def __init__(
@@ -67,7 +67,7 @@ class Choices(Panel):
         )
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click."""
+        """Handle a click on the page."""
         if kind == "choose":
             self._model.choose(int(content["case"]), str(content["option"]))
         elif kind == "compare":
@@ -92,9 +92,10 @@ def choose(
     options: Sequence[str] = OPTIONS,
     cases: Iterable[tuple[str, str, str]] = CASES,
 ) -> Choices:
-    """Ask for one of `options` in each of the cases; a case is (case, answer, reason).
+    """Return a panel in which the student chooses one of `options` in each of the cases.
 
-    `key` is `chapter.name`. Words between backticks are shown as code. Without other arguments, the student
-    decides ten cases between a topic, a service and an action. Raises NotAChoice.
+    `key` is `chapter.name`. A case is (case, answer, reason), and text between backticks is shown as code.
+    Without other arguments, the student decides ten cases between a topic, a service and an action. Raises
+    NotAChoice if an answer is not an option, or if a case is given twice.
     """
     return Choices(key, question, options, cases)

@@ -1,1 +1,1 @@
-"""Forms: the fields of any message type, to be filled in."""
+"""Forms in which a student fills in the fields of any message type."""

@@ -1,11 +1,12 @@
-/* A message as a form: controls for the fields of a type, and the draft, a tree of texts, that they edit. */
+/* A message as a form: controls for the fields of a type. The controls edit the draft, which is a tree of texts. */
 import { afterPress, freshId, h, same, say, setAttribute } from "../kit.js";
 
 /** @typedef {{name: string, type: string, kind: string, low?: any, high?: any, length?: number | null,
  *   help?: string, item?: Field, fields?: Field[], default?: any}} Field */
 /** @typedef {{input: HTMLInputElement, note: HTMLElement, help: string, touched: boolean, error: string}} Control */
 
-/** The form for one message; `edited` hears of every keystroke, `empty` is said of a type without fields. */
+/** The form for one message. `edited` is called after every keystroke. `empty` is the text for a type without fields.
+ */
 export class FieldsForm {
   /** @param {() => void} edited @param {string} empty */
   constructor(edited, empty) {
@@ -20,14 +21,15 @@ export class FieldsForm {
     this.fields = [];
   }
 
-  /** Build the form anew. @param {Field[]} fields @param {{name: string, value: any}[]} constants @param {any} draft */
+  /** Builds all controls again.
+   * @param {Field[]} fields @param {{name: string, value: any}[]} constants @param {any} draft */
   show(fields, constants, draft) {
     this.fields = fields;
     this.constants = constants;
     this.#build(draft);
   }
 
-  /** Write a draft into the form; controls stay where only texts differ. @param {any} draft */
+  /** Writes a draft into the form. If only texts differ, the controls stay. @param {any} draft */
   fill(draft) {
     if (same(draft, this.draft)) return;
     if (!same(shape(draft), shape(this.draft))) return this.#build(draft);
@@ -35,7 +37,7 @@ export class FieldsForm {
     for (const [path, control] of this.controls) write(control.input, read(this.draft, path));
   }
 
-  /** Show what is wrong: at fields that were left once, or, with `all`, everywhere.
+  /** Shows the errors: at fields that the student has already left or, if `all` is true, at all fields.
    * @param {Record<string, string>} errors @param {boolean} all */
   mark(errors, all) {
     for (const [path, control] of this.controls) {
@@ -45,7 +47,7 @@ export class FieldsForm {
     }
   }
 
-  /** Take the keyboard to the first field that is wrong, or to the first field. */
+  /** Moves the keyboard focus to the first field with an error, or to the first field. */
   focus() {
     const controls = [...this.controls.values()];
     (controls.find((control) => control.error) ?? controls[0])?.input.focus();
@@ -129,7 +131,7 @@ export class FieldsForm {
       onclick: () => this.#resize(path, read(this.draft, path).toSpliced(index, 1), index - 1) });
   }
 
-  /** @param {string} path @param {any[]} texts @param {number} index of the element that gets the keyboard */
+  /** @param {string} path @param {any[]} texts @param {number} index of the element that gets the keyboard focus */
   #resize(path, texts, index) {
     const draft = structuredClone(this.draft);
     put(draft, path, texts);
@@ -153,7 +155,7 @@ export class FieldsForm {
     say(control.note, wrong ? control.error : control.help);
   }
 
-  /** A list of the constants that a field may be meant to hold. @param {Field} field */
+  /** Returns a list of the constants that have the type of a field. @param {Field} field */
   #choices(field) {
     const fitting = (this.constants ?? []).filter((constant) => constant.type === field.type);
     if (!fitting.length) return null;
@@ -184,7 +186,7 @@ function hint(field) {
   return [small ? `${field.low} to ${field.high}` : "", field.help ?? ""].filter(Boolean).join(" · ");
 }
 
-/** The texts of an element that nobody has filled in. @param {Field} field @returns {any} */
+/** Returns the default texts of a new element. @param {Field} field @returns {any} */
 function blank(field) {
   if (field.kind === "array") return Array.from({ length: field.length ?? 0 }, () => blank(/** @type {Field} */ (field.item)));
   if (field.kind === "message") return Object.fromEntries((field.fields ?? []).map((part) => [part.name, blank(part)]));
@@ -197,7 +199,7 @@ function write(input, text) {
   else if (input.value !== text) input.value = text;
 }
 
-/** "points[2].x" as keys. @param {string} path */
+/** Splits a path such as "points[2].x" into its keys. @param {string} path */
 const keys = (path) => path.match(/[^.[\]]+/g) ?? [];
 
 /** @param {any} tree @param {string} path @returns {any} */
@@ -210,7 +212,8 @@ function put(tree, path, value) {
   steps.reduce((branch, key) => branch[key], tree)[last] = value;
 }
 
-/** What decides which controls there are: everything but the texts. @param {any} tree @returns {any} */
+/** Returns the tree with empty texts. Drafts with the same result need the same controls.
+ * @param {any} tree @returns {any} */
 function shape(tree) {
   if (Array.isArray(tree)) return tree.map(shape);
   if (tree && typeof tree === "object") return Object.fromEntries(Object.entries(tree).map(([key, value]) => [key, shape(value)]));

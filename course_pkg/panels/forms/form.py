@@ -1,4 +1,4 @@
-"""A message as a form holds it: a tree of strings, what is wrong with it, and its values as a table."""
+"""A message in a form: a tree of strings, the errors in it, and its values as a table."""
 
 from __future__ import annotations
 
@@ -9,31 +9,34 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-CONTROLS = 16  # an array with more elements is edited as one line of text, not with a control for each
+CONTROLS = 16  # an array with more elements is edited as one line of text
 LIMIT = 200  # rows of a table
-ELEMENTS = 32  # of an array that a table shows
+ELEMENTS = 32  # elements of an array that a table shows
 _NANO = 10**9
 
-Draft: TypeAlias = dict[str, StringTree]  # what is typed into a form, by field
+Draft: TypeAlias = dict[str, StringTree]  # the texts in a form, by field
 Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
-    """What a form's draft amounts to: the errors by field, or the commands that do the same as the form.
+    """The result of checking a form: the errors by field, or the commands that do the same as the form.
 
-    A page tells by `refused`, which counts up, that a click on a button was refused.
+    `refused` counts the clicks on a button that were refused. So a page notices each refused click.
     """
 
     errors: dict[str, str]
     refused: int
-    shell: str  # of a service
+    shell: str  # commands for a service
     python: str
-    once: str  # of a topic
+    once: str  # commands for a topic
     often: str
 
 
 class Row(TypedDict):
-    """A row of a table of values; `text` is empty if the value is in the next rows, one `depth` deeper."""
+    """A row of a table of values.
+
+    If the value is in the next rows, `text` is empty, and `depth` is larger by 1 in those rows.
+    """
 
     depth: int
     name: str
@@ -42,7 +45,7 @@ class Row(TypedDict):
 
 
 class MessageForm:
-    """The form for a message; `commands` returns the commands that do the same with given values."""
+    """The form for a message; `commands` returns the commands that do the same as the form."""
 
     def __init__(self, message: MessageType, commands: Callable[[Values], Check]) -> None:
         self.message = message
@@ -50,7 +53,7 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return what is wrong, by the path of the field; at most one error for each top-level field."""
+        """Return the error messages by field path; at most one for each top-level field."""
         wrong: dict[str, str] = {}
         given = {**self.blank, **draft}
         for name in self.blank:
@@ -61,7 +64,7 @@ class MessageForm:
         return wrong
 
     def checked(self, draft: Draft) -> Check:
-        """Return the errors, or the commands that do the same as the form."""
+        """Return the errors, or the commands if there are no errors."""
         try:
             values = self.values(draft)
         except FieldError:
@@ -69,11 +72,11 @@ class MessageForm:
         return {"errors": {}, **self._commands(values)}
 
     def values(self, draft: Draft) -> dict[str, Plain]:
-        """Return the plain values of the message. Raises FieldError."""
+        """Return the plain values of the message. Raises FieldError if one is not valid."""
         return self.message.parse({**self.blank, **draft})
 
     def filled(self, draft: Draft, values: Values) -> Draft:
-        """Return the draft with plain values written into it. Raises FieldError if one does not fit."""
+        """Return the draft with plain values written into it. Raises FieldError if a value does not fit."""
         formatted = self.formatted(self.message.check({**self.message.default(), **values}))
         return {**draft, **{name: formatted[name] for name in values}}
 
@@ -83,13 +86,16 @@ class MessageForm:
 
 
 def correction(error: FieldError) -> str:
-    """Return what is wrong with a field and what would be right; the page shows it next to the field."""
+    """Return the text that the page shows next to a field: the problem, and which values are allowed."""
     hint = f"; {error.hint}" if error.hint else ""
     return f"{error.problem[:1].upper()}{error.problem[1:]}. Give {error.allowed}{hint}."
 
 
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
-    """Return a string tree with each time in seconds, and each long array of plain values as one line."""
+    """Return a string tree in which a time is a number of seconds, and a long array is one line.
+
+    Only arrays of numbers and of booleans become one line.
+    """
     return {field.name: _compact(field, strings[field.name]) for field in fields}
 
 
@@ -122,7 +128,7 @@ def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int 
     """Return a table of a string tree: a row for each value, at most `limit` rows."""
     lines = list(islice(_fields(fields, strings, 0), limit + 1))
     if len(lines) > limit:
-        lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more than is shown here")]
+        lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more values than are shown here")]
     return lines
 
 

@@ -1,4 +1,4 @@
-/* What panels with a form show beside it: a message as a table, and a command to copy. */
+/* Parts that panels show next to a form: a message as a table, and a command to copy. */
 import { copyButton, h } from "../kit.js";
 
 /** @param {string} label @param {HTMLElement} pre @param {string} what */
@@ -9,7 +9,8 @@ export function command(label, pre, what) {
 
 /** @typedef {{depth: number, name: string, type: string, text: string}} Row */
 
-/** A message as a table, or `empty` where it has no fields. @param {Row[]} rows @param {string} empty */
+/** Returns a message as a table, or the text `empty` if the message has no fields.
+ * @param {Row[]} rows @param {string} empty */
 export function valueTable(rows, empty) {
   if (!rows.length) return h("p", { class: "ros-muted", text: empty });
   return h("table", { class: "ros-values" }, h("tbody", {}, ...rows.map((row) => h("tr", {},

@@ -1,4 +1,4 @@
-"""A form, a table of values and commands, as the still pictures of several panels show them."""
+"""Parts of the still pictures of several panels: a form, a table of values, and commands."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 from course_pkg.panels.paper import CODE, EDGES, FAINT, FAINT_CODE, HEADING, Column, Paper, State
 
-MOST = 16  # rows of a form or of a table
-FIELD = 250.0  # px of a field to type into
-INDENT = 14.0  # px
+MOST = 16  # rows that are shown of a form or of a table
+FIELD = 250.0  # px, width of an input field
+INDENT = 14.0  # px for each level of nesting
 
 
 def draw_form(paper: Paper, fields: Sequence[State], draft: State, empty: str, room: float = FIELD) -> None:
-    """Draw a row for each field of a message: its name, a field to type into, and its type."""
+    """Draw a row for each field of a message: its name, an input field, and its type."""
     controls = list(_controls(fields, draft, 0))
     if not controls:
         paper.write(empty, FAINT)
@@ -32,7 +32,7 @@ def draw_form(paper: Paper, fields: Sequence[State], draft: State, empty: str, r
 def _controls(
     fields: Sequence[State], draft: Mapping[str, Any], depth: int
 ) -> Iterator[tuple[int, str, str, str | None]]:
-    """Yield depth, name, type and text of each field; no text for a field that consists of others."""
+    """Yield the depth, name, type and text of each field; the text of a nested message is None."""
     for field in fields:
         given = draft.get(field["name"], field.get("default", ""))
         if isinstance(given, Mapping):
@@ -45,7 +45,7 @@ def _controls(
 
 
 def _flat(given: object) -> str:
-    """Return an element of an array in one line."""
+    """Return an element of an array as one line of text."""
     if isinstance(given, Mapping):
         return f"{{{', '.join(f'{name}: {_flat(each)}' for name, each in given.items())}}}"
     return given if isinstance(given, str) else f"[{', '.join(map(_flat, given))}]"  # type: ignore[call-overload]
@@ -64,7 +64,7 @@ def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
 
 
 def draw_commands(paper: Paper, title: str, commands: Sequence[tuple[str, str]]) -> None:
-    """Draw commands that do the same as the panel; nothing if there are none."""
+    """Draw the commands that do the same as the panel; draw nothing if there are no commands."""
     shown = [(label, text) for label, text in commands if text]
     if shown:
         paper.write(title, HEADING)

@@ -1,4 +1,4 @@
-"""What happens on the graph, for the page: rates of topics, measured from counts, and callers of services."""
+"""What happens on the graph: the rates of topics, computed from message counts, and callers of services."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
 if TYPE_CHECKING:
     from course_pkg.ros.trace.activity import Activity, Traffic
 
-LONG, SHORT = 30.0, 3.9  # s: the time over which a steady rate is measured, and in which a change is seen
-LEAST = 1.5  # s: a shorter time tells nothing
+LONG, SHORT = 30.0, 3.9  # s: the time to measure a steady rate, and the time to notice a change
+LEAST = 1.5  # s; a rate that is measured over a shorter time is not reliable
 LATE = 0.05  # s by which a count may be older than it seems, because its node was busy
-SHOWN = 12  # connections of a topic, or callers of a service
+SHOWN = 12  # connections of a topic, or callers of a service, that are shown
 UNCONNECTED = "not connected: do both have the same type?"
 
 Key = tuple[str, str, str, int]
@@ -23,9 +23,10 @@ Pair = list[str]  # a label and its value
 
 
 class Caller(TypedDict):
-    """A node that called a service: how often, when last (s since the epoch), and how many calls run now.
+    """A node that called a service, with the number of its calls.
 
-    `gone` is whether the node has left the graph.
+    `last` is the time of the latest call (s since the epoch), and `running` the number of calls that run now.
+    `gone` says whether the node has left the graph.
     """
 
     node: str
@@ -36,7 +37,7 @@ class Caller(TypedDict):
 
 
 class CallLine(TypedDict):
-    """A line to draw from the shape of a caller to that of a service."""
+    """A line to draw from the shape of a caller to the shape of a service."""
 
     tail: str
     head: str
@@ -45,11 +46,11 @@ class CallLine(TypedDict):
 
 
 class ActivityState(TypedDict, total=False):
-    """What the page shows, by the key of the shape to which it belongs.
+    """The activity for the page, by the key of a shape.
 
-    `notes` are the few words under a topic's name (at most 12 letters). `details` are pairs of label and
-    value. `callers` called a service; a server that does not report its callers is missing. `calls` are
-    lines to draw.
+    `notes` are short texts (at most 12 letters) below the names of topics. `details` are pairs of label and
+    value. `callers` lists the nodes that called a service; a service is missing if its server does not report
+    its callers. `calls` are lines to draw.
     """
 
     notes: dict[str, str]
@@ -66,9 +67,9 @@ class RateMeter:
         self._shown: float | None = None
 
     def read(self, at: float, messages: int) -> None:
-        """Take in the number of messages counted until `at` (s)."""
+        """Add the number of messages that were counted until `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            self._counts.clear()  # another connection with the same number: its publisher was restarted
+            self._counts.clear()  # a new connection with the same number, because the publisher was restarted
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:
             self._counts.popleft()
@@ -77,7 +78,7 @@ class RateMeter:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, rounded to what the counts can tell; None as long as they tell nothing."""
+        """Messages per second, rounded to the reliable digits; None if there are not enough counts yet."""
         return self._shown
 
     def _forget_former_rate(self) -> None:
@@ -128,14 +129,14 @@ class Rates:
         self._meters: dict[Key, RateMeter] = {}
 
     def read(self, activity: Activity) -> None:
-        """Take in all counts of one time; forget connections that have ended."""
+        """Add all counts of one time, and remove connections that have ended."""
         meters = {_key(each): self._meters.get(_key(each)) or RateMeter() for each in activity.traffic}
         for each in activity.traffic:
             meters[_key(each)].read(activity.at, each.messages)
         self._meters = meters
 
     def of(self, carried: Traffic) -> float | None:
-        """Return the rate of a connection (Hz)."""
+        """Return the rate of a connection (Hz), or None if it is not known yet."""
         meter = self._meters.get(_key(carried))
         return meter.rate if meter else None
 
@@ -145,7 +146,7 @@ def _key(carried: Traffic) -> Key:
 
 
 class _Ends:
-    """The publishers and subscribers of each topic of a picture, by its key."""
+    """The publishers and subscribers of each topic of a picture, by the key of the topic."""
 
     def __init__(self, picture: Picture) -> None:
         self.publishers: dict[str, list[str]] = defaultdict(list)
@@ -156,7 +157,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Turns the counts of successive times into what the page shows."""
+    """Computes the activity for the page from the counts of successive times."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -164,7 +165,7 @@ class GraphActivity:
         self._carried: dict[str, list[Traffic]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
-        """Take in the counts of one time."""
+        """Add the counts of one time."""
         self.seen = activity
         self._rates.read(activity)
         self._carried.clear()
@@ -172,10 +173,10 @@ class GraphActivity:
             self._carried[each.topic].append(each)
 
     def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
-        """Return what the page shows.
+        """Return the activity for the page.
 
-        `alive` are the nodes of the graph, even those that are not shown. `box` returns the key of the
-        shape in which another is drawn: its own, or that of the folded namespace around it.
+        `alive` are the nodes of the graph, including nodes that are not shown. `box` returns the key of the
+        shape that is drawn for another key: the key itself, or that of a folded namespace around it.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
@@ -190,9 +191,9 @@ class GraphActivity:
     def _topic(self, topic: Shape, ends: _Ends) -> tuple[str, list[Pair]]:
         publishers, subscribers = ends.publishers[topic.key], ends.subscribers[topic.key]
         if not publishers:
-            return "no publisher", [["rate", "no publisher, nothing comes"]]
+            return "no publisher", [["rate", "no publisher, so there are no messages"]]
         if not subscribers:
-            return "no listener", [["rate", "no listener, nothing is sent"]]
+            return "no listener", [["rate", "no subscriber, so nothing is sent"]]
         if self.seen is None:
             return "", []
         carried = self._carried[topic.name]
@@ -205,7 +206,7 @@ class GraphActivity:
         return note, _shortened(details, "connections")
 
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
-        """Return the rate of a topic: the sum over its publishers, each with its fastest connection."""
+        """Return the rate of a topic: the sum of the rates of each publisher's fastest connection."""
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):
             return "not counted"
@@ -220,7 +221,7 @@ class GraphActivity:
     def _connection(self, publisher: str, subscriber: str, carried: Iterable[Traffic]) -> str:
         assert self.seen is not None
         if publisher in self.seen.silent:
-            return "its publisher does not tell what it sends"
+            return "the publisher does not report its message counts"
         ours = [each for each in carried if (each.publisher, each.subscriber) == (publisher, subscriber)]
         if not ours:
             return UNCONNECTED
@@ -247,7 +248,7 @@ class GraphActivity:
 
 
 def _spaces(picture: Picture, topics: Mapping[str, tuple[str, list[Pair]]]) -> dict[str, list[Pair]]:
-    """Return for each namespace what its topics carry."""
+    """Return the topics of each namespace, with their rates."""
     return {
         f"{Kind.SPACE.value} {name}": _shortened(
             [[key.split(" ", 1)[1], topics[key][0] or "…"] for key in sorted(members) if key in topics],
@@ -262,7 +263,7 @@ def _senders(carried: Iterable[Traffic]) -> list[str]:
 
 
 def _calls(callers: dict[str, list[Caller]], box: Callable[[str], str]) -> Iterator[CallLine]:
-    """Yield a line for each caller that is on the graph, from its shape to that of the service."""
+    """Yield a line for each caller that is on the graph, from its shape to the shape of the service."""
     latest: dict[tuple[str, str], Caller] = {}
     for service, each in ((service, each) for service, who in callers.items() for each in who):
         ends = box(f"{Kind.NODE.value} {each['node']}"), box(service)

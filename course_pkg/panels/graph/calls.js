@@ -1,20 +1,20 @@
-/* The lines of calls: from who asked to the service, beside what graphviz has drawn. */
+/* The lines of calls, from the caller to the service. This code draws them, not graphviz. */
 
 const SVG = "http://www.w3.org/2000/svg";
-const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5]; // of the length, to either side; the first that crosses least
+const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5]; // relative to the length, to both sides; the first bend that crosses the fewest shapes is used
 const SAMPLES = 16;
 
 /** @typedef {{x: number, y: number}} Point */
-/** @typedef {Point & {wide: number, high: number}} Place a middle, and half of width and height */
+/** @typedef {Point & {wide: number, high: number}} Place the centre, and half of the width and height */
 
-/** Where a shape is. @param {Element} shape @returns {Place} */
+/** Returns the place of a shape in the drawing. @param {Element} shape @returns {Place} */
 export function place(shape) {
   const outline = /** @type {SVGGraphicsElement} */ (shape.querySelector("ellipse, rect:last-of-type, polygon"));
   const { x, y, width, height } = outline.getBBox();
   return { x: x + width / 2, y: y + height / 2, wide: width / 2, high: height / 2 };
 }
 
-/** @param {Place} from @param {Place} to @param {Place[]} others what the line should go around
+/** @param {Place} from @param {Place} to @param {Place[]} others the shapes that the line should not cross
  * @param {number} age in s @param {boolean} waits */
 export function callLine(from, to, others, age, waits) {
   const ways = BENDS.map((bend) => way(from, to, bend));
@@ -33,13 +33,14 @@ export function callLine(from, to, others, age, waits) {
   return line;
 }
 
-/** A curve from border to border. @param {Place} from @param {Place} to @param {number} bend */
+/** Returns a curve from border to border. @param {Place} from @param {Place} to @param {number} bend */
 function way(from, to, bend) {
   const top = { x: (from.x + to.x) / 2 - bend * (to.y - from.y), y: (from.y + to.y) / 2 + bend * (to.x - from.x) };
   return { start: border(from, top), top, end: border(to, top) };
 }
 
-/** Where the way from the middle of a shape to a point leaves it. @param {Place} shape @param {Point} point @returns {Point} */
+/** Returns where the line from the centre of a shape to a point crosses the border of the shape.
+ * @param {Place} shape @param {Point} point @returns {Point} */
 function border(shape, point) {
   const [dx, dy] = [point.x - shape.x, point.y - shape.y];
   const part = Math.min(1, 1 / Math.max(Math.abs(dx) / shape.wide, Math.abs(dy) / shape.high, 1e-6));

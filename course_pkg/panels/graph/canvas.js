@@ -1,17 +1,17 @@
-/* The drawing on the page: its size, what is chosen, the words under topics, and the lines of calls. */
+/* The drawing on the page: its size, the chosen shape, the notes below topics, and the lines of calls. */
 import { freshId, h, say, setAttribute } from "../kit.js";
 import { callLine, place } from "./calls.js";
 
-const SMALLEST = 0.65; // of the drawing by itself: below that, names cannot be read
+const SMALLEST = 0.65; // smallest automatic scale; at a smaller scale, names cannot be read
 const STEP = 1.25;
-const FADE = 30; // s that a call is to be seen
+const FADE = 30; // s for which a finished call is shown
 
 export class Canvas {
-  /** @param {(key: string, folded: boolean | null) => void} picked hears what was clicked */
+  /** @param {(key: string, folded: boolean | null) => void} picked is called after a click on a shape */
   constructor(picked) {
     this.picked = picked;
-    this.zoom = 0; // 0: by itself
-    this.fresh = true; // nobody has scrolled it yet
+    this.zoom = 0; // 0 means that the scale is chosen automatically
+    this.fresh = true; // false after the drawing was scrolled to its start
     this.chosen = "";
     /** @type {import("./sentences.js").Activity} */
     this.activity = {};
@@ -22,12 +22,12 @@ export class Canvas {
     this.tools = h("div", { class: "ros-tools", role: "group", "aria-label": "Size of the drawing", hidden: true },
       this.#tool("−", "Smaller", () => this.#resize(this.scale / STEP)), this.#tool("+", "Larger", () => this.#resize(this.scale * STEP)),
       this.#tool("Fit", "Fit: show the whole drawing", () => this.#resize(this.#whole())));
-    // Only another width counts: the height is that of the drawing, which is made here.
+    // Only a change of the width matters, because this code sets the height itself.
     let width = 0;
     new ResizeObserver(() => {
       if (width === (width = this.el.clientWidth)) return;
       this.#fit();
-      this.#drawCalls(); // now it is on the page, or where it is to be seen again
+      this.#drawCalls(); // the drawing may just have become visible
     }).observe(this.el);
   }
 
@@ -43,9 +43,9 @@ export class Canvas {
     if (drawing && this.fresh) requestAnimationFrame(() => this.#centre());
   }
 
-  /** Show what is chosen, and the lines that touch it. @param {string} key */
+  /** Marks the chosen shape and its lines. @param {string} key */
   choose(key) {
-    this.chosen = key; // also where it is not drawn just now: it may come back
+    this.chosen = key; // even if this shape is not drawn now, because it may come back
     for (const shape of this.#shapes()) {
       const chosen = shape.getAttribute("data-key") === this.chosen;
       shape.classList.toggle("ros-chosen", chosen);
@@ -60,8 +60,9 @@ export class Canvas {
     this.el.firstElementChild?.classList.toggle("ros-some-chosen", some);
   }
 
-  /** @param {import("./sentences.js").Activity} activity @param {number | null} [clock] when that was, in s since the epoch;
-   * none: it is now, and goes on */
+  /** @param {import("./sentences.js").Activity} activity
+   * @param {number | null} [clock] the time of the activity in s since the epoch; without it, the activity is the
+   * present one, and its lines fade */
   happen(activity, clock = null) {
     this.activity = activity;
     this.clock = clock;
@@ -74,9 +75,9 @@ export class Canvas {
     this.#drawCalls();
   }
 
-  /** Lines from callers to services, which fade; Graphviz has no part in them, so nothing else moves. */
+  /** Draws fading lines from callers to services. They do not change the layout, so nothing else moves. */
   #drawCalls() {
-    if (!this.el.clientWidth) return; // what is not on the page has no size, and a line would lead nowhere
+    if (!this.el.clientWidth) return; // a drawing that is not visible has no size, so the ends of a line would be unknown
     const now = this.clock ?? Date.now() / 1000;
     this.el.classList.toggle("ros-stopped", this.clock !== null);
     const shapes = [...this.el.querySelectorAll(".ros-shape")];
@@ -110,10 +111,11 @@ export class Canvas {
     this.#fit();
   }
 
-  /** Begin where something is: a drawing from left to right in the middle of its left side, one downwards at its top. */
+  /** Scrolls to the start of the drawing. If the drawing is wide, this is the middle of its left side; if it is high,
+   * the middle of its top. */
   #centre() {
     const [down, across] = [this.el.scrollHeight - this.el.clientHeight, this.el.scrollWidth - this.el.clientWidth];
-    if (!this.el.clientWidth) return; // not on the page yet
+    if (!this.el.clientWidth) return; // the drawing is not visible yet
     this.fresh = false;
     if (this.#natural().width > this.#natural().height) this.el.scrollTop = down / 2;
     else this.el.scrollLeft = across / 2;
@@ -133,7 +135,7 @@ export class Canvas {
     return { width: box?.width || 1, height: box?.height || 1 };
   }
 
-  /** Give the drawing its size: as large as it is, or smaller to fit beside, as long as it can be read. */
+  /** Sets the size of the drawing: its natural size, or a smaller one that fits the width and can still be read. */
   #fit() {
     const svg = /** @type {SVGSVGElement | null} */ (this.el.firstElementChild);
     const { width, height } = this.#natural();

@@ -1,4 +1,4 @@
-"""A layout as SVG: a pure function, with colours left to a style sheet, which a still picture carries."""
+"""Draws a layout as SVG, in a pure function. The colours come from a style sheet, not from the drawing."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from course_pkg.panels.graph.picture import Kind
 
 MARGIN = 12.0
 ARROW = 9.0  # px, length of an arrowhead
-CORNER = 12.0  # px, by which a service's ends are pointed
-CARD = 4.0  # px, by which the second card of a folded namespace looks out
+CORNER = 12.0  # px, width of the two pointed ends of a service
+CARD = 4.0  # px, offset of the second rectangle that marks a folded namespace
 ABOVE, BELOW = -7.0, 10.0  # px from the middle of a shape to its name and to the line under it
 TITLE = 13.0  # px from the top of a frame to the middle of its name
 
@@ -27,10 +27,10 @@ def svg(
     notes: Mapping[str, str] | None = None,
     still: bool = False,
 ) -> str:
-    """Return the drawing; `notes` are the words under the names of topics, by key.
+    """Return the drawing as SVG; `notes` are the texts below the names of topics, by key.
 
-    In a page each shape is a button with its name in words, and `data-key` tells which. A `still` one is a
-    picture with a text alternative, for a file.
+    In a page, each shape is a button with an accessible name, and `data-key` is the key of its shape. With
+    `still`, the drawing is a picture for a file, with its style sheet and a text alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 
@@ -91,7 +91,7 @@ class _Drawing:
         mark = "▸ " if shape.kind is Kind.SPACE else ""
         name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
         name.text = mark + placed.label
-        name.tail = " "  # or the last word of the name and the first one under it are one
+        name.tail = " "  # otherwise, a screen reader joins the last word of the name and the note
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})
             under.text = placed.note or self._notes.get(shape.key, "")
@@ -109,7 +109,7 @@ class _Drawing:
 
 
 def _named(kind: str, label: str, name: str) -> str:
-    """Return the name of a button: with what is written on it, so that it can be said aloud."""
+    """Return the accessible name of a button; it contains the visible label, which speech input needs."""
     return f"{kind} {name}" if label == name else f"{kind} {name}: {label}"
 
 

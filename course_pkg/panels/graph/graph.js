@@ -1,11 +1,11 @@
-/* The graph panel: the drawing, the details of what is clicked, and the same facts as a list. */
+/* The graph panel: the drawing, the details of the chosen shape, and all details as a list. */
 import { freshId, h, kernelLink, say, send, setAttribute } from "../kit.js";
 import { Replay, watch } from "../replay.js";
 import { Canvas } from "./canvas.js";
 import { recordingOf } from "./recording.js";
 import { pairs } from "./sentences.js";
 
-const TICK = 250; // ms of a recording in which a line that fades is drawn once
+const TICK = 250; // ms of a recording between two drawings of the fading lines
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -25,10 +25,10 @@ class GraphView {
     this.live = true;
     this.chosen = "";
     /** @type {import("./recording.js").Recording | null} */
-    this.recording = null; // what is played; null where a kernel answers, or nothing was kept
+    this.recording = null; // the recording that is played; null if a kernel answers or if nothing was recorded
     /** @type {any} */
-    this.moment = null; // of the recording
-    this.step = 0; // of its clock
+    this.moment = null; // the moment of the recording that is shown
+    this.step = 0; // the number of TICKs since the start of the recording
     this.#build();
     watch(this.el, signal, (visible) => this.replay.see(visible));
     signal.addEventListener("abort", () => this.replay.stop());
@@ -52,7 +52,7 @@ class GraphView {
     this.own = box("this notebook's node", () => this.#toggle());
     this.list = h("tbody", {});
     const legend = h("ul", { class: "ros-legend", "aria-label": "Shapes" }, sample("node", "node"), sample("topic", "topic: a stream, one way"),
-      sample("service", "service: a question and its answer"), sample("asked", "a call lately; dashed: still waits"));
+      sample("service", "service: a request and its response"), sample("asked", "a recent call; dashed: the call still waits"));
     this.folding = h("div", { class: "ros-boxes", role: "group", "aria-label": "Namespaces", hidden: true },
       h("span", { class: "ros-muted", text: "Namespaces" }), this.#fold("Fold all", true), this.#fold("Unfold all", false));
     this.el = h("section", { class: "ros-panel ros-graph", "aria-label": "Graph panel" }, this.banner, this.canvas.tools, this.canvas.el, this.replay.el, this.details,
@@ -62,7 +62,7 @@ class GraphView {
         ...["Kind", "Name", "Details"].map((text) => h("th", { scope: "col", text })))), this.list)));
   }
 
-  /** What is shown: of the recording where one is played, else what is. @param {string} trait */
+  /** Returns a trait from the recording if one is played, otherwise from the model. @param {string} trait */
   #get(trait) {
     return this.moment ? this.moment[trait] : this.model.get(trait);
   }
@@ -110,7 +110,7 @@ class GraphView {
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
       ...pairs(fact, this.#activity(), now)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
       this.moment ? "Nothing was on the graph then." : "Nothing is on the graph yet. Start a node; it appears here by itself." })];
-    // Only what differs is written: a selection and a reader's place stay.
+    // The details are replaced only if they differ. So a selection and the position of a screen reader stay.
     const said = parts.map((part) => part.textContent).join("\n");
     if (said !== this.said) this.details.replaceChildren(...parts);
     this.said = said;
@@ -119,7 +119,7 @@ class GraphView {
   #drawBanner() {
     const notice = this.model.get("notice");
     const trouble = notice ? `The panel itself failed: ${notice}` : this.#get("trouble");
-    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or drag the handle." : "No kernel answers: this picture was saved and does not follow the graph.";
+    const saved = this.recording ? "No kernel answers: this is a recording. Play it, or move the slider." : "No kernel answers: this picture was saved and does not follow the graph.";
     const text = trouble || (this.live || !this.model.get("live") ? "" : saved);
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(trouble));
@@ -152,7 +152,8 @@ class GraphView {
     this.#drawDetails();
   }
 
-  /** Show a recording, its end at first; null: what is. @param {import("./recording.js").Recording | null} recording */
+  /** Shows the end of a recording; null means that the present graph is shown.
+   * @param {import("./recording.js").Recording | null} recording */
   #turnTo(recording) {
     const was = this.recording;
     this.recording = recording;
@@ -169,32 +170,32 @@ class GraphView {
     }
   }
 
-  /** Show a moment of the recording. @param {number} time in ms */
+  /** Shows a moment of the recording. @param {number} time in ms */
   #see(time) {
     const [before, now, step] = [this.moment, this.recording?.at(time), Math.floor(time / TICK)];
     if (!now || (now === before && step === this.step)) return;
     this.moment = now;
     this.step = step;
-    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // who plays it looks at it
+    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // during play, a screen reader would announce too much
     if (before?.scene === now.scene) return this.#drawActivity();
-    // What stands below the drawing is not to jump up and down while it is played.
+    // During play, the canvas keeps its height, so that the text below it does not jump up and down.
     this.canvas.el.style.minHeight = `${this.canvas.el.offsetHeight}px`;
     this.#drawAll();
   }
 
-  /** When what is shown was, in s since the epoch; null: it is now, or nobody knows. */
+  /** Returns the time of the shown moment in s since the epoch, or null for the present. */
   #clock() {
     return this.recording && this.moment ? this.recording.clock(this.replay.time) : null;
   }
 
-  /** A second has passed: what was said to be so long ago is longer ago. */
+  /** Called after each second, because texts such as "5 s ago" change. */
   tick() {
     if (this.chosen.startsWith("service ")) this.#drawDetails();
   }
 
   /** @returns {import("./sentences.js").Activity} */
   #activity() {
-    return this.#get("activity") ?? {}; // a panel that was saved by an older release has none
+    return this.#get("activity") ?? {}; // missing in a panel that an older release saved
   }
 
   #toggle() {
@@ -206,7 +207,7 @@ class GraphView {
     return h("button", { type: "button", class: "ros-quiet", text, onclick: () => send(this.model, { kind: "fold", name: "", fold }) });
   }
 
-  /** @param {string} key @param {boolean | null} folded whether it is a folded namespace or a frame; null: neither */
+  /** @param {string} key @param {boolean | null} folded true for a folded namespace, false for a frame, null for a shape */
   #choose(key, folded) {
     this.chosen = key;
     this.canvas.choose(key);

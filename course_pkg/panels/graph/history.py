@@ -1,4 +1,4 @@
-"""What a graph panel showed, and when: a page without a kernel can play it again."""
+"""A recording of what a graph panel showed, which a page without a kernel can play."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from course_pkg.panels.graph.model import Scene
 
 MOMENTS = 150
-BYTES = 200_000  # of all that is kept, as JSON
+BYTES = 200_000  # size of a whole recording as JSON
 
 
 class HistoryState(TypedDict, total=False):
-    """What a page plays; empty if nothing changed.
+    """A recording for a page; empty if nothing changed.
 
-    `began` is the time of the first moment (s since the epoch), `length` that of all (ms). A moment is (ms
-    since `began`, index of the scene, activity).
+    `began` is the time of the first moment (s since the epoch), and `length` the length of the recording
+    (ms). A moment is (ms since `began`, index of the scene, activity).
     """
 
     began: float
@@ -40,7 +40,7 @@ class _Moment(NamedTuple):
 
 
 class History:
-    """The moments at which the panel changed: the newest, up to `moments` and `size` bytes.
+    """The newest moments at which the panel changed: at most `moments`, with at most `size` bytes as JSON.
 
     Nothing is recorded before start() and after stop().
     """
@@ -51,17 +51,17 @@ class History:
         self.running = False
 
     def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Begin a new recording at `at` (s since the epoch) with what is shown then."""
+        """Start a new recording at `at` (s since the epoch) with the present scene and activity."""
         self._moments.clear()
         self.running = True
         self.add(at, scene, activity)
 
     def stop(self) -> None:
-        """End the recording; what was recorded stays."""
+        """End the recording; the recorded moments stay."""
         self.running = False
 
     def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Record what is shown from `at` (s since the epoch) on."""
+        """Record the scene and the activity that the panel shows from `at` (s since the epoch) on."""
         if not self.running:
             return
         sized = self._sized(scene)
@@ -69,13 +69,13 @@ class History:
             last = self._moments[-1]
             if last.sized is sized and last.activity == activity:
                 return
-            at = max(at, last.at)  # a clock may be set back
+            at = max(at, last.at)  # the system clock may have been set back
         self._moments.append(_Moment(at, sized, activity, _size(activity)))
         while len(self._moments) > self._most or self._weight() > self._room:
             self._moments.popleft()
 
     def state(self, until: float) -> HistoryState:
-        """Return what a page plays: {} if nothing changed before `until` (s since the epoch)."""
+        """Return the recording until `until` (s since the epoch), or {} if nothing has changed."""
         if len(self._moments) < 2:
             return {}
         began, scenes = self._moments[0].at, self._scenes()

@@ -1,4 +1,4 @@
-"""Where the shapes go and how the lines run, as graphviz lays them out."""
+"""The positions of the shapes and the routes of the lines, as graphviz computes them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from typing import TypedDict
 from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
-CHARACTER = 7.3  # px; names are set in a fixed-width face of 12 px
-HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}  # px, of one line or two
-ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}  # px beside the name
-NOTE = 11 / 12  # the size of what stands below a name, to that of the name
-ROOM = 12  # letters below a topic's name
+CHARACTER = 7.3  # px, width of a letter in a fixed-width font of 12 px
+HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}  # px, for one or two lines
+ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}  # px added to the name
+NOTE = 11 / 12  # size of the text below a name, relative to the name
+ROOM = 12  # letters that always fit below a topic's name
 LONGEST = 36
 PER_INCH = 72.0
-WIDE, TALL = 1000.0, 1400.0  # px of a page
+WIDE, TALL = 1000.0, 1400.0  # px, size of a page
 
 Point = tuple[float, float]
 
@@ -41,7 +41,7 @@ class _Drawn(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Placed:
-    """A shape with its centre and size (px), its name as it fits, and the second line, if it has one."""
+    """A shape with its centre and size (px), its shortened name, and the second line, if it has one."""
 
     shape: Shape
     label: str
@@ -53,7 +53,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Routed:
-    """A line as the points of a chain of cubic curves (px): start, then three points for each curve."""
+    """A line as a chain of cubic curves (px): the start point, then three points for each curve."""
 
     line: Line
     points: tuple[Point, ...]
@@ -82,10 +82,11 @@ class Layout:
 
 
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
-    """Ask graphviz; raises DrawingFailed when it is missing, fails, or takes longer than `timeout` s.
+    """Return the layout that graphviz computes for a picture.
 
-    The way of the data is from left to right; or from top to bottom where that makes the drawing so much
-    smaller that it can be read on a page.
+    Data goes from left to right. It goes from top to bottom if the first drawing is too wide for a page and
+    the second one is clearly easier to read. Raises DrawingFailed if graphviz is missing, fails, or takes
+    longer than `timeout` s.
     """
     if not picture.shapes:
         return Layout()
@@ -97,7 +98,7 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
 
 
 def _scale(layout: Layout) -> float:
-    """Return by how much a layout has to be made smaller to fit on a page."""
+    """Return the factor by which a layout is scaled down to fit on a page."""
     return min(1.0, WIDE / layout.width, TALL / layout.height)
 
 
@@ -118,14 +119,19 @@ def _drawn(picture: Picture, direction: str, timeout: float) -> Layout:
         )
         return _parsed(json.loads(done.stdout), picture)
     except subprocess.TimeoutExpired as error:
-        raise DrawingFailed(f"graphviz took over {timeout:g} s, so the graph is shown as a list.") from error
+        raise DrawingFailed(
+            f"graphviz took longer than {timeout:g} s, so the graph is shown as a list."
+        ) from error
     except (OSError, subprocess.CalledProcessError, ValueError, LookupError) as error:
         detail = getattr(error, "stderr", None) or error
         raise DrawingFailed(f"graphviz failed ({detail}), so the graph is shown as a list.") from error
 
 
 def _parsed(drawn: _Drawn, picture: Picture) -> Layout:
-    """Return the layout from graphviz' JSON: points of 1/72 inch, which are our px, from the bottom left."""
+    """Return the layout from graphviz' JSON.
+
+    Graphviz counts in points of 1/72 inch from the bottom left. A point becomes one px.
+    """
     _, _, width, height = _numbers(drawn["bb"])
     shapes: list[Placed] = []
     frames: list[Framed] = []
@@ -176,7 +182,7 @@ def _script(picture: Picture, direction: str) -> str:
 
 
 def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[str]:
-    """Yield the frames, one within the other; sorted by name, an inner one follows its outer one."""
+    """Yield the frames as nested clusters. They are sorted by name, so an inner one follows its outer one."""
     around: list[str] = []
     for number, frame in enumerate(frames):
         while around and not frame.name.startswith(around[-1]):
@@ -189,18 +195,18 @@ def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[s
 
 
 def _size(shape: Shape) -> tuple[float, float]:
-    """Return width and height (px) of a shape, by what is written in it."""
+    """Return the width and height (px) of a shape, which depend on its texts."""
     note = ROOM if shape.kind is Kind.TOPIC else len(_note(shape))
     letters = max(len(_label(shape.name)), note * NOTE)
     return letters * CHARACTER + ELBOW[shape.kind], HEIGHT[shape.kind]
 
 
 def _note(shape: Shape) -> str:
-    """Return what stands below the name: of a folded namespace, what is in it."""
+    """Return the second line of a shape: for a folded namespace, the numbers of shapes in it."""
     return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 
 
 def _label(name: str) -> str:
-    """Return the name, or its two ends where it is too long for a shape."""
+    """Return the name, or only its beginning and its end if it is too long for a shape."""
     half = LONGEST // 2
     return name if len(name) <= LONGEST else f"{name[: half - 1]}…{name[-half:]}"

@@ -1,4 +1,4 @@
-"""The state of a graph panel, without page or ROS: it turns snapshots into a drawing and facts."""
+"""The state of a graph panel, without a page or ROS: it turns snapshots into a drawing and details."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ from course_pkg.types import Field, message_type, service_type
 if TYPE_CHECKING:
     from course_pkg.ros import Activity, Snapshot
 
-REFUSED = "refused"  # the reach of a node that is still registered, though its process has ended
-SHOWN = 12  # fields of a type
+REFUSED = "refused"  # the reach of a node that is still registered although its process has ended
+SHOWN = 12  # fields of a type that are listed
 
 Pair = tuple[str, str]  # a label and its text
 Describe = Callable[[Kind, str], list[Pair]]
 
 
 class Fact(TypedDict):
-    """What is known of a shape: a click shows it, and the list below the drawing has it, too."""
+    """The details of a shape; the page shows them after a click on it, and in the list below the drawing."""
 
     key: str
     kind: str
@@ -43,14 +43,14 @@ class Fact(TypedDict):
 
 
 class Space(TypedDict):
-    """A namespace that is shown, as a frame or folded into a box."""
+    """A namespace on the page: a frame, or a box if it is folded."""
 
     name: str
     folded: bool
 
 
 class Scene(TypedDict):
-    """The part of what is shown that is large and rarely changes."""
+    """The parts of the panel's state that are large and rarely change."""
 
     drawing: str
     facts: list[Fact]
@@ -59,7 +59,7 @@ class Scene(TypedDict):
 
 
 def facts(picture: Picture, describe: Describe) -> list[Fact]:
-    """Return what is known of each shape of an unfolded picture, and of each namespace."""
+    """Return the details of each shape of an unfolded picture, and of each namespace."""
     spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
     known: dict[Pair, list[Pair]] = {}
     return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]
@@ -109,11 +109,11 @@ def _entry(shape: Shape, fields: list[Pair]) -> Fact:
 
 
 class GraphModel:
-    """Turns snapshots into a drawing, and draws again only if what is shown differs.
+    """Turns snapshots into a drawing, and draws again only if the picture has changed.
 
-    `changed` gets by keyword `drawing` (SVG, "" if graphviz cannot draw), `facts` (one for each shape and
-    namespace), `spaces` (the shown namespaces), `activity` (see ActivityState), and `trouble` (a sentence, ""
-    for none). `own` is the kernel's node, which can be hidden.
+    `changed` is called with keyword arguments: `drawing` (SVG, or "" if graphviz cannot draw), `facts` (the
+    details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see ActivityState), and
+    `trouble` (an error message, or ""). `own` is the kernel's node, which can be hidden.
     """
 
     def __init__(
@@ -143,12 +143,12 @@ class GraphModel:
         self.activity: ActivityState = {}
 
     def see(self, snapshot: Snapshot) -> None:
-        """Take in how the graph looks now."""
+        """Store a new snapshot of the graph, and draw it if the picture has changed."""
         self.snapshot = snapshot
         self._draw()
 
     def count(self, activity: Activity) -> None:
-        """Take in what the nodes have counted until now; this never changes the drawing."""
+        """Store the counts of messages and calls; this never changes the drawing."""
         with self._turn:
             self._counts.read(activity)
             if self._shown is not None and (state := self._activity_now()) != self.activity:
@@ -156,35 +156,35 @@ class GraphModel:
                 self._changed(activity=state)
 
     def lose(self, reason: str) -> None:
-        """Keep the last picture, and show why it is old: the graph cannot be read."""
+        """Keep the last picture, and show `reason`, which says why the graph cannot be read."""
         with self._turn:
             self._shown = None
             self.scene = {**self.scene, "trouble": reason}
             self._changed(trouble=reason)
 
     def choose(self, *, noise: bool, show_own: bool) -> None:
-        """Show or hide what every graph has, and the kernel's own node."""
+        """Show or hide /rosout with the logger services, and the kernel's own node."""
         self.noise, self.show_own = noise, show_own
         self._draw()
 
     def fold(self, name: str, *, fold: bool) -> None:
-        """Fold a namespace, or unfold it; "" stands for all that there are now."""
+        """Fold or unfold a namespace; the name "" means all present namespaces."""
         names = [name] if name else namespaces(self._whole)
         self._choices |= dict.fromkeys(names, fold)
         self._draw()
 
     def still(self) -> str:
-        """Return the drawing as a file of its own, with its style and the latest rates."""
+        """Return the drawing as the text of an SVG file, with its style sheet and the latest rates."""
         title = f"The ROS graph: {_counts(self._shown or Picture())}"
         words = graph_text(self.snapshot, noise=self.noise) if self.snapshot else ""
         notes = self.activity.get("notes", {})
         return svg(self._layout, title=title, description=words, notes=notes, still=True)
 
     def _draw(self) -> None:
-        """Draw what is shown, if it differs from before.
+        """Draw the picture if it differs from the previous one.
 
-        The lock is not held while graphviz runs, because the page would wait, too. If another drawing was
-        begun meanwhile, this one is dropped.
+        The lock is not held while graphviz runs, because the page would have to wait for it. If another
+        drawing begins during that time, the result of this one is not used.
         """
         with self._turn:
             if self.snapshot is None:
@@ -197,7 +197,7 @@ class GraphModel:
         layout, trouble, drawing = Layout(), "", ""
         try:
             layout = self._arrange(shown)
-            words = f"{_counts(shown)}. The list after the drawing says the same in words."
+            words = f"{_counts(shown)}. The list after the drawing shows the same as text."
             drawing = svg(layout, description=words) if shown.shapes else ""
         except DrawingFailed as error:
             trouble = str(error)
@@ -215,7 +215,7 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the shape in which `key` is drawn: its own, or that of a folded namespace."""
+        """Return the key of the shape that is drawn for `key`: itself, or a folded namespace around it."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)

@@ -1,4 +1,4 @@
-"""A look at the graph as shapes and lines, before anyone has said where they go."""
+"""The graph as shapes and lines that have no positions yet; layout.py gives them positions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # shapes; with more than that, namespaces are folded at first
+CROWD = 30  # shapes; if a picture has more of them, namespaces are folded at first
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -22,7 +22,7 @@ class Kind(str, Enum):
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
-    SPACE = "namespace"  # folded into one box
+    SPACE = "namespace"  # a namespace that is folded into one box
 
 
 PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
@@ -39,13 +39,13 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """Kind and name: a topic and a service may have the same name."""
+        """The kind and the name, because a topic and a service may have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
 @dataclass(frozen=True)
 class Line:
-    """A connection between two shapes, by their keys; through a service, data goes both ways."""
+    """A connection between two shapes, as their keys; `both` means that data goes both ways (a service)."""
 
     tail: str
     head: str
@@ -61,13 +61,16 @@ class Frame:
 
     @property
     def key(self) -> str:
-        """The same key that the namespace has as one box."""
+        """The key of the namespace, which is the same if it is folded into a box."""
         return f"{Kind.SPACE.value} {self.name}"
 
 
 @dataclass(frozen=True)
 class Picture:
-    """All shapes, lines and frames, in an order that depends on names only; an outer frame comes first."""
+    """All shapes, lines and frames.
+
+    Their order depends only on their names, and an outer frame comes before its inner frames.
+    """
 
     shapes: tuple[Shape, ...] = ()
     lines: tuple[Line, ...] = ()
@@ -77,8 +80,8 @@ class Picture:
 def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()) -> Picture:
     """Return the shapes and lines of a snapshot.
 
-    Without `noise`, /rosout and the logger services that every node brings are left out. `hide` names
-    nodes to leave out, together with their services and the topics that only they use.
+    Without `noise`, /rosout and the logger services of every node are left out. `hide` are names of nodes to
+    leave out, together with their services and with the topics that no other node uses.
     """
     hidden = frozenset(hide) | (frozenset() if noise else NOISE_NODES)
     shapes = [
@@ -118,7 +121,7 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
 
 
 def _with_roles(shape: Shape, lines: Iterable[Line]) -> Shape:
-    """Return a node with what it publishes, subscribes and serves among its facts; others as they are."""
+    """Return a node with facts about its topics and services; return any other shape unchanged."""
     if shape.kind is not Kind.NODE:
         return shape
     roles = _roles(shape.key, lines)
@@ -131,7 +134,7 @@ def _with_roles(shape: Shape, lines: Iterable[Line]) -> Shape:
 
 
 def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
-    """Return what each node publishes, subscribes and serves, as text that is the same for the same graph."""
+    """Return a text with the topics and services of each node; the same graph always gives the same text."""
     shown = picture(snapshot, noise=noise)
     types = {shape.key: dict(shape.facts).get("type", "") for shape in shown.shapes}
     paragraphs = []
@@ -171,10 +174,10 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 
 
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
-    """Return the picture with namespaces folded, and frames around the others.
+    """Return the picture with some namespaces folded, and with frames around the other namespaces.
 
-    `choices` says whether the reader wants a namespace folded. Without a choice it is folded if the picture
-    has more than `CROWD` shapes, unless it holds more than half of them.
+    `choices` says for a namespace whether the reader wants it folded. A namespace without a choice is folded
+    if the picture has more than `CROWD` shapes, unless it contains more than half of them.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD
@@ -183,7 +186,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The shortest name comes last, and wins: a shape in two folded namespaces is in the box of the outer one.
+    # The shortest name comes last and replaces longer ones. So a shape in two folded namespaces is in the box
+    # of the outer namespace.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -196,9 +200,9 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
 
 
 def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
-    """Return the keys of the shapes in each namespace that holds two or more, such as "/turtle1/".
+    """Return the keys of the shapes in each namespace, such as "/turtle1/", that has at least two shapes.
 
-    If several hold the same shapes, only the innermost counts.
+    If several namespaces have the same shapes, only the innermost one is returned.
     """
     found: dict[str, set[str]] = {}
     for shape in picture.shapes:
@@ -213,11 +217,11 @@ def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
 
 
 def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
-    """Return a namespace as one box; its facts say what is in it."""
+    """Return a namespace as one box; its facts list the shapes in it."""
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # The details of a namespace name its topics with their rates (see activity.py).
+    # The topics are left out, because activity.py adds them with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))
@@ -231,14 +235,14 @@ def _count(kind: Kind, count: int) -> str:
 def _open(
     spaces: Mapping[str, frozenset[str]], closed: set[str], shown: Callable[[str], str]
 ) -> Iterator[tuple[str, frozenset[str]]]:
-    """Yield the namespaces to be framed, with the shapes in each as they are shown."""
+    """Yield the name of each namespace that gets a frame, with the keys of the shown shapes in it."""
     for name, members in spaces.items():
         if name not in closed and not any(name.startswith(outer) for outer in closed):
             yield name, frozenset(map(shown, members))
 
 
 def _lines(picture: Picture, shown: Callable[[str], str]) -> tuple[Line, ...]:
-    """Return the lines between the shown shapes, each once, without those inside one box."""
+    """Return the lines between the shown shapes: each line once, and no lines inside one box."""
     moved = {Line(shown(each.tail), shown(each.head), each.both) for each in picture.lines}
     kept = (each for each in moved if each.tail != each.head)
     return tuple(sorted(kept, key=lambda each: (each.tail, each.head, each.both)))

@@ -1,9 +1,9 @@
-/* What a page without a kernel plays: the pictures that the panel showed, and when. */
+/* The recording that a page without a kernel plays: what the panel showed, and when. */
 
 /** @typedef {{drawing: string, facts: object[], spaces: object[], trouble: string}} Scene
  * @typedef {{began: number, length: number, scenes: Scene[], moments: [number, number, object][]}} History */
 
-/** @param {History | undefined} history a panel that was saved by an older release has none @returns {Recording | null} */
+/** @param {History | undefined} history missing in a panel that an older release saved @returns {Recording | null} */
 export function recordingOf(history) {
   return history?.moments && history.moments.length > 1 ? new Recording(history) : null;
 }
@@ -17,13 +17,14 @@ export class Recording {
     this.moments = history.moments.map(([, scene, activity]) => ({ ...history.scenes[scene], scene, activity }));
   }
 
-  /** What was to be seen at a time (ms). @param {number} time @returns {Scene & {scene: number, activity: object}} */
+  /** Returns what the panel showed at a time (ms). @param {number} time @returns {Scene & {scene: number, activity:
+   * object}} */
   at(time) {
     const next = this.starts.findIndex((start) => start > time);
     return this.moments[next < 0 ? this.moments.length - 1 : Math.max(next - 1, 0)];
   }
 
-  /** That time in s since the epoch. @param {number} time */
+  /** Converts a time of the recording (ms) to s since the epoch. @param {number} time */
   clock(time) {
     return this.began + time / 1000;
   }

@@ -1,4 +1,4 @@
-/* What the details of a shape say. */
+/* The texts in the details of a shape. */
 import { h } from "../kit.js";
 
 /** @typedef {{key: string, kind: string, name: string, lost: boolean, facts: [string, string][]}} Fact */
@@ -6,8 +6,10 @@ import { h } from "../kit.js";
 /** @typedef {{notes?: Record<string, string>, details?: Record<string, [string, string][]>,
  *   callers?: Record<string, Caller[]>, calls?: {tail: string, head: string, last: number, running: number}[]}} Activity */
 
-/** Each fact of a shape, and what happens there. @param {Fact} fact @param {Activity} activity
- * @param {number | null} now in s since the epoch, to say how long ago something was; null: at what time of day @returns {HTMLElement[]} */
+/** Returns each fact of a shape, and its activity.
+ * @param {Fact} fact @param {Activity} activity
+ * @param {number | null} now in s since the epoch, for texts such as "5 s ago"; null for the time of day
+ * @returns {HTMLElement[]} */
 export function pairs(fact, activity, now) {
   const lost = fact.lost && fact.kind !== "namespace" ? [["state", "does not answer"]] : [];
   const told = [...lost, ...fact.facts.filter(([label]) => label !== "address"), ...(activity.details?.[fact.key] ?? [])];
@@ -21,7 +23,8 @@ function pair(label, value, more = "") {
   return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }), more);
 }
 
-/** Who called a service lately, and which services a node called. @param {Fact} fact @param {Activity} activity @param {number | null} now */
+/** Returns the recent callers of a service, or the services that a node called.
+ * @param {Fact} fact @param {Activity} activity @param {number | null} now */
 function asked(fact, activity, now) {
   if (fact.kind === "service" && activity.callers) return callers(activity.callers[fact.key], now);
   if (fact.kind !== "node") return [];
@@ -31,18 +34,18 @@ function asked(fact, activity, now) {
 
 /** @param {Caller[] | undefined} told @param {number | null} now */
 function callers(told, now) {
-  if (!told) return [pair("called by", "", "somebody or nobody: its server does not tell who calls")];
-  if (!told.length) return [pair("called by", "", "nobody yet")];
+  if (!told) return [pair("called by", "", "unknown: the server does not report its callers")];
+  if (!told.length) return [pair("called by", "", "no node yet")];
   return told.map((each) => pair("called by", each.node, `${each.gone ? " (gone)" : ""} ${calls(each, now)}`));
 }
 
 /** @param {Caller} caller @param {number | null} now */
 function calls(caller, now) {
   const count = `${caller.calls} ${caller.calls === 1 ? "call" : "calls"}`;
-  return caller.running && !caller.gone ? `${count}, waits for an answer` : `${when(caller.last, now)}, ${count}`;
+  return caller.running && !caller.gone ? `${count}, waits for the response` : `${when(caller.last, now)}, ${count}`;
 }
 
-/** How long ago, in words that change seldom; a picture that was saved says the time of day.
+/** Returns how long ago a call was, in steps, so that the text changes seldom. A saved picture shows the time of day.
  * @param {number} last in s since the epoch @param {number | null} now */
 function when(last, now) {
   if (now === null) return `at ${new Date(1000 * last).toTimeString().slice(0, 8)}`;

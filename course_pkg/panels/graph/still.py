@@ -1,4 +1,4 @@
-"""The graph as a still picture: the panel's drawing with colours of its own, and what the shapes mean."""
+"""The still picture of the graph: the panel's drawing with fixed colours, and a legend for the shapes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, fromstring
 from course_pkg.panels.graph.drawing import ABOVE
 from course_pkg.panels.paper import CODE, EDGES, FAINT, GROUND, MONO, MUTED, TEXT, WIDTH, Paper, State, number
 
-# The colours of drawing.css in the light theme: the ground and the edge of each shape.
+# The fill and edge colours of each shape, as in the light theme of drawing.css.
 SHAPES = {
     "ros-node": ("#e7f0fc", "#3a78c9"),
     "ros-topic": ("#f1f2f4", "#6b7580"),
@@ -26,16 +26,16 @@ NUMBERED = re.compile(r"_\d+_\d{10,}")  # what rospy and roscpp add to the name 
 
 
 def still(state: State) -> str:
-    """Return the drawing without rates, which are measured, and without the calls of the last seconds."""
+    """Return the picture without rates and without recent calls, because both differ in each run."""
     drawing, trouble = state.get("drawing", ""), state.get("trouble", "")
     if not drawing:
         return _without_drawing(state, trouble)
-    root = fromstring(drawing)  # noqa: S314 - the panel itself has made it
+    root = fromstring(drawing)  # noqa: S314 - the panel itself has made this XML
     counts = _text(root, "desc").partition(". ")[0]
     wide, high = (float(root.get(side, "0")) for side in ("width", "height"))
     paper = Paper(f"The ROS graph: {counts}", max(WIDTH, wide + 2 * EDGES))
     scale = 1.0
-    if wide + 2 * EDGES > 2 * WIDTH:  # letters that are still smaller cannot be read on a page
+    if wide + 2 * EDGES > 2 * WIDTH:  # the letters of a wider picture would be too small to read
         scale = (2 * WIDTH - 2 * EDGES) / wide
         paper.width = 2 * WIDTH
     if trouble:
@@ -81,7 +81,7 @@ def _legend(paper: Paper, *, lost: bool) -> None:
 
 
 def _roles(state: State) -> str:
-    """Return what each node publishes, subscribes and serves, for a reader who cannot see the picture."""
+    """Return what each node publishes, subscribes and serves, for readers who cannot see the picture."""
     sentences = []
     for fact in state.get("facts", ()):
         said = [f"{label} {text}" for label, text in fact["facts"] if label in ROLES]
@@ -91,7 +91,7 @@ def _roles(state: State) -> str:
 
 
 def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
-    """Return a part of the drawing with attributes for its colours, and without what only a page needs."""
+    """Return a copy of an element with colours as attributes, without the parts that only a page needs."""
     own = frozenset(element.get("class", "").split())
     around = classes | own
     tag = _tag(element)
@@ -100,13 +100,13 @@ def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
     made.text = NUMBERED.sub("…", element.text or "") if tag == "text" else None
     made.extend(_plain(child, around) for child in element if not _only_live(child))
     if "ros-topic" in own:
-        for name in made.findall("text"):  # there is no rate below it
+        for name in made.findall("text"):  # the name moves to the middle, because there is no rate below it
             name.set("y", number(float(name.get("y", "0")) - ABOVE))
     return made
 
 
 def _only_live(element: Element) -> bool:
-    """Return whether only a page has a use for a part: a name to be spoken, calls, the rate of a topic."""
+    """Return whether only a page needs an element: a title for screen readers, calls, or an empty note."""
     classes = element.get("class", "").split()
     return (
         _tag(element) == "title"

@@ -17,16 +17,17 @@ from course_pkg.ros import Activity, ActivityPoller, Node, Snapshot, look, this_
 
 HERE = Path(__file__).parent
 SILENT = "silent"  # the reach of a node that accepts connections and does not answer
-PAUSE = 2.0  # s between two readings of what the nodes have counted
+PAUSE = 2.0  # s between two requests for the counts of the nodes
 
 
 class GraphPanel(Panel):
     """A picture of the graph: nodes, the topics between them, and the services they serve.
 
-    It follows the graph while a page shows it, or stays as it is now with `live=False`. It shows the rates
-    of topics and the latest callers of services. `noise` also shows what every graph has: /rosout and the
-    logger services. The kernel's own `node`, by default the one that join() made, can be hidden. What it
-    showed on its last page is recorded, and can be played again without a kernel.
+    The panel follows the graph while a page shows it; with `live=False` it keeps the first picture. It shows
+    the rates of topics and the latest callers of services. With `noise`, it also shows /rosout and the logger
+    services, which every graph has. `node` is the kernel's own node, which the reader can hide; the default
+    is the node that join() made. The panel records what it shows, so that a page without a kernel can play
+    it.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
@@ -34,15 +35,15 @@ class GraphPanel(Panel):
     style_sheet: ClassVar[Path] = HERE / "graph.css"
 
     drawing = Unicode(help="the picture as SVG").tag(sync=True)
-    facts = List(Dict(), help="what is known of each shape and namespace").tag(sync=True)
+    facts = List(Dict(), help="the details of each shape and namespace").tag(sync=True)
     spaces = List(Dict(), help="the namespaces, and whether they are folded").tag(sync=True)
     activity = Dict(help="rates of topics, callers of services").tag(sync=True)
-    history = Dict(help="what was shown on the last page; see history.py").tag(sync=True)
+    history = Dict(help="the recording of the last page; see history.py").tag(sync=True)
     trouble = Unicode(help="why there is no picture, or why it is old").tag(sync=True)
     live = Bool(help="whether the picture follows the graph").tag(sync=True)
     noise = Bool(help="whether /rosout and the logger services are shown").tag(sync=True)
     own = Unicode(help="the kernel's own node, which can be hidden").tag(sync=True)
-    show_own = Bool(help="whether it is shown").tag(sync=True)
+    show_own = Bool(help="whether the own node is shown").tag(sync=True)
 
     def __init__(self, *, live: bool = True, noise: bool = False, node: Node | None = None) -> None:
         super().__init__()
@@ -58,18 +59,18 @@ class GraphPanel(Panel):
         self._counts.once()
 
     def svg(self) -> str:
-        """Return the present picture as the text of an SVG file, for a page and for print."""
+        """Return the current picture as the text of an SVG file, for a page or for print."""
         return self._model.still()
 
     def shown(self) -> None:
-        """Follow the graph, and record what is shown."""
+        """Start to follow the graph and to record what is shown."""
         if self.live:
             self._record()
             self._snapshots.start()
             self._counts.start()
 
     def hidden(self) -> None:
-        """Stop following the graph, and publish the recording, which a live page did not need."""
+        """Stop following the graph, and publish the recording, which only a page without a kernel needs."""
         self._snapshots.stop()
         self._counts.stop()
         with self.turn:
@@ -77,7 +78,7 @@ class GraphPanel(Panel):
             self.publish(history=self._history.state(time.time()))
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click: on one of the two boxes, or on a namespace."""
+        """Handle a click on a check box or on a namespace."""
         if kind == "choose":
             chosen = {"noise": bool(content["noise"]), "show_own": bool(content["show_own"])}
             self.publish(**chosen)
@@ -95,7 +96,7 @@ class GraphPanel(Panel):
 
     def _record(self) -> None:
         with self.turn:
-            if not self._history.running:  # another view may have begun it
+            if not self._history.running:  # another view may have started the recording
                 self.publish(history={})
                 self._history.start(time.time(), *self._showing())
 
@@ -103,7 +104,7 @@ class GraphPanel(Panel):
         return self._model.scene, self._model.activity
 
     def _look(self) -> Snapshot:
-        """Look at the graph; look again if a node has become silent, because the machine may just be busy."""
+        """Return a snapshot. Take a second one if a node has become silent: the machine may just be busy."""
         before, now = self._model.snapshot, look()
         awake = {node.name for node in before.nodes if node.reachable} if before else set()
         late = any(node.reach == SILENT and node.name in awake for node in now.nodes)

@@ -1,1 +1,1 @@
-"""Predictions: commit to an answer before the run, and compare."""
+"""Predictions: the student answers before the run, and compares the answer with the result."""

@@ -1,4 +1,4 @@
-"""A prediction before the run, and its comparison with what happened: no page, no kernel."""
+"""The model of a prediction: an answer before the run, and the result. It needs no page and no kernel."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from course_pkg.state import now
 class Prediction:
     """A prediction with the student's answer and, after the comparison, the result.
 
-    Times are ISO 8601 in UTC, "" for not yet. `answer` is the latest answer. `first` is the answer at the
-    time of the comparison, so that a later change can be seen.
+    Times are ISO 8601 in UTC, or "" if there is no answer or no comparison yet. `answer` is the latest
+    answer. `first` is the answer at the time of the comparison, so that a later change can be detected.
     """
 
     key: str
@@ -32,7 +32,7 @@ class Prediction:
 
     @property
     def right(self) -> bool:
-        """Whether the prediction came true: equal strings, or equal numbers."""
+        """Whether the prediction equals the result: as strings, or as numbers."""
         predicted, actual = self.first.strip().casefold(), self.actual.strip().casefold()
         try:
             return float(predicted) == float(actual)
@@ -48,15 +48,15 @@ class Prediction:
             late = f" Your answer {self.answer!r} came after the result." if self.answer else ""
             return f"You had made no prediction.{late}"
         changed = f" You changed it to {self.answer!r} after the result." if self.changed_after else ""
-        result = "and so it was" if self.right else "and it was otherwise: find out why before you go on"
-        return f"You predicted {self.first!r}, {result}.{changed}"
+        different = "but something else happened. Find out why before you continue"
+        return f"You predicted {self.first!r}, {'and that happened' if self.right else different}.{changed}"
 
 
 class PredictionStore(Store[Prediction]):
     """The predictions in one file, by key.
 
-    `predictions.json` is the first edition's file. In it, the keys begin with the chapters' first numbers, so
-    it is neither read nor changed: `08.…` was a prediction of another chapter.
+    The first edition of the course used `predictions.json`, with other chapter numbers in its keys: `08.…`
+    was a prediction of another chapter. Therefore, that file is neither read nor changed.
     """
 
     record = Prediction
@@ -75,11 +75,11 @@ class PredictionModel:
 
     @property
     def record(self) -> Prediction:
-        """The stored record; a fresh one if there is none."""
+        """The stored record, or an empty one if nothing is stored."""
         return self._store.read().get(self.key, Prediction(self.key, self.question))
 
     def answer(self, answer: str) -> Prediction:
-        """Store an answer; an empty one takes it back."""
+        """Store an answer; an empty answer deletes the previous one."""
         answer = answer.strip()
         answered = now() if answer else ""
         return self._store.write(
@@ -87,7 +87,7 @@ class PredictionModel:
         )
 
     def compare(self, actual: object) -> Prediction:
-        """Store what really happened; the present answer is the prediction, and stays it."""
+        """Store what really happened; the present answer becomes the prediction."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record

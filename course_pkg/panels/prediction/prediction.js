@@ -27,7 +27,7 @@ function question(model, el, signal) {
   const draw = () => {
     answer.write(model.get("answer"), live);
     const said = model.get("answer") ? "Kept. You can change it until you compare." : "Commit to an answer before you run the next cell.";
-    const after = model.get("answer") ? "Kept. The result is known: a change now is marked as made afterwards." : "The result is known; an answer now is marked as made afterwards.";
+    const after = model.get("answer") ? "Kept. The result is known: a change now is marked as a late change." : "The result is known: an answer now is marked as a late answer.";
     say(status, !live ? "No kernel answers: run the notebook to keep a prediction." : model.get("notice") || (model.get("compared") ? after : said));
   };
   for (const trait of ["answer", "compared", "notice"]) model.on(`change:${trait}`, draw);
@@ -84,13 +84,13 @@ function table(records, row) {
   const [fit, cases] = ["fit", "cases"].map((part) => records.reduce((sum, shown) => sum + (/** @type {any} */ (shown)[part] ?? 0), 0));
   const chosen = cases ? `${fit} of ${cases} choices fit. ` : "";
   const score = predicted + chosen || "No prediction has been compared yet. ";
-  const text = records.length ? `${score}A wrong one that you understand now is worth more than a lucky one.` : "Nothing has been predicted yet.";
+  const text = records.length ? `${score}A wrong prediction helps you if you now understand why it was wrong.` : "Nothing has been predicted yet.";
   return h("section", { class: "ros-panel ros-predict", "aria-label": "Predictions" },
     h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Table of predictions" }, records.length ? h("table", {}, head, h("tbody", {}, ...rows)) : ""), h("p", { class: "ros-kept", text }),
     row.text ? progress(/** @type {Row} */ (row)) : "");
 }
 
-/** The student's progress in the chapter. @param {Row} row */
+/** Returns the student's progress in the chapter. @param {Row} row */
 function progress({ text, parts, next, problems }) {
   const kinds = { "✓": "ros-right", "✗": "ros-wrong" };
   const marks = parts.map(({ check, state, mark }) => h("li", { class: kinds[/** @type {keyof typeof kinds} */ (mark)] ?? "", title: `${check} ${state}` },

@@ -1,4 +1,4 @@
-"""A prediction, a comparison, or the table of a chapter as a still picture."""
+"""The still picture of a prediction, of a comparison, or of the table of a chapter."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MARKS = {"✓": GOOD, "✗": ERROR}
 
 
 def still(state: State) -> str:
-    """Return what the panel shows: a question as it is before the run, a comparison, or a table."""
+    """Return the picture of what the panel shows: a question before the run, a comparison, or a table."""
     part = state["part"]
     if part == "question":
         return _question(state)

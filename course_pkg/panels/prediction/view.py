@@ -1,7 +1,7 @@
-"""Predictions as widgets.
+"""The widgets of predictions.
 
-Their text/plain is the same for every student, so that notebooks can be compared. What the student answered
-is only in the widget.
+Their text/plain is the same for every student, so that notebooks can be compared. The student's answer is
+only in the widget.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class _ChoiceRow(_Row):
 
 
 class ChapterPart(TypedDict):
-    """A part of a chapter in the student's progress: its id, its state in words, and a mark for it."""
+    """A part of a chapter in the student's progress: its id, its state as text, and a mark."""
 
     check: str
     state: str
@@ -43,7 +43,7 @@ class ChapterPart(TypedDict):
 
 
 class ChapterRow(TypedDict):
-    """The student's progress in a chapter: the totals, the parts, what is next, and problems with records."""
+    """The student's progress in a chapter: the totals, parts, the next step, and problems with records."""
 
     text: str
     parts: list[ChapterPart]
@@ -81,7 +81,7 @@ class Question(_PredictionPanel):
         )
 
     def compare(self, actual: object) -> Comparison:
-        """Store what really happened, and show it beside the prediction."""
+        """Store what really happened, and show it next to the prediction."""
         record = self._model.compare(actual)
         self.publish(compared=True)
         return Comparison(record)
@@ -136,7 +136,10 @@ class Predictions(_PredictionPanel):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
-    """Ask for an answer before the run; `key` is `chapter.name`. Without choices the answer is free text."""
+    """Return a panel that asks for an answer before the run; without choices, the answer is free text.
+
+    `key` is `chapter.name`.
+    """
     return Question(key, question, choices)
 
 

@@ -1,4 +1,4 @@
-"""The state of a service panel, without page, kernel or ROS: its caller finds and calls the services."""
+"""The state of a service panel. It needs no page, no kernel and no ROS: `connect` returns a Caller."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from course_pkg.types import ServiceType, service_type
 if TYPE_CHECKING:
     import genpy
 
-HISTORY = 20  # calls
+HISTORY = 20  # calls in the history
 LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Caller(Protocol):
-    """Calls one service; `cancel` ends a call under way on another thread."""
+    """Calls one service; `cancel` ends the running call from another thread."""
 
     def call(self, request: genpy.Message, /, *, timeout: float) -> genpy.Message:
         """Send a request message and return the response message, within `timeout` s."""
 
     def cancel(self) -> None:
-        """Make the call under way raise CallCancelled."""
+        """Make the running call raise CallCancelled."""
 
     def close(self) -> None:
         """Close the connection to the service."""
@@ -44,7 +44,7 @@ class Caller(Protocol):
 
 @dataclass(frozen=True)
 class Offer:
-    """A service on the graph: its name, its type by name ("" if it is unknown), and its node."""
+    """A service on the graph: its name, the name of its type ("" if it is unknown), and its node."""
 
     name: str
     type: str
@@ -52,12 +52,12 @@ class Offer:
 
     @property
     def tool(self) -> bool:
-        """Whether it is one of the two services that every node brings for its logger."""
+        """Whether the service is one of the two logger services that every node has."""
         return self.name.endswith(LOGGER_SERVICES)
 
 
 class _Fresh(TypedDict):
-    """The state of a form that has just been made."""
+    """The state of a new form."""
 
     form: FormState
     draft: Draft
@@ -65,10 +65,11 @@ class _Fresh(TypedDict):
 
 
 class ServiceModel:
-    """Picks a service, checks what is typed, calls, and keeps a history.
+    """Selects a service, checks the request in the form, calls the service, and keeps a history of the calls.
 
-    `changed` gets every change, once for each phase, by keyword: `services`, `form`, `draft`, `check`,
-    `outcome`, `history`. `turn` is held while the state changes, never during a call.
+    `changed` is called after each change, once for each phase of a call. Its keyword arguments are
+    `services`, `form`, `draft`, `check`, `outcome` and `history`. `turn` is held while the state changes, but
+    not during a call.
     """
 
     def __init__(
@@ -96,7 +97,7 @@ class ServiceModel:
         self._problem = ""
 
     def offer(self, offers: Iterable[Offer]) -> None:
-        """Take in the services that are on the graph now; the picked one stays picked even if it has gone."""
+        """Store the services on the graph; the selected one stays selected even if it has left the graph."""
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
             services = [{**asdict(each), "tool": each.tool} for each in self.offers]
@@ -108,7 +109,7 @@ class ServiceModel:
                 self._changed(services=services, form=self._described())
 
     def pick(self, name: str) -> None:
-        """Turn to a service by name; it need not be on the graph yet."""
+        """Select a service by name; it need not be on the graph yet."""
         with self._turn:
             if name != self.service:
                 self.cancel()
@@ -117,16 +118,16 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Take in what is typed now; report its errors or the commands that do the same."""
+        """Store the texts of the form; report their errors, or the commands that do the same."""
         with self._turn:
             if self.form:
                 self.draft = draft
                 self._changed(check=self.form.checked(draft))
 
     def fill(self, values: Values) -> None:
-        """Write plain values into the form; the other fields stay as they are.
+        """Write plain values into the form; the other fields stay unchanged.
 
-        Raises FieldError when a value does not fit, and leaves the form as it was.
+        Raises FieldError if a value does not fit; the form then stays unchanged.
         """
         with self._turn:
             form = self._need_form()
@@ -147,12 +148,12 @@ class ServiceModel:
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
     def call(self, deadline: str) -> Outcome:
-        """Call on this thread with the request in the form. Raises what the call raises."""
+        """Call the service on this thread with the request in the form. Raises the errors of the call."""
         with self._turn:
             form = self._need_form()
             if self._under_way:
                 raise CallInProgress(
-                    f"{self.service} is being called already: wait for the answer, or cancel that call."
+                    f"A call of {self.service} is running: wait for its response, or cancel it."
                 )
             call = self._begin(form, deadline)
         outcome = self._finish(call)
@@ -161,7 +162,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
-        """Call once for each of the inputs and return the outcomes, for a page without a kernel."""
+        """Call once for each of `inputs` and return the history entries, for a page without a kernel."""
         kept: list[Entry] = []
         for values in inputs:
             with self._turn:
@@ -187,7 +188,7 @@ class ServiceModel:
         return next((each for each in self.offers if each.name == self.service), None)
 
     def _type_changed(self) -> bool:
-        """Return whether the service has another type than the form."""
+        """Return whether the type of the service differs from the type of the form."""
         found = self._found()
         return bool(found and found.type and (self.form is None or self.form.type.name != found.type))
 
@@ -201,9 +202,7 @@ class ServiceModel:
             try:
                 self.form = RequestForm(self.service, self._find_type(found.type))
                 if before and before != found.type:
-                    self._problem = (
-                        f"Its type was {before} and is now {found.type}, so the form is a new one."
-                    )
+                    self._problem = f"The type was {before} and is now {found.type}, so the form is new."
             except CourseError as error:
                 self._problem = str(error)
         self.draft = self.form.blank if self.form else {}
@@ -218,7 +217,7 @@ class ServiceModel:
                 "No service of this name is on the graph now. The panel follows the graph: start its server."
             )
         elif not found.type:
-            problem = "Its node does not answer, so nobody can say of which type it is."
+            problem = "The node of this service does not answer, so the type of the service is not known."
         node = found.node if found else ""
         state: FormState = {"service": self.service, "node": node, "problem": problem}
         return {**state, **self.form.described()} if self.form else state
@@ -226,7 +225,7 @@ class ServiceModel:
     def _need_form(self) -> RequestForm:
         if not self.service:
             raise NoServiceSelected(
-                "No service is picked. Pick one in the panel or name it: ServicePanel('/getGeometry')."
+                "No service is picked. Pick one in the panel or give its name: ServicePanel('/getGeometry')."
             )
         if not self.form:
             raise NoServiceSelected(
@@ -259,7 +258,7 @@ class ServiceModel:
                 raise CallCancelled(f"The panel does not show {call.form.service} any more.")
             response = caller.call(request, timeout=call.timeout)
             outcome = call.answered(response, 1000 * (time.perf_counter() - began))
-        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - the panel shows it
+        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - the panel shows the error
             outcome = call.failed(error, 1000 * (time.perf_counter() - began))
         with self._turn:
             if self._under_way is call:

@@ -1,4 +1,4 @@
-/* Finding a recorded answer: requests are equal when their values are, however they are typed. */
+/* Finds a recorded response. Requests are equal if their values are equal, even if they are typed differently. */
 
 /** @param {{draft: any}[]} recording @param {import("../forms/fields.js").Field[]} fields @param {any} draft @returns {any} */
 export function recorded(recording, fields, draft) {

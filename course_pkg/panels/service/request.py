@@ -1,4 +1,4 @@
-"""One call of a service from the panel: the form of its request, and what came of it."""
+"""One call of a service from the panel: the form of its request, and the outcome of the call."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 
 
 class FormState(TypedDict, total=False):
-    """The picked service, its node, why there is no form ("" if there is one), and its type."""
+    """The selected service, its node and type. `problem` says why there is no form ("" if there is one)."""
 
     service: str
     node: str
@@ -42,7 +42,7 @@ class Failure(TypedDict, total=False):
 
 
 class Outcome(TypedDict, total=False):
-    """The phase of a call; after its end also the time, the ms it took, and the response or the error."""
+    """The phase of a call; after the end also its time, its duration (ms), and the response or the error."""
 
     phase: Phase
     number: int
@@ -55,7 +55,7 @@ class Outcome(TypedDict, total=False):
 class Entry(TypedDict, total=False):
     """A call in the history: the request and the response in one line each.
 
-    A recorded one also holds what the page shows in place of a kernel's answer.
+    A recorded call also has `check` and `outcome`, which a page shows if no kernel answers.
     """
 
     phase: Phase
@@ -89,7 +89,7 @@ class RequestForm(MessageForm):
 
 
 def seconds(text: str) -> float:
-    """Return a deadline as typed, in s. Raises FieldError."""
+    """Return the typed deadline in s. Raises FieldError if it is not a number or out of range."""
     try:
         value = float(text)
     except ValueError:
@@ -102,7 +102,7 @@ def seconds(text: str) -> float:
 
 @dataclass
 class Call:
-    """One call, from the request as typed to its outcome; `timeout` is in s."""
+    """One call, from the typed request to the outcome; `timeout` is in s."""
 
     number: int
     form: RequestForm

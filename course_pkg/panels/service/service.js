@@ -1,12 +1,12 @@
-/* The service panel: pick, fill in, call, read. All that it shows comes from the model's traits. */
+/* The service panel: pick a service, fill in its request, call it, read the response. The model holds all state. */
 import { FieldsForm } from "../forms/fields.js";
 import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { recorded } from "./recording.js";
 
-const SETTLE = 120; // ms without a keystroke before the draft is sent
-const LONG = 8; // fields, above which the answer stands below the form and not beside it
-const SLOW = 1500; // ms after which a click without an answer is explained
+const SETTLE = 120; // ms; the draft is sent if no key was pressed for this time
+const LONG = 8; // fields; if a form has more of them, the response is below the form instead of beside it
+const SLOW = 1500; // ms; if a click has no answer by then, the panel says why
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement, signal?: AbortSignal}} context */
 function render({ model, el }) {
@@ -20,7 +20,7 @@ class ServiceView {
   /** @param {import("../kit.js").Model} model @param {AbortSignal} signal */
   constructor(model, signal) {
     this.model = model;
-    this.live = true; // until silence says otherwise: a flash of "no kernel" would be worse
+    this.live = true; // assumed until the kernel fails to answer, so that "No kernel" does not flash at first
     this.waiting = false;
     this.refused = model.get("check").refused ?? 0;
     this.request = new FieldsForm(() => this.#edited(), "This request has no fields: just call.");
@@ -167,7 +167,7 @@ class ServiceView {
     say(this.clock, outcome.at ? `#${outcome.number} at ${outcome.at}` : "");
     clearInterval(this.ticking);
     if (phase === "running") this.#tick();
-    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields: that it came is the answer.")] : []));
+    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields: its arrival is the answer.")] : []));
     this.answer.classList.toggle("ros-past-answer", phase === "running");
     this.#drawButtons();
   }
@@ -180,7 +180,7 @@ class ServiceView {
   #drawButtons() {
     const running = this.model.get("outcome").phase === "running";
     const answers = this.live || this.model.get("recording").length > 0;
-    // Not the attribute `disabled`: a button that has the keyboard would lose it.
+    // The attribute `disabled` is not used, because a button would lose the keyboard focus.
     setAttribute(this.callButton, "aria-disabled", running || this.waiting || !answers ? "true" : null);
     setAttribute(this.cancelButton, "aria-disabled", running && this.live ? null : "true");
     this.picker.disabled = !this.live;
@@ -197,7 +197,7 @@ class ServiceView {
     say(this.pastTitle, recording.length ? `Recorded requests (${entries.length})` : `History (${entries.length})`);
     setAttribute(this.history, "hidden", !entries.length);
     this.past.replaceChildren(...entries.map((/** @type {any} */ entry) => h("li", {},
-      h("button", { type: "button", class: `ros-entry-line ros-${entry.phase}`, title: "Fill this request in again", onclick: () => this.#recall(entry) },
+      h("button", { type: "button", class: `ros-entry-line ros-${entry.phase}`, title: "Put this request into the form again", onclick: () => this.#recall(entry) },
         h("span", { class: "ros-muted", text: `#${entry.number}` }), h("code", { text: entry.asked }),
         h("span", { "aria-label": "gave", text: "→" }), h("code", { text: entry.said }), h("span", { class: "ros-muted", text: `${entry.ms} ms` })))));
   }
@@ -205,7 +205,7 @@ class ServiceView {
   #drawBanner() {
     const notice = this.model.get("notice");
     const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : this.model.get("recording").length
-      ? "No kernel answers. The answers here were recorded from a real server: pick a recorded request below, or run the notebook to call the service."
+      ? "No kernel answers. The responses here were recorded from a real server. Pick a recorded request below, or run the notebook to call the service."
       : "No kernel answers: this is a saved panel. Run the notebook to call the service.";
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", notice !== "");
@@ -223,7 +223,7 @@ class ServiceView {
   /** @param {KeyboardEvent} event */
   #key(event) {
     if (event.key === "Escape") this.#cancel();
-    // JupyterLab keeps the browser from submitting a form by Enter.
+    // JupyterLab stops the Enter key from submitting a form, so this code does it.
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();
     this.#call();
@@ -247,7 +247,7 @@ class ServiceView {
 
   #call() {
     if (disabled(this.callButton)) return;
-    this.#save(); // the kernel takes messages in turn: first what was typed, then the call
+    this.#save(); // the kernel handles messages in order: first the typed texts, then the call
     if (!this.live) return this.#replay();
     this.waiting = true;
     this.#drawButtons();
@@ -272,7 +272,7 @@ class ServiceView {
     if (!disabled(this.cancelButton)) send(this.model, { kind: "cancel" });
   }
 
-  /** The kernel has answered a click. */
+  /** The kernel has handled a click. */
   #settle() {
     this.waiting = false;
     clearTimeout(this.slow);
@@ -292,7 +292,7 @@ const disabled = (button) => button.hasAttribute("aria-disabled");
 
 /** @param {{name: string, words: string, cause?: string, remedy?: string, taught?: string}} error */
 function failure(error) {
-  return [h("pre", { class: "ros-words", tabindex: "0", "aria-label": "The error as ROS words it" }, h("b", { text: error.name }), `: ${error.words}`),
+  return [h("pre", { class: "ros-words", tabindex: "0", "aria-label": "The error message of ROS" }, h("b", { text: error.name }), `: ${error.words}`),
     ...(error.cause ? [h("p", { class: "ros-cause" }, ...prose(error.cause)), h("p", { class: "ros-remedy" }, ...prose(error.remedy ?? "")),
       error.taught ? h("p", { class: "ros-muted", text: `Taught in ${error.taught}.` }) : ""] : [])];
 }

@@ -1,4 +1,4 @@
-"""The service panel as a still picture: the form of the request, what came of it, and the commands."""
+"""The still picture of the service panel: the form of the request, the response, and the commands."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-MOST = 12  # services in the list
+MOST = 12  # services that are listed
 STATUS = {
     "idle": ("Not called yet.", FAINT),
     "running": ("Calling…", FAINT),
@@ -28,7 +28,7 @@ STATUS = {
 
 
 def still(state: State) -> str:
-    """Return the form and the latest response, without times, which are measured."""
+    """Return the picture of the form and the latest response, without times, which differ in each run."""
     form, trouble = state.get("form", {}), state.get("trouble", "")
     name = form.get("service", "")
     kind = f" of type {form['type']}" if form.get("type") else ""

@@ -1,4 +1,4 @@
-"""The service panel as a widget: the model's state as traits, the page's clicks as calls of the model."""
+"""The widget of the service panel: traits hold the state of the model, and clicks call the model."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is its name, or None to pick one on the page; `deadline` (s) bounds each call. `kind` is
-    for a type that was made in the notebook and is in no package. The panel follows the graph while a
-    page shows it. It shows the error of a call that failed.
+    `service` is the name of the service, or None to pick one on the page. `deadline` (s) limits each call.
+    `kind` is needed for a type that was made in the notebook and is in no package. The panel follows the
+    graph while a page shows it, and shows the error of a failed call.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
@@ -37,10 +37,10 @@ class ServicePanel(Panel):
     services = List(Dict(), help="the services on the graph").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
     form = Dict(help="the picked service and the fields of its type").tag(sync=True)
-    draft = Dict(help="the request as typed: a tree of texts").tag(sync=True, echo_update=False)
-    check = Dict(help="what is wrong with the draft, or the commands that equal it").tag(sync=True)
-    deadline = Unicode(help="seconds, as typed").tag(sync=True, echo_update=False)
-    outcome = Dict(help="the phase of the latest call and what came of it").tag(sync=True)
+    draft = Dict(help="the typed request: a tree of texts").tag(sync=True, echo_update=False)
+    check = Dict(help="the errors of the draft, or the commands that do the same").tag(sync=True)
+    deadline = Unicode(help="the typed deadline in seconds").tag(sync=True, echo_update=False)
+    outcome = Dict(help="the phase and the result of the latest call").tag(sync=True)
     history = List(Dict(), help="earlier calls, the latest first").tag(sync=True)
     recording = List(Dict(), help="requests with their outcomes, for a page without a kernel").tag(sync=True)
 
@@ -64,21 +64,21 @@ class ServicePanel(Panel):
         return self._model.response
 
     def fill(self, **values: Plain) -> None:
-        """Write plain values into the form, by field. Raises FieldError if one does not fit."""
+        """Write plain values into the form, by field. Raises FieldError if a value does not fit."""
         self._model.fill(values)
 
     def call(self, **values: Plain) -> genpy.Message | None:
-        """Fill the form, call in this cell and return the response message; raises what the call raises."""
+        """Fill the form, call in this cell, and return the response message. Raises errors of the call."""
         self._model.fill(values)
         self._model.call(self.deadline)
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call once for each of the inputs and keep the outcomes for a page without a kernel."""
+        """Call once for each of `inputs`, and keep the outcomes for a page without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:
-        """Follow the graph."""
+        """Start to follow the graph."""
         self._poller.start()
 
     def hidden(self) -> None:
@@ -86,7 +86,7 @@ class ServicePanel(Panel):
         self._poller.stop()
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click."""
+        """Handle a click on the page."""
         if kind == "pick":
             self._model.pick(str(content["service"]))
         elif kind == "call":
@@ -95,7 +95,7 @@ class ServicePanel(Panel):
             self._model.cancel()
 
     def close(self) -> None:
-        """Take the panel off every page, end a running call and stop following the graph."""
+        """Remove the panel from every page, end a running call, and stop following the graph."""
         super().close()
         self._model.close()
 

@@ -1,1 +1,1 @@
-"""The timeline panel: who did what when, and who waited for whom."""
+"""The timeline panel: the events of a recording, and which node waited for which."""

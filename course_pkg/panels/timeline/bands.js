@@ -1,14 +1,14 @@
-/* What stands too close to be told apart, gathered into bands: a pure function of a scene and of how wide its time is drawn. */
+/* Gathers events that are too close together into bands. It is a pure function of a scene and of its zoom. */
 
 /** @typedef {{events: number[], left: number, right: number, key: number, count: number, what: string}} Band */
 
-const CLOSE = 3; // px: what is narrower and stands closer is not drawn one by one
+const CLOSE = 3; // px; events that are narrower and closer are not drawn one by one
 const MANY = 5; // calls or messages that make a band
 const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 
-/** The bands among what is in view; an exchange that is looked at stays out of them. @param {import("./scene.js").Scene} scene
- * @param {(time: number) => number} x where a time is drawn @param {number} width px @param {number} chosen the key of that exchange, or -1
- * @returns {Band[]} */
+/** Returns the bands of the events in view. Events of the chosen exchange are not put into bands.
+ * @param {import("./scene.js").Scene} scene @param {(time: number) => number} x the position of a time
+ * @param {number} width px @param {number} chosen the key of the chosen exchange, or -1 @returns {Band[]} */
 export function bandsOf(scene, x, width, chosen) {
   /** @type {Map<string, Band>} */
   const open = new Map();

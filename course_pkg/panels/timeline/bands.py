@@ -1,4 +1,4 @@
-"""Events that are too close to be told apart, gathered into bands: what bands.js does for the page."""
+"""Gathers events that are too close together into bands; bands.js does the same for the page."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from course_pkg.panels.timeline.scene import Event, Scene
 
-CLOSE = 3.0  # px: what is narrower and closer is not drawn one by one
+CLOSE = 3.0  # px; events that are narrower and closer are not drawn one by one
 MANY = 5  # calls or messages that make a band
 CALLS, REQUESTS = "calls", "requests"
 WHAT = {
@@ -23,7 +23,7 @@ WHAT = {
 
 @dataclass
 class Band:
-    """Close events of one kind, with their place in px and how many exchanges they belong to."""
+    """Close events of one kind, with their place in px and the number of their exchanges."""
 
     what: str
     kind: str

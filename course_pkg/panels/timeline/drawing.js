@@ -1,4 +1,4 @@
-/* A scene on a canvas: only what lies in view, with colours taken from the page's style sheet. */
+/* Draws a scene on a canvas: only the part in view, in the colours of the page's style sheet. */
 import { axis } from "../axes.js";
 import { bandsOf } from "./bands.js";
 import { cross, diamond, head, ring, tick, torn } from "./marks.js";
@@ -6,8 +6,8 @@ import { cross, diamond, head, ring, tick, torn } from "./marks.js";
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {{from: number, to: number}} View */
 
-const MARK = 14; // px: what is narrower is a small mark, what is wider a bar with a word in it
-const APART = { message: 8, call: 3 }; // px: arrows of one pair of lanes that stand closer are thinned out
+const MARK = 14; // px; a narrower event is a small mark, and a wider one a bar with a text
+const APART = { message: 8, call: 3 }; // px; if arrows between the same two lanes are closer, some are left out
 const AXIS = 26; // px
 const COLOURS = ["text", "muted", "line", "ground", "raised", "error", "handler", "handler-edge", "wait-edge", "callback", "callback-edge"];
 const BLOCKED = ["lookup", "connect", "wait"];
@@ -57,7 +57,8 @@ export class Drawing {
     return (time - this.view.from) * this.scale;
   }
 
-  /** The event at a point of the body, the innermost and latest first, or -1. @param {number} x @param {number} y */
+  /** Returns the event at a point of the body, or -1. The innermost and latest event has priority. @param {number} x
+   * @param {number} y */
   at(x, y) {
     const { scene } = this;
     let [best, distance] = [-1, 5];
@@ -65,7 +66,7 @@ export class Drawing {
       const [top, high] = scene.place(each);
       if (y < top - 2 || y > top + high + 2) continue;
       const [left, right] = [this.x(scene.start[each]), this.x(scene.end[each])];
-      const off = Math.max(left - x, x - right, 0) - (right - left < 6 ? 0.5 : 0); // a small mark wins over what lies below it
+      const off = Math.max(left - x, x - right, 0) - (right - left < 6 ? 0.5 : 0); // a small mark has priority over the bar below it
       if (off < distance || (off === distance && best >= 0 && scene.depth[each] > scene.depth[best])) [best, distance] = [each, off];
     }
     return best;
@@ -133,7 +134,7 @@ export class Drawing {
   #drawArrows(pen) {
     const { scene } = this;
     /** @type {Map<number, number>} */
-    const last = new Map(); // where the last arrow of each pair of lanes stands
+    const last = new Map(); // the position of the last arrow between two lanes
     this.thinned = false;
     for (const [from, to] of scene.recorded.arrows) {
       const mine = scene.key[from] === this.key;
@@ -181,7 +182,8 @@ export class Drawing {
     if (chosen >= 0) this.#outline(pen, chosen);
   }
 
-  /** Draw what is too small and too close to be told apart as bands with a number; return the events in them. @param {CanvasRenderingContext2D} pen */
+  /** Draws events that are too small and too close as bands with a number; returns these events.
+   * @param {CanvasRenderingContext2D} pen */
   #drawBands(pen) {
     const bands = bandsOf(this.scene, (time) => this.x(time), this.width, this.key);
     pen.textAlign = "center";
@@ -193,7 +195,7 @@ export class Drawing {
       pen.fillStyle = what === "calls" ? this.#hatched(pen) : this.colours[message ? "callback" : "handler"];
       pen.strokeStyle = this.colours[what === "calls" ? "wait-edge" : message ? "callback-edge" : "handler-edge"];
       pen.lineWidth = 1;
-      pen.setLineDash([2, 2]); // not one long bar: many short ones
+      pen.setLineDash([2, 2]); // dashed, because a band is many short events and not one long one
       pen.fillRect(from, y + high / 4, to - from, high / 2);
       pen.strokeRect(from, y + high / 4, to - from, high / 2);
       pen.setLineDash([]);
@@ -255,8 +257,9 @@ export class Drawing {
     this.#drawWord(pen, each, kind, left, wide, y, high);
   }
 
-  /** Write into a bar what it is, on a ground of its own if it is hatched, and nothing where there is no room. @param {CanvasRenderingContext2D} pen
-   * @param {number} each @param {string} kind @param {number} left @param {number} wide @param {number} y @param {number} high */
+  /** Writes a text into a bar, on a plain background if the bar is hatched, and nothing if there is no room.
+   * @param {CanvasRenderingContext2D} pen @param {number} each @param {string} kind @param {number} left
+   * @param {number} wide @param {number} y @param {number} high */
   #drawWord(pen, each, kind, left, wide, y, high) {
     if (wide < 30 || high < 11) return;
     const open = this.scene.open[each];
@@ -274,7 +277,7 @@ export class Drawing {
     pen.fillText(text, from + 5, y + high / 2 + 0.5);
   }
 
-  /** Stripes for what waits. @param {CanvasRenderingContext2D} pen */
+  /** Returns the stripes that mark waiting. @param {CanvasRenderingContext2D} pen */
   #hatched(pen) {
     const colour = this.colours["wait-edge"];
     if (this.hatch.colour !== colour) {
@@ -305,7 +308,7 @@ function canvas(name) {
   return element;
 }
 
-/** An element whose colour is that of a variable, whatever the theme makes of it. @param {string} name */
+/** Makes a hidden element that has the colour of a variable in the present theme. @param {string} name */
 function probe(name) {
   const element = document.createElement("i");
   element.hidden = true;

@@ -1,4 +1,4 @@
-/* The small shapes of a timeline, each drawn by a pen at a place (px). */
+/* The small shapes of a timeline. Each function draws one of them at a position (px). */
 
 /** @param {CanvasRenderingContext2D} pen @param {number} x1 @param {number} y1 @param {number} x2 @param {number} y2 */
 export function head(pen, x1, y1, x2, y2) {
@@ -9,7 +9,9 @@ export function head(pen, x1, y1, x2, y2) {
   pen.fill();
 }
 
-/** A bar whose right end is torn off: it went on. @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} wide @param {number} high */
+/** Draws a bar with a jagged right end, which means that the event had not ended.
+ * @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} wide @param {number} high
+ */
 export function torn(pen, x, y, wide, high) {
   const teeth = Math.max(2, Math.round(high / 6));
   pen.moveTo(x, y);

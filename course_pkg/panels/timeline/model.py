@@ -1,7 +1,7 @@
-"""What a timeline draws, as plain data: events in columns of numbers, on the rows of their nodes.
+"""The data of a timeline: events in columns of numbers, on the rows of their nodes.
 
-The saved page holds all of it, so it is bounded: of more than 4,000 events, calls are kept first, then
-messages in the order of time. A note says what is left out.
+A saved page contains all of the data, so its size is limited. If there are more than 4,000 events, calls are
+kept first, and then messages in the order of time. A note says which events are left out.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 MOST = 4000  # events; about 200 kB in a saved page
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
-TICKS = 1e6  # of the state's time in a second: it counts whole microseconds
+TICKS = 1e6  # per second: the times of the state are whole microseconds
 OPEN = -1  # the end of an event that had not ended; no other event ends before the recording began
 
 
@@ -44,7 +44,7 @@ class Lane(TypedDict):
 
 
 class Columns(TypedDict):
-    """The events, one list for each property; `name` to `note` are numbers of strings."""
+    """The events, one list for each property; `name` to `note` are indices of `strings`."""
 
     kind: list[int]
     lane: list[int]
@@ -60,9 +60,10 @@ class Columns(TypedDict):
 
 
 class TimelineState(TypedDict):
-    """A recording for the page; times are in µs from its start, `strings` are by number.
+    """A recording for the page; times are in µs from its start.
 
-    `arrows` are pairs of events. `idle` nodes did nothing, `unrecorded` ones have no record, for a reason.
+    `strings` are sorted by their numbers. `arrows` are pairs of events. `idle` nodes did nothing.
+    `unrecorded` are the nodes without a record, each with the reason.
     """
 
     length: int
@@ -78,7 +79,7 @@ class TimelineState(TypedDict):
 
 
 class StringTable:
-    """Strings by number, each once."""
+    """Different strings, each with a number."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {"": 0}
@@ -94,7 +95,7 @@ class StringTable:
 
 
 def state(recording: Recording) -> TimelineState:
-    """Return what the page needs of a recording."""
+    """Return the data of a recording for the page."""
     events, left_out = _kept(recording.events)
     lanes = list(dict.fromkeys(event.node for event in events))
     rows, depths = rows_of(events)
@@ -140,9 +141,9 @@ class _Thread:
 
 
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
-    """Return each event's row on its node, and how many events of its thread contain it.
+    """Return each event's row on its node, and its depth: how many events of its thread contain it.
 
-    A thread stays on one row, and a row holds one thread after another.
+    A thread stays on one row. Several threads can use a row, one after another.
     """
     rows, depths = [0] * len(events), [0] * len(events)
     nodes: dict[str, dict[str, _Thread]] = defaultdict(lambda: defaultdict(_Thread))
@@ -171,7 +172,7 @@ def _end(event: Event) -> float:
 
 
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message of which both ends were recorded."""
+    """Return [from, to] for each request, response and message whose two ends were recorded."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)
@@ -194,7 +195,7 @@ def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[in
 
 
 def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
-    """Return the events that are drawn, and a sentence about those that are left out."""
+    """Return the events that are drawn, and a sentence about the events that are left out."""
     if len(events) <= MOST:
         return list(events), []
     calls = [event for event in events if event.kind in OF_CALLS][:MOST]
@@ -205,7 +206,7 @@ def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
     first = messages[room].start if messages_left_out else events[MOST].start
     what = "messages and callbacks" if messages_left_out else "events"
     count = len(events) - len(kept)
-    return kept, [f"Drawn are {MOST:,} events: {count:,} {what} from {first:.4g} s on are left out."]
+    return kept, [f"{MOST:,} events are drawn: {count:,} {what} from {first:.4g} s on are left out."]
 
 
 def _count(events: Sequence[Event], rows: Sequence[int], node: str) -> int:

@@ -1,13 +1,13 @@
-/* What a timeline consists of: events in typed columns, and where the lanes and rows lie. No page is needed. */
+/* The data of a timeline: events in typed columns, and the positions of lanes and rows. It needs no page. */
 
 /** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, strings: string[],
  *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */
 
-const HEAD = 22; // px of a lane's name
+const HEAD = 22; // px, height of a lane's name
 const GAP = 12; // px between lanes
-const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // up to so many rows in all: px of each, and between
+const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // maximal number of rows, px of a row, px between two rows
 
-/** Time is in µs throughout. */
+/** All times are in µs. */
 export class Scene {
   /** @param {Recorded} recorded */
   constructor(recorded) {
@@ -40,7 +40,7 @@ export class Scene {
     this.height = Math.max(y - GAP + 8, 40);
   }
 
-  /** Find for each event its first arrow out and in, and for each exchange its events. */
+  /** Collects the events of each exchange, and the events that have an arrow. */
   #tie() {
     /** @type {Map<number, number[]>} */
     this.exchanges = new Map();
@@ -67,14 +67,14 @@ export class Scene {
     return this.recorded.lanes[this.lane[each]].node;
   }
 
-  /** The upper edge of an event, and how high it is, inset by how deep it lies within others. @param {number} each */
+  /** Returns the upper edge and the height of an event, which is smaller inside other events. @param {number} each */
   place(each) {
     const inset = Math.min(this.depth[each] * 3, this.row / 2 - 2);
     const y = this.top[this.lane[each]] + HEAD + this.rows[each] * (this.row + this.between);
     return [y + inset, this.row - 2 * inset];
   }
 
-  /** From when to when there is anything to see. */
+  /** Returns the first and the last time that can be shown. */
   extent() {
     const room = Math.max(this.length * 0.02, 10);
     return [-room, this.length + room];

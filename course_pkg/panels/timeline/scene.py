@@ -1,4 +1,4 @@
-"""Where the events of a recording lie in a still picture: what scene.js does for the page."""
+"""The positions of a recording's events in a still picture; scene.js does the same for the page."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from course_pkg.panels.paper import State
 
-HEAD, GAP = 22.0, 12.0  # px of a lane's name, and between lanes
-# Up to so many rows in all: px of each row, and between two.
+HEAD, GAP = 22.0, 12.0  # px, height of a lane's name, and distance between lanes
+# Maximal number of rows, px of a row, px between two rows.
 ROWS = ((16, 20.0, 3.0), (32, 12.0, 2.0), (52, 8.0, 2.0), (10**9, 4.0, 1.0))
 BLOCKED = ("lookup", "connect", "wait")
 
 
 @dataclass(frozen=True)
 class Event:
-    """An event with its place in px; `open` is whether it had not ended."""
+    """An event with its place in px; `open` says whether it had not ended."""
 
     number: int
     kind: str
@@ -52,7 +52,7 @@ class Scene:
         self.arrows = [(self.events[source], self.events[target]) for source, target in recorded["arrows"]]
 
     def x(self, time: float) -> float:
-        """Return where a time is (px)."""
+        """Return the position of a time (px)."""
         return (time - self._from) * self._scale
 
     def _event(self, number: int, recorded: State) -> Event:

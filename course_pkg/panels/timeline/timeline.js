@@ -1,10 +1,10 @@
-/* The timeline: the drawing, what is clicked in words, who waited, and the same as a table. It needs no kernel. */
+/* The timeline: the drawing, the chosen event as text, sentences about waiting, and a table. It needs no kernel. */
 import { freshId, h, prose, say, setAttribute } from "../kit.js";
 import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
 import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
-const FINEST = 50; // µs across the page
+const FINEST = 50; // µs, the shortest time that the width of the page shows
 const HINT = "Drag to move. Ctrl + wheel zooms, and so do + and −; ← and → move, ↑ and ↓ go from event to event, 0 shows all.";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -42,13 +42,13 @@ class TimelineView {
       "aria-label": `${counted(this.scene.count, "event")} of ${counted(recorded.lanes.length, "node")}. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
-    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "What is too close together to be told apart is drawn as a band with its number, or left out if it is an arrow. Zoom in to see each." });
+    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as a band with their number, and arrows that are too close are left out. Zoom in to see each one." });
     this.body = h("tbody", {});
     this.table = /** @type {HTMLDetailsElement} */ (h("details", { class: "ros-list", ontoggle: () => this.#fillTable() }, h("summary", { text: "The same as a table" }),
       h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Events" }, h("table", {}, h("thead", {}, h("tr", {},
         ...["Start (ms)", "Took (ms)", "Node", "What", "Service or topic", "Other node", "Belongs to", "Thread", "Note"].map((text) => h("th", { scope: "col", text })))), this.body))));
     this.el = h("section", { class: "ros-panel ros-timeline", "aria-label": "Timeline" }, this.#buildHead(),
-      empty ? h("p", { class: "ros-empty", text: "Nothing happened between the nodes while this was recorded, or the block of the recording has not ended." }) : this.window,
+      empty ? h("p", { class: "ros-empty", text: "Nothing happened between the nodes during the recording, or the block of the recording has not ended." }) : this.window,
       empty ? null : this.details, empty ? null : this.#buildFoot(), this.#buildNotes(), empty ? null : this.table);
   }
 
@@ -78,10 +78,10 @@ class TimelineView {
   #listen() {
     this.observer = new ResizeObserver(([entry]) => {
       this.drawing.resize(Math.floor(entry.contentRect.width));
-      this.#drawNow(); // later would be a page without a drawing for a moment
+      this.#drawNow(); // otherwise, the page would show no drawing for a moment
     });
     this.observer.observe(this.window);
-    this.paper = window.matchMedia("print"); // where the colours are others
+    this.paper = window.matchMedia("print"); // print has other colours
     this.paper.addEventListener("change", this.#drawNow);
     this.themes = new MutationObserver(() => this.#drawSoon());
     for (const element of [document.documentElement, document.body]) this.themes.observe(element, { attributes: true });
@@ -99,7 +99,7 @@ class TimelineView {
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.ctrlKey) this.#zoom(Math.exp(Math.max(-100, Math.min(100, event.deltaY)) * 0.005), event.offsetX);
     else if (sideways) this.#move(sideways / this.drawing.width);
-    else return; // an ordinary turn scrolls the page
+    else return; // without a key, the wheel scrolls the page
     event.preventDefault();
   }
 
@@ -141,7 +141,7 @@ class TimelineView {
     act();
   }
 
-  /** Go on to another event, and to where it is. @param {number} by */
+  /** Chooses another event, and moves the view to it. @param {number} by */
   #step(by) {
     const next = this.chosen < 0 ? (by > 0 ? 0 : this.scene.count - 1) : Math.max(0, Math.min(this.scene.count - 1, this.chosen + by));
     this.#choose(next);
@@ -151,7 +151,7 @@ class TimelineView {
     if (top < this.window.scrollTop + 30 || top > this.window.scrollTop + this.window.clientHeight - 40) this.window.scrollTop = top - 60;
   }
 
-  /** Zoom in on the exchange of the chosen event. */
+  /** Zooms in on the exchange of the chosen event. */
   #open() {
     if (this.chosen < 0) return;
     const whole = this.scene.exchanges.get(this.scene.key[this.chosen]) ?? [];
@@ -168,7 +168,7 @@ class TimelineView {
   }
 
   #showDetails() {
-    if (this.chosen < 0) return this.details.replaceChildren(h("span", { class: "ros-muted", text: "Click anything in the drawing for its facts in words." }));
+    if (this.chosen < 0) return this.details.replaceChildren(h("span", { class: "ros-muted", text: "Click an event in the drawing to read about it." }));
     const { scene, chosen } = this;
     const facts = [["at", `${moment(scene.start[chosen])} ms`], ["thread", scene.word(chosen, "thread")], ["belongs to", scene.word(chosen, "key")]];
     const whole = parts(scene, chosen);
@@ -190,7 +190,8 @@ class TimelineView {
     return { from, to };
   }
 
-  /** Zoom about a place (px) of the drawing, or about the chosen event, or the middle. @param {number} factor @param {number} [at] */
+  /** Zooms about a position (px) of the drawing, by default about the chosen event or the middle. @param {number}
+   * factor @param {number} [at] */
   #zoom(factor, at) {
     const { from, to } = this.view;
     const start = this.chosen < 0 ? NaN : this.scene.start[this.chosen];
@@ -200,7 +201,7 @@ class TimelineView {
     this.#look({ from: still - share * span, to: still + (1 - share) * span });
   }
 
-  /** @param {number} share of what is in view */
+  /** @param {number} share of the view */
   #move(share) {
     const by = share * (this.view.to - this.view.from);
     this.#look({ from: this.view.from + by, to: this.view.to + by });
@@ -217,7 +218,7 @@ class TimelineView {
     setAttribute(this.thinned, "hidden", !this.drawing.thinned);
   };
 
-  /** The table's rows are made when it is opened first: thousands of them take their time. */
+  /** Makes the rows of the table when it is opened for the first time, because thousands of rows take time. */
   #fillTable() {
     if (!this.table.open || this.body.childElementCount) return;
     const { scene } = this;
@@ -236,15 +237,15 @@ function pair([label, value]) {
   return h("span", { class: "ros-pair" }, h("span", { class: "ros-muted", text: `${label} ` }), h("code", { text: value }));
 }
 
-/** What the shapes mean that there are, those that wait first. @param {Scene} scene */
+/** Returns the legend of the shapes in the drawing; the shapes of waiting events come first. @param {Scene} scene */
 function legend(scene) {
   const id = freshId("ros-hatch");
   const hatch = `<defs><pattern id="${id}" width="6" height="6" patternUnits="userSpaceOnUse"><path class="ros-stripe" d="M-1,1 L1,-1 M0,6 L6,0 M5,7 L7,5"/></pattern></defs>`;
   const samples = [
-    ["wait", "waits: blocked until another answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
-    ["lookup connect", "look-up, connect: waits too, bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
+    ["wait", "waits: blocked until another node answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
+    ["lookup connect", "look-up, connect: also waits; bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
     ["handler", "handler works", '<rect class="ros-work" x="1" y="2" width="32" height="14"/>'],
-    ["request", "request, and its answer", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
+    ["request", "request, and its response", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
     ["error", "failed", '<path class="ros-failed" d="M13,5 l8,8 m0,-8 l-8,8"/>'],
     ["publish", "publishes, waits for nobody", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
     ["callback", "callback runs", '<rect class="ros-heard" x="1" y="2" width="32" height="14"/>'],

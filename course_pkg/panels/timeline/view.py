@@ -1,4 +1,4 @@
-"""The timeline as a widget: it only passes a recording to the page."""
+"""The widget of the timeline, which only sends a recording to the page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Timeline(Panel):
     front_end: ClassVar[Path] = HERE / "timeline.js"
     style_sheet: ClassVar[Path] = HERE / "timeline.css"
 
-    recorded = Dict(help="what was recorded, in columns; see model.py").tag(sync=True)
+    recorded = Dict(help="the recording, in columns; see model.py").tag(sync=True)
 
     def __init__(self, recording: Recording) -> None:
         super().__init__()
@@ -35,7 +35,7 @@ class Timeline(Panel):
 
     @property
     def text(self) -> str:
-        """Which nodes waited for which, as sentences that are the same in every run."""
+        """Sentences about which node waited for which; they are the same in every run."""
         return timeline_text(self._recording)
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Which nodes waited for which, in total: callers wait for servers, and publishers for nobody."""
+"""The waits of a recording: callers wait for servers, and publishers do not wait."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Wait(TypedDict):
 
 
 class Stream(TypedDict):
-    """The messages of a node on a topic; `alone` were published while no subscriber was connected."""
+    """The messages of a node on a topic; for `alone` of them, no subscriber was connected."""
 
     node: str
     topic: str
@@ -42,7 +42,7 @@ class Waits(TypedDict):
 
 
 def waits_of(recording: Recording) -> Waits:
-    """Return the waits of a recording; one that had not ended counts to the end of the recording."""
+    """Return the waits of a recording; a wait that had not ended counts to the end of the recording."""
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)
     receivers: dict[str, set[str]] = defaultdict(set)
@@ -90,9 +90,9 @@ def _stream(node: str, topic: str, events: list[Event], receivers: dict[str, set
 
 
 def timeline_text(recording: Recording) -> str:
-    """Return which nodes waited for which: sorted sentences without times, one a line, calls first.
+    """Return sentences about which node waited for which, one on each line, without times.
 
-    They are the same in every run that goes the same way.
+    Calls come first, and the lines are sorted. So the text is the same in every run with the same events.
     """
     return "\n".join(sentences(waits_of(recording)))
 
@@ -110,10 +110,10 @@ def _called(wait: Wait) -> str:
     if wait["open"]:
         return f"{sentence}{'' if servers else ' and waited'}, to the end of the recording."
     if not servers:
-        return f"{sentence}, and reached nobody."
+        return f"{sentence}, and reached no server."
     if wait["failed"] == wait["calls"]:
-        return f"{sentence}, in vain."
-    return f"{sentence}, at times in vain." if wait["failed"] else f"{sentence}."
+        return f"{sentence}, and each call failed."
+    return f"{sentence}, and some calls failed." if wait["failed"] else f"{sentence}."
 
 
 def _published(stream: Stream) -> str:

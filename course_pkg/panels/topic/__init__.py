@@ -1,1 +1,1 @@
-"""The topic panel: publish on a topic, hear what it carries, and see what becomes of messages."""
+"""The topic panel: publish on a topic, receive its messages, and see what happens to each message."""

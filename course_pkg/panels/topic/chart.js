@@ -1,6 +1,6 @@
-/* A line chart of one number over time. It is our own small drawing: the code travels with every widget of a notebook, and
-   the smallest chart library that was weighed, uPlot, has 50 kB and draws on a canvas, which neither prints sharply nor
-   follows the theme. */
+/* A line chart of one number over time. It is drawn here, because the code is sent with every widget of a notebook, and
+   the smallest library that was considered, uPlot, has 50 kB. uPlot draws on a canvas, which is not sharp in print and
+   does not follow the theme. */
 import { axis, place, reading } from "../axes.js";
 import { h, say } from "../kit.js";
 
@@ -9,18 +9,18 @@ import { h, say } from "../kit.js";
 /** @typedef {{y: string, points: Point[], count: number, window: [number, number]}} Drawing */
 
 const SPACE = "http://www.w3.org/2000/svg";
-const X = "time since the panel listens (s)";
+const X = "time since the subscription began (s)";
 const HEIGHT = 264; // px
-const TOP = 28; // room for the name of the upward axis
-const BOTTOM = 44; // and below for marks and the name of the other
+const TOP = 28; // px for the name of the vertical axis
+const BOTTOM = 44; // px for the ticks and the name of the horizontal axis
 const LETTER = 6.8; // px, about the width of a digit of 12 px
-const APART = 8; // px between points on average, from which the line has markers
+const APART = 8; // px; if points are this far apart on average, the line has markers
 const R = 4; // px, the radius of a marker
 
 export class Chart {
   constructor() {
     this.width = 640;
-    /** @type {number | null} the point that is read */
+    /** @type {number | null} the index of the point whose values are shown */
     this.at = null;
     this.canvas = h("div", { class: "ros-chart-canvas", role: "group", tabindex: "0", "data-lm-suppress-shortcuts": "true",
       "aria-label": "Plot: the arrow keys read its points",
@@ -38,7 +38,7 @@ export class Chart {
     this.#draw();
   }
 
-  /** Stay at the same moment when other points come in. @param {Point[]} points */
+  /** Keeps the chosen time when the points change. @param {Point[]} points */
   #follow(points) {
     const before = this.at === null ? undefined : this.data?.points[this.at];
     if (!before) return;
@@ -69,7 +69,7 @@ export class Chart {
     const line = s("polyline", { class: "ros-chart-line", points: places.map((each) => each.join(",")).join(" ") });
     const room = Math.abs(places[places.length - 1][0] - places[0][0]);
     if (places.length > 1 && room < APART * (places.length - 1)) return [line];
-    // One path with a marker at each place draws faster than as many elements.
+    // One path with all markers is drawn faster than one element for each marker.
     const dots = places.map(([x, y]) => `M${near(x - R)} ${y}A${R} ${R} 0 1 1 ${near(x + R)} ${y}A${R} ${R} 0 1 1 ${near(x - R)} ${y}Z`);
     return [line, s("path", { class: "ros-chart-marker", d: dots.join("") })];
   }
@@ -88,7 +88,8 @@ export class Chart {
     this.#read(this.#nearest((event.clientX - frame.left) * scale, (event.clientY - frame.top) * scale));
   }
 
-  /** The point next to a place; what lies above or below it counts as next. @param {number} x @param {number} y */
+  /** Returns the nearest point; the vertical distance counts less than the horizontal one.
+   * @param {number} x @param {number} y */
   #nearest(x, y) {
     const far = this.data.points.map((/** @type {Point} */ point) => {
       const [left, top] = this.toPage(point);
@@ -130,7 +131,8 @@ export class Chart {
   }
 }
 
-/** Make an element of SVG; `text` is its text. @param {string} tag @param {Record<string, any>} [props] @param {...Node} children */
+/** Makes an SVG element; `text` sets its text.
+ * @param {string} tag @param {Record<string, any>} [props] @param {...Node} children */
 function s(tag, props = {}, ...children) {
   const element = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
   for (const [key, value] of Object.entries(props)) {
@@ -141,7 +143,7 @@ function s(tag, props = {}, ...children) {
   return element;
 }
 
-/** "delay (ms)" and "3" as "delay 3 ms". @param {string} name @param {string} value */
+/** Returns "delay 3 ms" for "delay (ms)" and "3". @param {string} name @param {string} value */
 function quantity(name, value) {
   const [, what, unit] = name.match(/^(.*?)\s*\(([^()]*)\)\s*$/) ?? ["", name, ""];
   return `${what} ${value}${unit ? ` ${unit}` : ""}`;
@@ -152,7 +154,8 @@ function extent(values) {
   return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 }
 
-/** The sideways axis with as many marks as have room. @param {[number, number]} ends @param {number} width */
+/** Returns the horizontal axis with as many ticks as there is room for.
+ * @param {[number, number]} ends @param {number} width */
 function marksThatFit([low, high], width) {
   for (const most of [10, 8, 6, 5, 4, 3, 2]) {
     const made = axis(low, high, most, true);
@@ -162,7 +165,7 @@ function marksThatFit([low, high], width) {
   return axis(low, high, 1, true);
 }
 
-/** Lines, marks and names. @param {{across: Axis, up: Axis}} axes
+/** Returns the grid lines, ticks and names of both axes. @param {{across: Axis, up: Axis}} axes
  * @param {{left: number, right: number, top: number, bottom: number}} box @param {Function} toPage @param {string} y */
 function grid({ across, up }, box, toPage, y) {
   const levels = up.ticks.flatMap(({ value, text }) => {
@@ -181,12 +184,12 @@ function grid({ across, up }, box, toPage, y) {
     s("text", { class: "ros-chart-name", x: box.right, y: HEIGHT - 7, "text-anchor": "end", text: X })];
 }
 
-/** A place on the page, to a tenth of a pixel. @param {number} value */
+/** Rounds a position to a tenth of a pixel. @param {number} value */
 function near(value) {
   return Math.round(value * 10) / 10;
 }
 
-/** Call `draw(width)` now and whenever the element's width changes; returns what ends that.
+/** Calls `draw(width)` now and after each change of the element's width. Returns a function that stops this.
  * @param {Element} element @param {(width: number) => void} draw */
 function whenWide(element, draw) {
   let before = 0;

@@ -1,4 +1,4 @@
-"""The state of a topic panel, without page, kernel or ROS: a topic process takes commands and reports."""
+"""The state of a topic panel, without a page or ROS: a topic process takes commands and sends reports."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from course_pkg.ros.topic.field_paths import measurement, numbers
 from course_pkg.ros.topic.reports import Connections, Report
 from course_pkg.types import MessageSchema, MessageType, message_type, publisher_lines, rostopic_line, schema
 
-BURST = 1000  # messages
+BURST = 1000  # messages in a burst
 NAME = r"(/[A-Za-z]\w*)+"  # http://wiki.ros.org/Names
 ACTIONS = ("publish", "burst", "repeat")
 RATE, QUEUE = "@rate", "@queue"  # no field of a message can have these names
@@ -35,9 +35,9 @@ LONGEST = 10_000  # messages in a queue
 
 @dataclass(frozen=True)
 class Settings:
-    """How to publish, as typed: the rate, the queue size, and whether to latch.
+    """The typed settings of the publisher: the rate, the queue size, and whether to latch.
 
-    `path` is the number that is drawn, "" for none.
+    `path` is the field that is drawn, or "" for none.
     """
 
     rate: str = "10"
@@ -47,18 +47,18 @@ class Settings:
 
     @classmethod
     def of_page(cls, given: Mapping[str, str | bool]) -> Settings:
-        """Return what a page has sent."""
+        """Return the settings that a page has sent."""
         rate, queue, path = (str(given.get(name, "")) for name in ("rate", "queue", "path"))
         return cls(rate, queue, bool(given.get("latch")), path)
 
     @property
     def hertz(self) -> float:
-        """The rate in 1/s. Raises FieldError."""
+        """The rate in 1/s. Raises FieldError if it is not a number or out of range."""
         return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
 
     @property
     def size(self) -> int:
-        """The queue size in messages, 0 for no limit. Raises FieldError."""
+        """The queue size in messages, 0 for no limit. Raises FieldError if it is not valid."""
         allowed = f"a whole number from 0 (no limit) to {LONGEST}"
         size = _number(QUEUE, self.queue, 0, LONGEST, allowed)
         if size != int(size):
@@ -67,7 +67,7 @@ class Settings:
 
 
 class About(TypedDict, total=False):
-    """The topic, why there is no form ("" if there is one), and the fields and numbers of its type."""
+    """The topic, the fields and numbers of its type. `problem` says why there is no form, or is ""."""
 
     topic: str
     problem: str
@@ -78,11 +78,12 @@ class About(TypedDict, total=False):
 
 
 class TopicModel:
-    """One topic: its type, the message as typed, how it is published, and what is received. Raises NotATopic.
+    """One topic: its type, the typed message, the settings of the publisher, and the received messages.
 
-    `kind` is the type; None to take the type of the first publisher. `changed` gets every change by
-    keyword: `about`, `settings`, `draft`, `check`, `connections`, `publisher`, `subscription`, `messages`,
-    `latest`, `curve`, `trouble`. `command` sends a command to the topic process, if there is one.
+    `kind` is the type, or None to take the type of the first publisher. `changed` is called after each
+    change. Its keyword arguments are `about`, `settings`, `draft`, `check`, `connections`, `publisher`,
+    `subscription`, `messages`, `latest`, `curve` and `trouble`. `command` sends a command to the topic
+    process, if there is one. Raises NotATopic if `topic` is not a valid name.
     """
 
     def __init__(
@@ -121,7 +122,7 @@ class TopicModel:
             self._changed(about=self._about(), settings=asdict(self.settings))
 
     def process_began(self) -> None:
-        """Send a new topic process what the one before knew."""
+        """Send a new topic process the type and the drawn field, which the previous process knew."""
         with self._turn:
             self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}
             self.see({**self._connections, "sources": []})
@@ -130,7 +131,7 @@ class TopicModel:
             self._send_type()
 
     def report(self, report: Report) -> None:
-        """Take in what the topic process reports."""
+        """Store a report of the topic process."""
         with self._turn:
             self._own = report.get("node", self._own)
             if "connections" in report:
@@ -157,7 +158,7 @@ class TopicModel:
                 self._changed(messages=self._log.entries, latest=self._log.latest)
 
     def see(self, connections: Connections) -> None:
-        """Take in who is on the topic now."""
+        """Store the present connections of the topic."""
         with self._turn:
             self._connections = connections
             if self.kind is None:
@@ -167,14 +168,14 @@ class TopicModel:
             self._changed(connections=seen, about=self._about())
 
     def edit(self, draft: Draft) -> None:
-        """Take in what is typed now; report its errors or the commands that do the same."""
+        """Store the texts of the form; report their errors, or the commands that do the same."""
         with self._turn:
             if self._form:
                 self.draft = draft
                 self._changed(check=self._checked())
 
     def set(self, settings: Settings) -> None:
-        """Take in how to publish, and which number to draw."""
+        """Store the settings of the publisher and the field to draw."""
         with self._turn:
             before, self.settings = self.settings, settings
             if settings.path != before.path:
@@ -183,7 +184,7 @@ class TopicModel:
             self._changed(check=self._checked())
 
     def act(self, action: str, draft: Draft, settings: Settings) -> None:
-        """Publish once, in a burst, or at a rate, unless something typed has an error."""
+        """Publish once, in a burst, or at a rate, unless a typed text has an error."""
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return
@@ -210,7 +211,7 @@ class TopicModel:
         self._command("withdraw")
 
     def _checked(self) -> Check:
-        """Return what is wrong, or the commands that do the same by hand."""
+        """Return the errors, or the commands that do the same."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)
@@ -223,7 +224,7 @@ class TopicModel:
         return {**check, "errors": {**check["errors"], **wrong}, "refused": self._refusals}
 
     def _commands(self, values: Values) -> Check:
-        """Return the lines that publish these values once, and at a rate; none if a setting has an error."""
+        """Return the lines that publish these values once and at a rate; {} if a setting has an error."""
         assert self.kind is not None
         settings = self.settings
         try:
@@ -238,7 +239,7 @@ class TopicModel:
         }
 
     def _type_on_the_graph(self) -> str:
-        """Return the type of a publisher, or else the type that the master knows."""
+        """Return the type of a publisher or, if no publisher has one, the type that the master knows."""
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))
         return next((each for each in known if each and each != ANY), "")
@@ -271,7 +272,7 @@ class TopicModel:
         about: About = {"topic": self.topic, "problem": self._problem, "burst": BURST, "listen": listen}
         if self.kind is None:
             unknown = (
-                f"Nobody publishes {self.topic} yet, so its type is not known. Start a publisher, or give "
+                f"No node publishes {self.topic} yet, so its type is not known. Start a publisher, or give "
                 f"the type: TopicPanel({self.topic!r}, 'std_msgs/Float64')."
             )
             return {**about, "problem": self._problem or unknown}
@@ -289,4 +290,4 @@ def _number(field: str, text: str, low: float, high: float, allowed: str) -> flo
 
 
 def _wrong(field: str, text: str, allowed: str) -> FieldError:
-    return FieldError(field, text, allowed, f"{text!r} cannot be taken here")
+    return FieldError(field, text, allowed, f"{text!r} is not valid here")

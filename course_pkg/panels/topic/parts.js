@@ -1,4 +1,4 @@
-/* What the topic panel is made of: a setting, counts, deliveries, numbers in words. */
+/* Parts of the topic panel: a setting, counts, deliveries, and numbers as texts. */
 import { freshId, h } from "../kit.js";
 
 /** @param {string} label @param {string} unit @param {string} mode @param {() => void} edited */
@@ -26,7 +26,7 @@ export function deliveries({ deliveries: rows, own, queue }) {
   const head = ["Subscriber", "sent", "waiting", "dropped"].map((text) => h("th", { scope: "col", text }));
   return h("div", { class: "ros-scroll" }, h("table", { class: "ros-deliveries" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows.map((/** @type {any} */ each) => h("tr", {},
     h("th", { scope: "row", text: each.peer === own ? "this panel" : each.peer }), ...["sent", "waiting", "dropped"].map((part) => h("td", { text: each[part].toLocaleString("en") })))))),
-  h("p", { class: "ros-muted", text: `Sent means written to the connection. Where more than ${queue || "any number of"} wait, the oldest is dropped.` }));
+  h("p", { class: "ros-muted", text: `Sent means written to the connection. ${queue ? `If more than ${queue} wait, the oldest message is dropped.` : "The queue has no limit."}` }));
 }
 
 /** @param {number} value */

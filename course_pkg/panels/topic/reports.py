@@ -1,4 +1,4 @@
-"""What the panel shows of the topic process's reports: the last messages, and whole sentences."""
+"""Turns reports of the topic process into texts: the last messages, and sentences about the publisher."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from course_pkg.ros.topic.connections import ANY
 from course_pkg.ros.topic.reports import Connections, Figures, MessageReport, Peer, PublisherReport, Source
 from course_pkg.types import MessageType
 
-SHORT = 8  # digits of an MD5: enough to see that two differ
-KEPT = 10  # messages
-LINES = 40  # of the latest message
+SHORT = 8  # digits of an MD5, which are enough to distinguish two types
+KEPT = 10  # messages that are listed
+LINES = 40  # lines of the table for the latest message
 
 FindType = Callable[[str], MessageType]
 
@@ -27,14 +27,14 @@ class PublisherState(PublisherReport, total=False):
 
 
 class SubscriptionState(TypedDict):
-    """How many messages came, and how evenly."""
+    """The number of received messages, and figures about their timing."""
 
     count: int
     statistics: Figures
 
 
 class ShownMessage(TypedDict):
-    """A received message for the page: its values, or a remark if they cannot be shown, in one line."""
+    """A received message for the page: its values in one line, or a remark if they cannot be shown."""
 
     number: int
     ago: float
@@ -44,7 +44,7 @@ class ShownMessage(TypedDict):
 
 
 class MessageLog:
-    """The last messages of a topic, each in one line, and the latest as a table."""
+    """The last messages of a topic, each in one line, and the latest message as a table."""
 
     def __init__(self) -> None:
         self._entries: deque[ShownMessage] = deque(maxlen=KEPT)
@@ -56,7 +56,7 @@ class MessageLog:
         return list(self._entries)
 
     def add(self, messages: Iterable[MessageReport], kind: MessageType | None) -> None:
-        """Take new messages in, the oldest first."""
+        """Add new messages, the oldest first."""
         for each in messages:
             lines = _rows(each, kind)
             self._entries.appendleft(
@@ -86,12 +86,12 @@ def _remark(message: MessageReport, kind: MessageType | None) -> str:
 
 
 def published(report: PublisherReport, own: str) -> str:
-    """Return what became of the latest message; `own` is the panel's node, which subscribes, too."""
+    """Return a sentence about the latest message; `own` is the panel's node, which also subscribes."""
     count = report.get("published", 0)
     if not count:
-        return "Nothing is published yet. The first message makes the publisher."
+        return "Nothing is published yet. The first message creates the publisher."
     if not report["advertised"]:
-        return "The publisher is withdrawn. The next message makes a new one."
+        return "The publisher is withdrawn. The next message creates a new one."
     if report["rate"]:
         return _rate(report)
     peers = [_peer(each["peer"], own) for each in report["deliveries"]]
@@ -102,18 +102,18 @@ def published(report: PublisherReport, own: str) -> str:
         return f"Message {count} went to nobody: no subscriber was connected when it was published."
     if peers:
         return f"Message {count} was kept, and went to {_all(peers)} as soon as it was connected."
-    return f"Message {count} went to nobody yet. Latched, it is kept for the next subscriber that connects."
+    return f"Message {count} went to nobody yet. It is latched, so the next subscriber gets it."
 
 
 def _rate(report: PublisherReport) -> str:
     measured = report["statistics"].get("rate")
-    kept = f", really {measured:.4g} Hz" if measured else ""
+    kept = f" (measured: {measured:.4g} Hz)" if measured else ""
     skipped = f" {_count(report['skipped'], 'message')} had to be left out." if report["skipped"] else ""
     return f"Publishing at {report['rate']:g} Hz{kept}.{skipped}"
 
 
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
-    """Return a sentence for each node on the topic whose type is not `kind`; rospy reports no such error."""
+    """Return a sentence for each node whose type is not `kind`, because rospy does not report this error."""
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [
         *_of_publishers(kind, connections.get("publishers", ()), sources, own, find),
@@ -135,7 +135,7 @@ def _of_publishers(
         if node != own and _differs(kind, name, md5):
             yield (
                 f"{node} publishes {_type(name, md5)}, this panel has {_type(kind.name, kind.md5)}. "
-                "A subscriber of the panel's type hears nothing of it, and no error either."
+                "A subscriber with the panel's type gets none of these messages, and no error."
             )
 
 
@@ -148,7 +148,7 @@ def _of_subscribers(
         if node != own and _differs(kind, name, md5):
             yield (
                 f"{node} subscribes to {_type(name, md5)}, this panel has {_type(kind.name, kind.md5)}. "
-                "It hears nothing that is published with the panel's type, and is not told."
+                "This node gets no message of the panel's type, and no error."
             )
 
 
@@ -159,7 +159,7 @@ def _differs(kind: MessageType, name: str, md5: str) -> bool:
 
 
 def _md5(name: str, find: FindType) -> str:
-    """Return the MD5 of a type by name, "" if it is not known here."""
+    """Return the MD5 of the named type, or "" if the type is not known here."""
     try:
         return find(name).md5 if name and name != ANY else ""
     except CourseError:
@@ -175,7 +175,7 @@ def _peer(node: str, own: str) -> str:
 
 
 def _all(names: list[str]) -> str:
-    """Return "a, b and c"."""
+    """Return the names as one text, such as "a, b and c"."""
     *most, last = names
     return f"{', '.join(most)} and {last}" if most else last
 

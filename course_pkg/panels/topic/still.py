@@ -1,4 +1,4 @@
-"""The topic panel as a still picture: the nodes on the topic, the form, and the commands."""
+"""The still picture of the topic panel: the nodes on the topic, the form, and the commands."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course_pkg.panels.paper import CODE, EDGES, ERROR, FAINT, HEADING, PLAIN, P
 
 
 def still(state: State) -> str:
-    """Return the panel as it is before a page shows it: it has published and received nothing yet."""
+    """Return the picture of the panel before a page shows it: no message was published or received yet."""
     about, connections = state["about"], state.get("connections", {})
     message = about.get("message", {})
     kind = f" of type {message['name']}" if message else ""

@@ -1,14 +1,15 @@
-/* The topic panel: who is there, publish, hear, draw. All that it shows comes from the model's traits. */
+/* The topic panel: the nodes on the topic, a form to publish, the received messages, a chart. The model holds all
+   state. */
 import { FieldsForm } from "../forms/fields.js";
 import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js";
 import { Chart } from "./chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
-const SETTLE = 120; // ms without a keystroke before what is typed is sent
-const SLOW = 1500; // ms after which a click that the kernel has not taken is explained
-const AGEING = 250; // ms between two looks at the clock
-const SPAN = 20; // s that a curve shows
+const SETTLE = 120; // ms; typed texts are sent if no key was pressed for this time
+const SLOW = 1500; // ms; if the kernel has not handled a click by then, the panel says why
+const AGEING = 250; // ms between two updates of the messages' ages
+const SPAN = 20; // s that the chart shows
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -24,9 +25,9 @@ class TopicView {
     this.model = model;
     this.live = true;
     this.refused = model.get("check").refused ?? 0;
-    /** @type {Map<number, number>} when each message came, by the page's clock (ms) */
+    /** @type {Map<number, number>} the time at which each message came, by the page's clock (ms) */
     this.came = new Map();
-    this.fields = new FieldsForm(() => this.#edited(), "This message has no fields: that it comes is all it says.");
+    this.fields = new FieldsForm(() => this.#edited(), "This message has no fields: only its arrival matters.");
     this.chart = new Chart();
     this.#build();
     const draw = { about: this.#drawAbout, trouble: this.#drawBanner, notice: this.#drawBanner, draft: () => this.fields.fill(model.get("draft")),
@@ -71,7 +72,7 @@ class TopicView {
       event.preventDefault();
       this.#act("publish");
     } }, h("h4", { text: "Publish" }), this.fields.el,
-    h("div", { class: "ros-settings" }, this.rate.el, this.queue.el, h("label", { class: "ros-latch", for: id }, this.latch, "Latch: keep the last message for who comes later")),
+    h("div", { class: "ros-settings" }, this.rate.el, this.queue.el, h("label", { class: "ros-latch", for: id }, this.latch, "Latch: keep the last message for later subscribers")),
     h("div", { class: "ros-actions" }, this.once, this.often, this.burst, this.wrong), this.waiting, this.words, this.counts, this.withdraw);
   }
 
@@ -80,7 +81,7 @@ class TopicView {
     this.agedText = h("span", { class: "ros-muted" });
     this.latest = h("div", { class: "ros-latest" });
     this.messages = h("ol", { class: "ros-messages", "aria-label": "The last messages" });
-    return h("section", { class: "ros-hearing", "aria-label": "Heard" }, h("div", { class: "ros-heading" }, h("h4", { text: "Heard" }), this.agedText),
+    return h("section", { class: "ros-hearing", "aria-label": "Received" }, h("div", { class: "ros-heading" }, h("h4", { text: "Received" }), this.agedText),
       this.figures, this.latest, this.messages);
   }
 
@@ -165,7 +166,7 @@ class TopicView {
 
   #drawPublisher() {
     const publisher = this.model.get("publisher");
-    say(this.words, publisher.problem || publisher.words || "Nothing is published yet. The first message makes the publisher.");
+    say(this.words, publisher.problem || publisher.words || "Nothing is published yet. The first message creates the publisher.");
     this.words.classList.toggle("ros-failed", Boolean(publisher.problem));
     say(this.often, publisher.rate ? "Stop" : "Publish at a rate");
     setAttribute(this.withdraw, "hidden", !publisher.advertised);
@@ -178,7 +179,7 @@ class TopicView {
   #drawSubscription() {
     const { count = 0, statistics = {} } = this.model.get("subscription");
     const regular = statistics.rate ? ` at ${number(statistics.rate)} Hz, with a jitter of ${number(1000 * statistics.jitter)} ms` : "";
-    say(this.figures, count ? `${count.toLocaleString("en")} ${count === 1 ? "message" : "messages"}${regular}.` : this.live ? "Nothing heard yet." : "Nothing was heard.");
+    say(this.figures, count ? `${count.toLocaleString("en")} ${count === 1 ? "message" : "messages"}${regular}.` : this.live ? "Nothing received yet." : "Nothing was received.");
     this.figures.title = statistics.gaps ? `over the last ${statistics.gaps + 1} messages; the longest gap was ${number(1000 * statistics.longest)} ms` : "";
   }
 
@@ -203,20 +204,20 @@ class TopicView {
 
   #drawLatest() {
     const rows = this.model.get("latest");
-    // One field alone stands in the list already.
+    // The list of messages already shows all of a message with one field.
     this.latest.replaceChildren(...(rows.length > 1 ? [valueTable(rows, "")] : []));
   }
 
   #drawCurve() {
     const { points = [], count = 0, left_out: left = 0 } = JSON.parse(this.model.get("curve") || "{}");
     const last = points.at(-1)?.[0] ?? SPAN;
-    say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or not there` : "");
+    say(this.left, left ? `${left} of ${count} values are left out: NaN, infinite, or missing` : "");
     this.chart.show({ y: this.path.value, points, count, window: [Math.max(0, last - SPAN), Math.max(last, SPAN)] });
   }
 
   #drawBanner() {
     const [notice, trouble] = [this.model.get("notice"), this.model.get("trouble")];
-    const text = notice ? `The panel itself failed: ${notice}` : !this.live ? "No kernel answers: this is what the panel saw last. Run the notebook to publish and to hear." : trouble;
+    const text = notice ? `The panel itself failed: ${notice}` : !this.live ? "No kernel answers: this is the last saved state of the panel. Run the notebook to publish and to receive." : trouble;
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(notice || (this.live && trouble)));
     setAttribute(this.banner, "hidden", !text);
@@ -265,13 +266,13 @@ class TopicView {
     this.slow = setTimeout(() => say(this.waiting, "Waiting for the kernel: it is busy with another cell."), SLOW);
   }
 
-  /** The kernel has taken a click. */
+  /** The kernel has handled a click. */
   #settle() {
     clearTimeout(this.slow);
     say(this.waiting, "");
   }
 
-  /** JupyterLab keeps the browser from submitting a form by Enter. @param {KeyboardEvent} event */
+  /** JupyterLab stops the Enter key from submitting a form, so this code does it. @param {KeyboardEvent} event */
   #key(event) {
     if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement)) return;
     event.preventDefault();

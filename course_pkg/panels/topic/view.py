@@ -1,4 +1,4 @@
-"""The topic panel as a widget: a topic process while a page shows it, the model's state as traits."""
+"""The widget of the topic panel: it runs a topic process while a page shows it."""
 
 from __future__ import annotations
 
@@ -20,24 +20,25 @@ HERE = Path(__file__).parent
 
 
 class TopicPanel(Panel):
-    """Publish on a topic from a form, once or at a rate, and see what it carries.
+    """A form to publish on a topic, once or at a rate, and a view of the messages on this topic.
 
-    `kind` is the type, such as "std_msgs/Float64"; without it the panel takes the type of the first
-    publisher. While a page shows it, the panel is a node of its own. Raises UnknownType, NotATopic.
+    `kind` is the type, such as "std_msgs/Float64"; without it, the panel takes the type of the first
+    publisher. While a page shows the panel, the panel has its own node. Raises UnknownType if there is no
+    such type, and NotATopic if `topic` is not a valid name.
     """
 
     front_end: ClassVar[Path] = HERE / "topic.js"
     shared_sheets: ClassVar[tuple[Path, ...]] = (HERE.parent / "forms" / "forms.css", HERE / "chart.css")
     style_sheet: ClassVar[Path] = HERE / "topic.css"
 
-    about = Dict(help="the topic, the fields of its type, the numbers in it").tag(sync=True)
+    about = Dict(help="the topic, the fields of its type, and which of them are numbers").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
     draft = Dict(help="the message as typed: a tree of strings").tag(sync=True, echo_update=False)
-    settings = Dict(help="rate, queue, latch, and the number that is drawn").tag(sync=True, echo_update=False)
-    check = Dict(help="what is wrong, or the commands that equal the form").tag(sync=True)
-    connections = Dict(help="who is on the topic, and whose type differs").tag(sync=True)
-    publisher = Dict(help="what became of what was published").tag(sync=True)
-    subscription = Dict(help="how many messages came, and how evenly").tag(sync=True)
+    settings = Dict(help="rate, queue, latch, and the field that is drawn").tag(sync=True, echo_update=False)
+    check = Dict(help="the errors, or the commands that do the same").tag(sync=True)
+    connections = Dict(help="the nodes on the topic, and nodes with another type").tag(sync=True)
+    publisher = Dict(help="what happened to the published messages").tag(sync=True)
+    subscription = Dict(help="the number of messages, and their timing").tag(sync=True)
     messages = List(Dict(), help="the last messages, the latest first").tag(sync=True)
     latest = List(Dict(), help="the latest message, line by line").tag(sync=True)
     curve = Unicode(help="the points of the drawn number, as JSON").tag(sync=True)
@@ -60,14 +61,14 @@ class TopicPanel(Panel):
                 self._model.process_began()
 
     def hidden(self) -> None:
-        """End the node, and with it what it publishes."""
+        """End the panel's node, and with it the publisher."""
         with self.turn:
             process, self._process = self._process, None
         if process is not None:
             process.end()
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click."""
+        """Handle a click on the page."""
         if kind == "act":
             settings = Settings.of_page(content["settings"])
             self._model.act(str(content["action"]), content["draft"], settings)
@@ -81,7 +82,7 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """See who is on the topic before a page shows the panel, for a page that never has a kernel."""
+        """Find the nodes on the topic before a page shows the panel, because a saved page needs them."""
         try:
             self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:
@@ -104,7 +105,7 @@ class TopicPanel(Panel):
             if process is not self._process:
                 return
             if report.get("trouble") and process.master != master_uri():
-                self.hidden()  # the kernel has found another master since
+                self.hidden()  # the kernel has changed to another master
                 self.shown()
             else:
                 self._model.report(report)

@@ -1,1 +1,1 @@
-"""The turtle panel: turtles and their trails, from what the graph says."""
+"""The turtle panel: turtles and their trails, from the messages on the graph."""

@@ -1,7 +1,8 @@
-/* How a turtle looks. */
+/* The drawing of a turtle. */
 import { SIDE, pixel } from "./recording.js";
 
-/** A turtle seen from above. @param {CanvasRenderingContext2D} pen @param {import("./recording.js").Place} place @param {string} body
+/** Draws a turtle and its name, seen from above.
+ * @param {CanvasRenderingContext2D} pen @param {import("./recording.js").Place} place @param {string} body
  * @param {string} name @param {boolean} dark */
 export function drawTurtle(pen, place, body, name, dark) {
   const [x, y] = pixel(place.x, place.y);

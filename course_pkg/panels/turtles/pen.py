@@ -1,8 +1,8 @@
-"""What a turtle's pen does, as far as poses and the colour under the turtle show it.
+"""The state of a turtle's pen, derived from its poses and from the colour under the turtle.
 
-turtlesim publishes no pen, no `clear` and no `reset`. But its colour sensor reads the paper under the
-turtle, and a turtle that moves slowly or stands is on its own line. A fast turtle reads the paper ahead of
-its line.
+turtlesim publishes neither the pen nor calls of `clear` and `reset`. But its colour sensor reads the paper
+under the turtle. A turtle that moves slowly or stands still is on its own line. A fast turtle reads the
+paper in front of its line.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from enum import Enum
 
 Colour = tuple[int, int, int]  # red, green, blue
 
-USUAL: Colour = (179, 184, 255)  # the pen that a turtle begins with
+USUAL: Colour = (179, 184, 255)  # the colour of a pen at the start
 HOME = 5.544444561  # m, where the first turtle begins
-# Up to this speed (m/s) the line always reaches under the turtle: 0.8 px a tick, with a pen of 3 px.
+# Up to this speed (m/s), the line always reaches under the turtle: 0.8 px per tick, with a pen of 3 px.
 SLOW = 1.1
-BRISK = 3.0  # m/s; up to this speed it often does
-STILL = 1e-4  # m between two observations
-SETTLED = 2  # observations at rest, or moving, after which the line is under the turtle
+BRISK = 3.0  # m/s; up to this speed, the line often reaches under the turtle
+STILL = 1e-4  # m; a turtle that moves less between two observations is at rest
+SETTLED = 2  # successive observations, at rest or moving, until the line is under the turtle
 
 
 @dataclass(frozen=True)
@@ -33,31 +33,31 @@ class Observation:
 
 
 class Finding(Enum):
-    """What an observation shows beyond the movement."""
+    """What an observation shows in addition to the movement."""
 
     NOTHING = "nothing"
-    UNDRAWN = "undrawn"  # the pen was up since the observation before
-    CLEARED = "cleared"  # the paper is new
-    RESET = "reset"  # the paper and the turtles are new
+    UNDRAWN = "undrawn"  # the pen was up since the previous observation
+    CLEARED = "cleared"  # the paper is empty again
+    RESET = "reset"  # the paper is empty, and the turtles are as they were at the start
 
 
 @dataclass
 class Pen:
-    """The pen of one turtle: `colour` while it is down, None while it is up.
+    """The pen of one turtle: `colour` is its colour while it is down, and None while it is up.
 
-    `sure` is whether the last observation showed what the pen does.
+    `sure` says whether the last observation showed the state of the pen.
     """
 
     background: Colour
     colour: Colour | None = USUAL
     sure: bool = False
-    _moved: bool = False  # since the paper or the pen was new
+    _moved: bool = False  # whether it moved since the paper or the pen was new
     _still: int = 0  # observations at rest in a row
     _going: int = 0  # moving observations in a row
     _last: Observation | None = None
 
     def observe(self, seen: Observation) -> Finding:
-        """Take in an observation, and return what it shows."""
+        """Store an observation, and return what it shows."""
         last, self._last = self._last, seen
         self.sure = False
         if last is None:
@@ -76,7 +76,7 @@ class Pen:
         return self._read(last, seen, moving)
 
     def _read(self, last: Observation, seen: Observation, moving: bool) -> Finding:
-        """Find out what the pen does from a colour that two observations in a row show."""
+        """Derive the state of the pen from a colour that two successive observations show."""
         plain = seen.colour == self.background
         near = not moving or seen.speed <= (SLOW if plain else BRISK)
         settled = max(self._still, self._going) >= SETTLED

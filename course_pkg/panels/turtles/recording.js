@@ -1,15 +1,15 @@
-/* What happened to the turtles up to a time: where they are then, and the paper with their trails. */
+/* The turtles at a time of a recording: their places, and the paper with their trails. */
 
 /** @typedef {any[]} Row
  * @typedef {{background: number[], names: string[], palette: number[][], rows: Row[], length: number, edition: number}} Recording
  * @typedef {{x: number, y: number, theta: number}} Place */
 
 export const SIDE = 500; // px of the simulator's own paper
-export const DELAY = 150; // ms that the picture lags behind, so that there is always a next place to go to
+export const DELAY = 150; // ms by which the picture is late, so that the next place of each turtle is already known
 const WORLD = 11088.889; // mm
-const PEN = 3; // px: nobody announces a width, and this is the usual one
+const PEN = 3; // px; no topic tells the width of a pen, and this is the default
 
-/** What the rows come to at a time: where each turtle is, and what is on the paper. */
+/** Plays the rows up to a time. It knows the place of each turtle and draws the lines on the paper. */
 export class Player {
   /** @param {CanvasRenderingContext2D} paper */
   constructor(paper) {
@@ -24,14 +24,14 @@ export class Player {
   }
 
   rewind() {
-    this.done = 0; // rows that have happened
+    this.done = 0; // the number of played rows
     this.time = 0;
     /** @type {Map<number, Row>} */
     this.here = new Map();
     this.#wipe();
   }
 
-  /** Go to a time, drawing on the way. @param {number} time */
+  /** Goes to a time, and draws the lines up to it. @param {number} time */
   goTo(time) {
     if (time < this.time) this.rewind();
     const rows = this.recording.rows;
@@ -42,7 +42,7 @@ export class Player {
     this.time = time;
   }
 
-  /** Where the turtles are between two rows. @returns {[number, Place][]} */
+  /** Returns the places of the turtles, also between two rows. @returns {[number, Place][]} */
   places() {
     return [...this.here].map(([turtle, row]) => [turtle, between(row, this.#next(turtle), this.time)]);
   }
@@ -73,7 +73,7 @@ export class Player {
     this.paper.fillRect(0, 0, SIDE, SIDE);
   }
 
-  /** The pen was up after all: take the colour out of the rows and draw all of it again.
+  /** Removes the colour from rows during which the pen was up, and draws everything again.
    * @param {number} turtle @param {number} since @param {number} until */
   #undraw(turtle, since, until) {
     let changed = false;
@@ -111,7 +111,7 @@ function colour(rgb) {
   return `rgb(${rgb.join(" ")})`;
 }
 
-/** Where a turtle is on its way from one row to the next. @param {Row} row @param {Row | null} next @param {number} time
+/** Returns the place of a turtle between two rows. @param {Row} row @param {Row | null} next @param {number} time
  * @returns {Place} */
 function between(row, next, time) {
   const part = next && next[0] > row[0] ? Math.min(Math.max((time - row[0]) / (next[0] - row[0]), 0), 1) : 0;

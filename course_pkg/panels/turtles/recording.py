@@ -1,12 +1,12 @@
-"""What turtles did, as rows that a page can draw and replay. It needs neither ROS nor Jupyter.
+"""A recording of turtles, as rows that a page can draw and replay. It needs neither ROS nor Jupyter.
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
-    (ms, turtle, x, y, theta, colour)  it is there: mm, mm, mrad; the colour (its index in `palette`)
-                                       of the line from its row before, or -1 if nothing was drawn
-    (ms, turtle, "gone")               it has left
-    (ms, turtle, "undrawn", since)     the line since that time was not drawn after all: its pen was up
-    (ms, -1, "cleared")                the paper is new
+    (ms, turtle, x, y, theta, colour)  the turtle is at this place: mm, mm, mrad; `colour` is the index in
+                                       `palette` for the line from its previous row, or -1 for no line
+    (ms, turtle, "gone")               the turtle has left
+    (ms, turtle, "undrawn", since)     there is no line since that time, because the pen was up
+    (ms, -1, "cleared")                the paper is empty again
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # rows; 150 kB when saved
-STEP = (5, 5, 10)  # mm, mm, mrad: a smaller movement makes no row
+STEP = (5, 5, 10)  # mm, mm, mrad: a smaller movement adds no row
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -39,20 +39,20 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its last place if that made no row."""
+    """One turtle: its pen, its last row, and its last place if no row was added for this place."""
 
     number: int
     pen: Pen
     last: Place
     skipped: Place | None = None
-    known: int = 0  # ms: the last time at which it was sure what the pen does
+    known: int = 0  # ms: the last time at which the state of the pen was certain
 
 
 @dataclass
 class TurtleRecording:
-    """Rows in order of time, at most MOST; with more, every second place of a turtle is left out.
+    """Rows in order of time, at most MOST. If there are more, every second place of each turtle is left out.
 
-    `edition` counts up when earlier rows change.
+    `edition` increases when earlier rows change.
     """
 
     background: Colour = BACKGROUND
@@ -64,7 +64,7 @@ class TurtleRecording:
     _tracks: dict[str, _Track] = field(default_factory=dict)
 
     def see(self, ms: int, name: str, seen: Observation) -> None:
-        """Record where a turtle is."""
+        """Record the place of a turtle."""
         self.length = max(self.length, ms)
         track = self._tracks.get(name)
         if track is None:
@@ -82,7 +82,7 @@ class TurtleRecording:
             track.skipped = row
             return
         if track.skipped is not None:
-            self._add((*track.skipped[:5], UP))  # it did not move until then
+            self._add((*track.skipped[:5], UP))  # the turtle did not move before this place
         track.last, track.skipped = row, None
         self._add(row)
 

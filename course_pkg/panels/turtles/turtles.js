@@ -1,11 +1,11 @@
-/* The turtle panel: paper with trails, turtles on top of it, and a recording that can be played again. */
+/* The turtle panel: the paper with the trails, the turtles on it, and a recording that can be played. */
 import { h, kernelLink, say, send, setAttribute } from "../kit.js";
 import { Replay, watch } from "../replay.js";
 import { drawTurtle } from "./body.js";
 import { DELAY, Player, SIDE } from "./recording.js";
 
 const TABLE = 250; // ms between updates of the table
-const KEPT = 5000; // ms between states kept for a saved notebook
+const KEPT = 5000; // ms between two states that are saved with the notebook
 const BODIES = ["#2f7d32", "#b3541e", "#6a3d9a", "#00695c", "#a01c5d", "#5d4a00", "#37474f", "#8e1b1b"];
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -56,7 +56,7 @@ class TurtleView {
       this.replay.el);
   }
 
-  /** Draw only what can be seen. @param {AbortSignal} signal */
+  /** Stops drawing while the panel cannot be seen. @param {AbortSignal} signal */
   #watch(signal) {
     watch(this.canvas, signal, (visible) => this.#see(visible));
     signal.addEventListener("abort", () => {
@@ -99,7 +99,7 @@ class TurtleView {
     this.lag = Math.abs(lag - this.lag) > 1000 ? lag : Math.max(lag, this.lag - 1);
     if (performance.now() - this.kept > KEPT) {
       this.kept = performance.now();
-      this.model.set("recorded", copy(this.player.recording)); // only here: this is what a saved notebook keeps
+      this.model.set("recorded", copy(this.player.recording)); // not sent to the kernel: JupyterLab saves this value with the notebook
     }
   }
 
@@ -125,14 +125,14 @@ class TurtleView {
     this.#run();
   }
 
-  /** Show a moment of what was. @param {number} time */
+  /** Shows a moment of the recording. @param {number} time */
   #show(time) {
     this.following = false;
     this.player.goTo(time);
     this.#draw();
   }
 
-  /** Keep drawing as long as something can move. */
+  /** Draws repeatedly as long as something can move. */
   #run() {
     if (this.frame || !this.visible) return;
     this.frame = requestAnimationFrame((now) => this.#step(now));
@@ -179,7 +179,7 @@ class TurtleView {
     const words = sorted.map(([turtle, place]) => `${names[turtle]} at ${(place.x / 1000).toFixed(1)}, ${(place.y / 1000).toFixed(1)}`);
     setAttribute(this.canvas, "aria-label", words.length ? `The turtles' world: ${words.join("; ")}` : "The turtles' world, empty");
     say(this.empty, words.length ? "x and y in metres from the lower left, θ in radians" : this.live
-      ? "No turtle is on the graph. Start turtlesim_node; they appear here by themselves." : "No turtle was recorded.");
+      ? "No turtle is on the graph. Start turtlesim_node; its turtles appear here." : "No turtle was recorded.");
     this.#drawRecording();
     this.el.dataset.frames = String(this.frames);
   }
@@ -193,14 +193,14 @@ class TurtleView {
 
   #drawBanner() {
     const notice = this.model.get("notice");
-    const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : "No kernel answers: this is a recording. Play it, or drag the handle.";
+    const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : "No kernel answers: this is a recording. Play it, or move the slider.";
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", Boolean(notice));
     setAttribute(this.banner, "hidden", !text);
     this.#drawRecording();
   }
 
-  /** Whether dark letters read better on this paper. */
+  /** Returns whether dark letters are easier to read on this paper. */
   #darkText() {
     const [red, green, blue] = this.player.recording.background;
     return 0.299 * red + 0.587 * green + 0.114 * blue > 140;

@@ -1,4 +1,4 @@
-"""The turtle panel as a widget."""
+"""The widget of the turtle panel."""
 
 from __future__ import annotations
 
@@ -24,23 +24,24 @@ HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
 SEND = 0.1  # s between messages to the page
-KEEP = 5.0  # s between states that are kept while no page shows the panel
-ALONE = 300.0  # s after which a panel that no page shows stops recording
+KEEP = 5.0  # s between two saved states while no page shows the panel
+ALONE = 300.0  # s; if no page shows the panel for this time, it stops recording
 
 
 class Page(Enum):
     """Whether a page shows the panel."""
 
     NONE = "none"
-    PAUSED = "paused"  # a page has it, scrolled out of view
+    PAUSED = "paused"  # a page has the panel, but scrolled out of view
     OPEN = "open"
 
 
 class TurtlePanel(Panel):
-    """Every turtle of the graph with its trail, as it moves, of this course's simulator or the real one.
+    """All turtles of the graph with their trails, from this course's simulator or from the real one.
 
-    It subscribes to poses and colours only, and concludes from them what pens, `clear` and `reset` do. It
-    records from the start, even if no page shows it, and the recording can be played again.
+    The panel subscribes only to poses and colours. It derives from them the states of the pens, and calls of
+    `clear` and `reset`. It records from the start, even if no page shows it, and a page can play the
+    recording.
     """
 
     front_end: ClassVar[Path] = HERE / "turtles.js"
@@ -55,24 +56,24 @@ class TurtlePanel(Panel):
         self._colours: dict[str, Colour] = {}
         self._lock = threading.Lock()
         self._page = Page.NONE
-        self._sent = self._edition = 0  # the rows that the page has, and of which edition
+        self._sent = self._edition = 0  # the number of rows that the page has, and their edition
         self._last_sent = self._last_kept = self._left = self._began
         self._reader = BulkReader(TYPES, self._received, self._missing, self._polled)
         self.publish(recorded=self._recording.state())
         self._reader.start()
 
     def shown(self) -> None:
-        """Send the page the whole recording, and then what is new."""
+        """Send the whole recording to the page, and then each new row."""
         self._reader.start()
         self._send_all()
 
     def hidden(self) -> None:
-        """Keep the recording; it goes on for a while without a page."""
+        """Save the recording, which continues for ALONE s without a page."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 
     def received(self, kind: str, content: PageMessage) -> None:  # noqa: ARG002
-        """Answer a page that misses rows, or on which the panel is out of view for a while."""
+        """Handle a message of the page: it misses rows, or the panel is out of view."""
         if kind == "resend":
             self._send_all()
         elif kind == "pause":
@@ -149,7 +150,7 @@ class TurtlePanel(Panel):
 
 
 def _background() -> Colour:
-    """Return the colour of new paper: that of the simulator's parameters, or the usual one."""
+    """Return the colour of empty paper: from the simulator's parameters, or the default colour."""
     try:
         own = MasterClient(master_uri(), 0.5).get_param("/turtlesim", {})
     except GraphError:

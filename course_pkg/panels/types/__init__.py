@@ -1,1 +1,1 @@
-"""The type browser: service and message types, what they are made of, and who offers them."""
+"""The type browser: service and message types, their fields, and the services and topics that have them."""

@@ -1,4 +1,4 @@
-/* All types, by package, and a search over them. One types, arrows choose, Enter opens; or one clicks. */
+/* A list of all types by package, with a search field. The arrow keys choose a type; Enter or a click opens it. */
 import { freshId, h, say, setAttribute } from "../kit.js";
 
 /** @typedef {{name: string, srv: string[], msg: string[]}} Package */
@@ -7,7 +7,7 @@ import { freshId, h, say, setAttribute } from "../kit.js";
 const WORDS = { srv: ["service type", "service types"], msg: ["message type", "message types"] };
 
 export class TypeList {
-  /** @param {(type: Type) => void} picked hears which type is to be opened */
+  /** @param {(type: Type) => void} picked is called with the type to open */
   constructor(picked) {
     this.picked = picked;
     /** @type {Package[]} */
@@ -36,7 +36,7 @@ export class TypeList {
       h("div", { class: "ros-kinds", role: "group", "aria-label": "Which types" }, this.kinds.srv.el, this.kinds.msg.el), this.count, this.list);
   }
 
-  /** Show the types that are searched for. */
+  /** Shows the types that match the search. */
   draw() {
     const before = this.options[this.active]?.type;
     const words = this.search.value.trim().toLowerCase().split(/\s+/);

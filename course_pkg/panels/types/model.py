@@ -1,4 +1,4 @@
-"""The state of a type browser, without page, kernel or ROS: which types there are, and which one is open."""
+"""The state of a type browser, without a page or ROS: the types on this machine, and the open type."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]  # service types, message types
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
-    "The file has changed since the type was built: what is shown is what programs here still use. Build it "
-    "again with catkin_make, and restart the kernel."
+    "The file has changed since the type was built. The panel shows the built type, which programs here "
+    "still use. Build it again with catkin_make, and restart the kernel."
 )
 UNBUILT = (
-    "Not built yet: ROS's tools show it from its file, but the import works only after catkin_make, in a "
-    "terminal or kernel that has sourced the workspace."
+    "This type is not built yet. ROS's tools show it from its file, but Python can import it only after "
+    "catkin_make, in a terminal or kernel that has sourced the workspace."
 )
-NO_FILE = "No file of it is on ROS_PACKAGE_PATH: it is known only as it was built."
+NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH, so the panel shows the built type."
 
 
 class FieldNode(TypedDict):
-    """A field; for a message, a time, or an array of these, `fields` are the fields inside it."""
+    """A field; `fields` are the fields inside a message, inside a time, or inside an array of these."""
 
     name: str
     type: str
@@ -59,7 +59,7 @@ class Part(TypedDict):
 
 
 class TypeState(TypedDict):
-    """A type for the page; `problem` says why it cannot be read, `warning` what to consider.
+    """A type for the page; `problem` says why it cannot be read, and `warning` what the reader should know.
 
     A type that cannot be read still has its file and its text. `lines` are commands to copy.
     """
@@ -84,7 +84,7 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-Use = dict[str, str | list[str]]  # a service or topic: its name, and its nodes by what they do
+Use = dict[str, str | list[str]]  # a service or topic: its name, and its nodes by their role
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
 
@@ -94,7 +94,7 @@ def catalogue() -> Catalogue:
 
 
 def described(name: str, half: DefinitionKind) -> TypeState:
-    """Return what the page shows of a type."""
+    """Return the state of a type for the page."""
     file = _file(name, half)
     state: TypeState = {
         "name": name,
@@ -125,7 +125,7 @@ def described(name: str, half: DefinitionKind) -> TypeState:
 
 
 def lines(name: str, half: DefinitionKind) -> list[dict[str, str]]:
-    """Return the lines to copy: for a terminal, and for Python."""
+    """Return the lines to copy, for a terminal and for Python."""
     package, _, short = name.partition("/")
     tool = TOOLS[half]
     return [
@@ -147,7 +147,7 @@ def packages(known: Catalogue) -> list[PackageTypes]:
 
 
 def offers(snapshot: Snapshot) -> Offers:
-    """Return what has which type now: for a service type its services, for a message type its topics."""
+    """Return the services of each service type, and the topics of each message type."""
     services: dict[str, list[Use]] = defaultdict(list)
     topics: dict[str, list[Use]] = defaultdict(list)
     for service in snapshot.services:
@@ -161,10 +161,10 @@ def offers(snapshot: Snapshot) -> Offers:
 
 
 class TypeModel:
-    """Lists types, shows one, and says which nodes use it now.
+    """Lists types, shows one of them, and lists the services or topics that have this type now.
 
-    `changed` gets by keyword `packages` (the types of each package), `described` (the open type), and
-    `offers` (what has which type on the graph now).
+    `changed` is called with keyword arguments: `packages` (the types of each package), `described` (the open
+    type), and `offers` (the services and topics of each type on the graph).
     """
 
     def __init__(
@@ -182,7 +182,7 @@ class TypeModel:
         self._described: TypeState | None = None
 
     def update(self, known: Catalogue) -> None:
-        """Take in which types there are now; read the open one again, because its file may have changed."""
+        """Store the present types, and read the open type again, because its file may have changed."""
         with self._turn:
             if known != self._known:
                 self._known = known
@@ -190,18 +190,18 @@ class TypeModel:
             self._show()
 
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
-        """Show a type; without `half` the service type of this name, or else the message type."""
+        """Show a type. Without `half`, a service type has priority over a message type of the same name."""
         with self._turn:
             self._open = (name, half or self._half(name))
             self._show()
 
     @property
     def file(self) -> str:
-        """The file of the open type, "" if it has none or no type is open."""
+        """The path of the open type's file, or "" if it has no file or if no type is open."""
         return self._described["file"] if self._described else ""
 
     def see(self, snapshot: Snapshot) -> None:
-        """Take in who is on the graph now."""
+        """Report the services and topics of each type in a snapshot of the graph."""
         with self._turn:
             self._changed(offers=offers(snapshot))
 
@@ -222,7 +222,7 @@ def _file(name: str, half: DefinitionKind) -> Path | None:
     try:
         return definition_file(name, half)
     except InterfaceError:
-        return None  # not the name of a type at all
+        return None  # the name is not a valid name of a type
 
 
 def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path | None) -> str:
@@ -233,7 +233,7 @@ def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path 
     try:
         return CHANGED if type_in_file(found.name, half).md5 != found.md5 else ""
     except InterfaceError as error:
-        return f"{CHANGED} As it is now, it cannot be built: {error}"
+        return f"{CHANGED} The changed file cannot be built: {error}"
 
 
 def _part(title: str, message: MessageType) -> Part:

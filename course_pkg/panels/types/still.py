@@ -1,4 +1,4 @@
-"""The type browser as a still picture: the fields of the open type, and what has this type now."""
+"""The still picture of the type browser: the fields of the open type, and its services or topics."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from course_pkg.panels.paper import (
 
 HALVES = {"srv": "service type", "msg": "message type"}
 INDENT = 16.0  # px
-MOST = 40  # fields of a part
+MOST = 40  # fields that are shown of a part
 
 
 def still(state: State) -> str:
-    """Return what the browser shows of the open type, without the list of all types and without its file."""
+    """Return the picture of the open type, without the list of all types and without the path of its file."""
     described = state.get("described") or {}
     if not described.get("name"):
         count = sum(len(each["srv"]) + len(each["msg"]) for each in state.get("packages", ()))

@@ -1,4 +1,4 @@
-/* The type browser: all types on one side, the open one on the other. */
+/* The type browser: the list of all types, and the open type. */
 import { command } from "../forms/parts.js";
 import { h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { TypeList } from "./list.js";
@@ -64,8 +64,8 @@ class TypeView {
   #drawType() {
     /** @type {Described} */
     const type = this.model.get("described");
-    if (!type.name) return this.about.replaceChildren(h("p", { class: "ros-muted ros-nothing", text: "Pick a type from the list to see what it is made of." }));
-    if (this.name !== type.name) this.unfolded = new Set(type.problem ? ["text"] : []); // what is wrong is in the text
+    if (!type.name) return this.about.replaceChildren(h("p", { class: "ros-muted ros-nothing", text: "Pick a type from the list to see its fields." }));
+    if (this.name !== type.name) this.unfolded = new Set(type.problem ? ["text"] : []); // the error is in the text
     this.name = type.name;
     const what = type.half === "srv" ? "service type" : "message type";
     const parts = [h("div", { class: "ros-what" }, h("h3", {}, h("code", { text: type.name })), " ", h("span", { class: "ros-muted", text: what })),
@@ -104,7 +104,8 @@ class TypeView {
     }));
   }
 
-  /** Something to unfold, which stays so when the type is read again. @param {string} path @param {(Node | string)[]} title
+  /** Returns a section to unfold. It stays unfolded when the type is read again. @param {string} path @param {(Node |
+   * string)[]} title
    * @param {...(HTMLElement | null)} inside */
   #fold(path, title, ...inside) {
     const fold = /** @type {HTMLDetailsElement} */ (h("details", { open: this.unfolded.has(path) }, h("summary", {}, ...title), ...inside));
@@ -130,7 +131,7 @@ class TypeView {
     const rows = offered[type.half][type.name] ?? [];
     const what = type.half === "srv" ? "service" : "topic";
     const title = this.live ? "On the graph now" : "On the graph when this was saved";
-    const none = this.model.get("trouble") && this.live ? "The graph cannot be seen." : `No ${what} of this type.`;
+    const none = this.model.get("trouble") && this.live ? "The graph cannot be read." : `No ${what} of this type.`;
     const parts = [h("h4", { text: title }), rows.length ? h("ul", { class: "ros-tree" }, ...rows.map(offer)) : h("p", { class: "ros-muted", text: none })];
     if (!same(parts.map((part) => part.textContent), this.told) || !this.offers.firstChild) this.offers.replaceChildren(...parts);
     this.told = parts.map((part) => part.textContent);
@@ -144,7 +145,8 @@ function offer(row) {
     h("code", { text: nodes.join(", ") || "nobody" })))));
 }
 
-/** Words with blanks between them, for who hears or copies them. @param {...(Node | null)} words @returns {(Node | string)[]} */
+/** Puts blanks between words, for screen readers and for copied text. @param {...(Node | null)} words @returns {(Node |
+ * string)[]} */
 function apart(...words) {
   return words.flatMap((word) => (word ? [word, " "] : []));
 }

@@ -1,4 +1,4 @@
-"""The type browser as a widget."""
+"""The widget of the type browser."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from course_pkg.panels.types.model import Catalogue, TypeModel, catalogue
 from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
-PAUSE = 3.0  # s between two looks at the files
-SHARE = 50  # listing a thousand packages takes long, so it may take a 50th of the time and no more
+PAUSE = 3.0  # s between two checks of the files
+SHARE = 50  # a list of a thousand packages takes long, so it may use at most a 50th of the time
 
-Files = tuple[Catalogue, int]  # the types, and the time at which the file of the open one was written (ns)
+Files = tuple[Catalogue, int]  # the types, and the time (ns) at which the file of the open type was written
 
 
 class TypeBrowser(Panel):
-    """All service and message types of this machine: what they are made of, and who offers them now.
+    """All service and message types of this machine, with their fields and their services or topics.
 
-    `name` is the type to begin with, such as "std_srvs/SetBool". While a page shows it, the browser follows
-    the files and the graph.
+    `name` is the type that is open at first, such as "std_srvs/SetBool". While a page shows it, the browser
+    follows the files and the graph.
     """
 
     front_end: ClassVar[Path] = HERE / "types.js"
@@ -33,7 +33,7 @@ class TypeBrowser(Panel):
 
     packages = List(Dict(), help="the packages with their types").tag(sync=True)
     described = Dict(help="the type that is open").tag(sync=True)
-    offers = Dict(help="what has which type on the graph now").tag(sync=True)
+    offers = Dict(help="the services and topics of each type on the graph now").tag(sync=True)
     trouble = Unicode(help="why the graph cannot be read").tag(sync=True)
 
     def __init__(self, name: str | None = None) -> None:
@@ -51,17 +51,17 @@ class TypeBrowser(Panel):
             self._graph.once()
 
     def shown(self) -> None:
-        """Follow the files and the graph."""
+        """Start to follow the files and the graph."""
         self._files.start()
         self._graph.start()
 
     def hidden(self) -> None:
-        """Stop following both."""
+        """Stop following the files and the graph."""
         self._files.stop()
         self._graph.stop()
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Answer a click on a type."""
+        """Handle a click on a type."""
         if kind == "open":
             self._model.open(str(content["name"]), "msg" if content["half"] == "msg" else "srv")
 
@@ -69,7 +69,7 @@ class TypeBrowser(Panel):
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
     def _list(self) -> Files:
-        """Return which types there are, and when the file of the open one was written."""
+        """Return all types, and the time at which the file of the open type was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()

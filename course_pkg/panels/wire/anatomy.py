@@ -1,7 +1,8 @@
-"""The bytes of TCPROS taken apart: the frames of a stream, and the pieces of a header, a request and a reply.
+"""Finds the parts of TCPROS bytes: the frames of a stream, and the pieces of a header, a request and a reply.
 
-http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte), http://wiki.ros.org/ROS/Connection%20Header (the
-fields), http://wiki.ros.org/msg (how the fields of a message lie in memory). All numbers are little-endian.
+Sources: http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte),
+http://wiki.ros.org/ROS/Connection%20Header (the fields), and http://wiki.ros.org/msg (the order of a
+message's fields). All numbers are little-endian.
 """
 
 from __future__ import annotations
@@ -28,16 +29,16 @@ from course_pkg.types import Field, Kind, MessageType
 from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
-ERROR = 400  # characters of an error message
+ERROR = 400  # characters that are shown of an error message
 ITEMS = 8  # elements of an array that are shown one by one
-CODES = {1: "b", 2: "h", 4: "i", 8: "q"}  # of struct, for signed integers; in capitals for unsigned ones
+CODES = {1: "b", 2: "h", 4: "i", 8: "q"}  # codes of struct for signed integers; unsigned: capital letters
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 
 Pieces = list[PieceState]
 
 
 class Frame(NamedTuple):
-    """One message; `at` is its offset in the stream. One that was cut off ends where the bytes end."""
+    """One message; `at` is its offset in the stream. A message that was cut off ends with the stream."""
 
     at: int
     data: bytes
@@ -49,18 +50,18 @@ def the_header(stream: bytes) -> Frame | None:
 
 
 def header_values(stream: bytes) -> dict[str, str]:
-    """Return the fields of the connection header."""
+    """Return the fields of the connection header, or {} if the stream is empty."""
     header = the_header(stream)
     return header_fields(header.data) if header else {}
 
 
 def requests(stream: bytes) -> Iterator[Frame]:
-    """Yield what a client sent after its header."""
+    """Yield the requests that a client sent after its header."""
     yield from _frames(stream, 0)
 
 
 def replies(stream: bytes) -> Iterator[Frame]:
-    """Yield what a server sent after its header, each reply with its ok byte."""
+    """Yield the replies that a server sent after its header, each with its ok byte."""
     yield from _frames(stream, 1)
 
 
@@ -83,19 +84,19 @@ def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
 
 
 def header_pieces(data: bytes) -> Pieces:
-    """Take a connection header apart: its length, and for each field a length and name=value."""
+    """Return the pieces of a connection header: its length, and for each field a length and name=value."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the whole header")
         while reader.rest:
             _header_field(reader)
     except ShortOfBytes:
-        pass  # close() shows the rest
+        pass  # close() adds the bytes that are left
     return reader.close()
 
 
 def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Take a request apart: its length, and its fields."""
+    """Return the pieces of a request: its length, and its fields."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the request")
@@ -106,11 +107,11 @@ def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
 
 
 def reply_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Take a reply apart: the ok byte, a length, and the response's fields or the error message."""
+    """Return the pieces of a reply: the ok byte, a length, and the response's fields or the error message."""
     reader = Reader(data)
     try:
         worked = data[:1] == b"\1"
-        words = "1: the call worked" if worked else "0: it failed, and words follow"
+        words = "1: the call worked" if worked else "0: the call failed, and the reason follows"
         reader.take(1, OK if worked else BAD, "ok", "uint8", words)
         count = reader.number(LENGTH, "length of the response" if worked else "length of the error")
         if worked:
@@ -187,19 +188,19 @@ def _array(reader: Reader, field: Field, name: str) -> None:
 
 
 def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
-    """Read elements that are not shown; of numbers all at once, as an image has millions."""
+    """Read elements that are not shown. Numbers are read all at once, because an image has millions."""
     if item.fields or not item.kind.is_scalar or item.kind is Kind.STRING:
         for _ in range(count):
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                return  # elements without fields take no bytes, however many there are said to be
+                return  # elements without fields take no bytes, so a wrong count could be very large
     else:
         reader.take(count * _format(item)[1], RAW, name)
 
 
 def _format(field: Field) -> tuple[str, int]:
-    """Return how struct reads a number, and its size in bytes."""
+    """Return the format of a number for `struct`, and its size in bytes."""
     if field.kind is Kind.BOOL:
         return "<B", 1
     if field.type in FLOATS:

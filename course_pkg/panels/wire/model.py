@@ -1,6 +1,6 @@
-"""What the wire view shows, as plain data: the steps of a call, each with the pieces of its bytes.
+"""The data of the wire view: the steps of a call, and for each step the pieces of its bytes.
 
-It needs no master and no page: its input is what ros/wire/capture.py recorded.
+It needs no master and no page: its input is a recording from ros/wire/capture.py.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from course_pkg.ros.wire.capture import Wire
     from course_pkg.ros.wire.relay import RelayedConnection
 
-STEPS = 60  # of a capture of many calls
-XML = 900  # characters of a request to the master, or of its response
+STEPS = 60  # steps that are shown of a long recording
+XML = 900  # characters that are shown of a request to the master, or of its response
 
 FindType = Callable[[str], ServiceType]
 
@@ -37,10 +37,10 @@ _Ends = TypedDict("_Ends", {"from": str, "to": str})
 
 
 class Step(_Ends):
-    """A step of a call, `ms` after the first; `says` explains it, `bad` marks an error.
+    """A step of a call, `ms` after the first step; `says` explains it, and `bad` marks an error.
 
-    `pieces` are those of its `size` bytes; the look-up has a `text` instead. `connection` is 0 if there is
-    only one.
+    `pieces` are the pieces of its `size` bytes; a look-up has a `text` instead. `connection` is the number of
+    the connection, or 0 if there is only one.
     """
 
     title: str
@@ -54,7 +54,7 @@ class Step(_Ends):
 
 
 class WireState(TypedDict):
-    """A captured call for the page, with the names of client, server and master; `outcome` is its error."""
+    """A captured call for the page: `names` are those of client, server and master, `outcome` its error."""
 
     service: str
     names: dict[str, str]
@@ -64,9 +64,9 @@ class WireState(TypedDict):
 
 
 def state(wire: Wire, find: FindType = service_type) -> WireState:
-    """Return what the page needs of a capture.
+    """Return the data of a recording for the page.
 
-    `find` returns the type of a name, for connections whose type only their headers tell.
+    `find` returns the type with a name. It is needed if only the connection headers tell the type.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))
@@ -87,7 +87,7 @@ def _all(wire: Wire) -> list[RelayedConnection]:
 
 
 def _names(wire: Wire) -> dict[str, str]:
-    """Return the names of both ends, as their first connection headers have them."""
+    """Return the names of the client and the server, from the first connection headers."""
     names = {"client": "the client", "server": "the server", "master": "master"}
     for connection in reversed(wire.connections):
         for end, by_client in (("client", True), ("server", False)):
@@ -98,11 +98,11 @@ def _names(wire: Wire) -> dict[str, str]:
 
 def _notes(wire: Wire, steps: int) -> Iterator[str]:
     if steps > STEPS:
-        yield f"Shown are the first {STEPS} of {steps} steps."
+        yield f"Only the first {STEPS} of {steps} steps are shown."
     if wire.skipped:
-        yield f"{wire.skipped} more connections were passed on and not taken down."
+        yield f"{wire.skipped} more connections were forwarded but not recorded."
     if lost := sum(each.lost for each in _all(wire)):
-        yield f"{lost:,} bytes more were passed on and not taken down."
+        yield f"{lost:,} more bytes were forwarded but not recorded."
 
 
 def _step(
@@ -149,12 +149,12 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
     )
     there = bool(wire.uri)
     yield _step(
-        f"It is at {wire.uri}" if there else "Nobody serves it",
+        f"It is at {wire.uri}" if there else "No node provides it",
         "master",
         "client",
         offset + connection.since(0, from_client=False),
         says=(
-            "The address of the server, and nothing else: from here on the master has no part in the call."
+            "The response has only the address of the server. The master has no part in the next steps."
             if there
             else "The code -1 says that the look-up failed. There is no address, so nothing more is sent."
         ),
@@ -165,13 +165,13 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
 
 
 def _xml(http: bytes) -> str:
-    """Return the body of an exchange by HTTP, a line for each value."""
+    """Return the body of an HTTP message, with one line for each value."""
     body = http.partition(b"\r\n\r\n")[2].decode("utf-8", "replace")
     return shortened(re.sub(r"\s*\n\s*", "", body).replace("><", ">\n<"), XML)
 
 
 class _ConnectionSteps:
-    """One connection, as steps."""
+    """The steps of one connection."""
 
     def __init__(
         self, connection: RelayedConnection, number: int, wire: Wire, start: float, find: FindType
@@ -186,7 +186,7 @@ class _ConnectionSteps:
         self._asked, self._answered = header_values(self._sent), header_values(self._came)
 
     def steps(self) -> list[Step]:
-        """Return all of them, in order."""
+        """Return all steps of the connection, in order."""
         return [*self._opening(), *self._headers(), *self._calls(), *self._ending()]
 
     def _at(
@@ -207,11 +207,11 @@ class _ConnectionSteps:
     def _opening(self) -> Iterator[Step]:
         where = self._wire.uri.rpartition("/")[2] or "the server"
         refused = self._connection.refused
-        title = f"Nobody takes the connection at {where}" if refused else f"Connects to {where}"
+        title = f"No process accepts the connection at {where}" if refused else f"Connects to {where}"
         says = (
-            f"{refused}. Somebody was there once, and the master still has the address."
+            f"{refused}. A server had this address earlier, and the master still has it."
             if refused
-            else "A TCP connection, straight to the server. It carries no byte yet that a program wrote."
+            else "A TCP connection, directly to the server. No program has sent a byte yet."
         )
         yield _step(
             title, "client", "server", self._offset, says=says, bad=bool(refused), connection=self._number
@@ -220,25 +220,25 @@ class _ConnectionSteps:
     def _headers(self) -> Iterator[Step]:
         if sent := the_header(self._sent):
             probe = self._asked.get("probe") == "1"
-            title = "Connection header of the client" + (", which only asks" if probe else "")
+            title = "Connection header of the client" + (", which only probes" if probe else "")
             yield self._framed(title, True, sent, header_pieces(sent.data), says=self._greeting(probe))
         if came := the_header(self._came):
             refused = "error" in self._answered
             title = "The server refuses the connection" if refused else "Connection header of the server"
             says = (
-                "A header with one field, error: the reason as text. Then the server closes the "
+                "The header has one field, error, with the reason as text. Then the server closes the "
                 "connection, and the client sends no request."
                 if refused
-                else "Who answers, and of which type the service is. The MD5 is the same: a request may come."
+                else "The node and the type of the service. The MD5 is the same, so a request can follow."
             )
             yield self._framed(title, False, came, header_pieces(came.data), says=says, bad=refused)
 
     def _greeting(self, probe: bool) -> str:
         if probe:
-            return "probe=1: no request will follow. So wait_for_service asks whether somebody is there."
+            return "probe=1 means that no request follows. wait_for_service uses it to find a server."
         return (
-            f"{len(self._asked)} fields in any order, each with its length in front. The MD5 says which "
-            "definition the client was built with."
+            f"{len(self._asked)} fields in any order, each with its length before it. The MD5 identifies the "
+            "definition that the client was built with."
         )
 
     def _calls(self) -> Iterator[Step]:
@@ -260,9 +260,9 @@ class _ConnectionSteps:
     def _reply(self, reply: Frame, kind: ServiceType | None) -> Step:
         worked = reply.data[:1] == b"\1"
         says = (
-            f"One byte says that it worked. {_of_body(kind.response if kind else None)}"
+            f"The first byte says that the call worked. {_of_body(kind.response if kind else None)}"
             if worked
-            else "The byte is 0, so what follows is no response: it is the reason, as text."
+            else "The first byte is 0, so no response follows, but the reason as text."
         )
         pieces = reply_pieces(reply.data, kind.response if kind else None)
         return self._framed(
@@ -287,16 +287,16 @@ class _ConnectionSteps:
 
     def _ending_says(self, lost: bool) -> str:
         if lost and not self._came:
-            return "Not one byte came back. Somebody took the connection, and did not speak."
+            return "No byte came back. A process accepted the connection, but sent nothing."
         if lost:
-            return "An answer was due. What the server did of its work until then, nobody can tell from here."
+            return "A response was expected. The client cannot know how much the server has done."
         if "error" in self._answered:
             return "No request was sent, so no handler ran."
         if self._asked.get("probe") == "1":
-            return "That was the whole question: somebody is there, and speaks."
+            return "The probe was successful: a server is there, and answers."
         if self._asked.get("persistent") in ("1", "true"):
-            return "The client had asked for persistent=1, so the connection served for more than one call."
-        return "One connection, one call. The next call begins with a look-up again."
+            return "The client had set persistent=1, so it could use the connection for several calls."
+        return "The connection was for one call. The next call begins with a new look-up."
 
     def _unanswered(self) -> bool:
         if self._sent and not self._came:
@@ -318,7 +318,7 @@ class _ConnectionSteps:
 
 def _of_body(kind: MessageType | None) -> str:
     if kind is None:
-        return "The fields of a type that is not known here."
+        return "These are fields of a type that is not known here."
     if not kind.fields:
-        return "The type has no fields here, so the length is 0 and nothing follows."
-    return "The fields one after the other, in the order of the definition, without names: hence the MD5."
+        return "This part of the type has no fields, so the length is 0 and nothing follows."
+    return "The fields follow in the order of the definition, without names. So the MD5 must be equal."

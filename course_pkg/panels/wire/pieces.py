@@ -1,6 +1,6 @@
-"""The pieces that bytes consist of, each with its place, name and value; and a reader that finds them.
+"""The pieces of a message's bytes, each with its place, name and value, and a reader that finds them.
 
-A long piece is folded: a page shows its beginning and its length.
+A long piece is folded: a page shows only its beginning and its length.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TypedDict
 
-SHOWN = 144  # bytes of one piece
-MOST = 160  # pieces of one message
-TEXT = 80  # characters of a value
+SHOWN = 144  # bytes that are shown of one piece
+MOST = 160  # pieces that are shown of one message
+TEXT = 80  # characters that are shown of a value
 
 LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "bad", "value", "raw", "group"
 
@@ -33,9 +33,9 @@ class PieceState(TypedDict):
 
 @dataclass(frozen=True)
 class Piece:
-    """Bytes with one meaning; a GROUP has no bytes of its own, and is the heading of the pieces inside it.
+    """Bytes with one meaning. A GROUP has no bytes of its own: it is the heading of the pieces inside it.
 
-    `at` is the offset in the message, `size` the bytes it has there; `depth` how far it is indented.
+    `at` is the offset in the message, `size` the number of bytes there, and `depth` the indentation.
     """
 
     role: str
@@ -48,7 +48,7 @@ class Piece:
     size: int = -1
 
     def state(self) -> PieceState:
-        """Return it for the page."""
+        """Return the piece for the page."""
         return {
             "role": self.role,
             "at": self.at,
@@ -62,11 +62,11 @@ class Piece:
 
 
 class ShortOfBytes(Exception):
-    """The bytes end before the piece that is to be read."""
+    """The bytes end before the end of the piece that should be read."""
 
 
 class Reader:
-    """Reads from the beginning of `data`, and keeps the pieces."""
+    """Reads `data` from its beginning, and collects the pieces."""
 
     def __init__(self, data: bytes) -> None:
         self.data = data
@@ -74,17 +74,17 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # the offset from which there are too many pieces
+        self._folded: int | None = None  # the offset at which the maximum number of pieces was reached
 
     @property
     def rest(self) -> int:
-        """How many bytes are left."""
+        """The number of bytes that are left."""
         return len(self.data) - self.at
 
     def take(self, count: int, role: str, name: str, kind: str = "", value: str | None = None) -> bytes:
-        """Read `count` bytes as one piece. Raises ShortOfBytes."""
+        """Read `count` bytes as one piece. Raises ShortOfBytes if there are fewer bytes."""
         if count > self.rest:
-            raise ShortOfBytes(f"{name}: {count} bytes are due, and {self.rest} are left")
+            raise ShortOfBytes(f"{name}: {count} bytes are needed, and {self.rest} are left")
         data = self.data[self.at : self.at + count]
         self._keep(Piece(role, self.at, data, name, kind, "" if value is None else value, self.depth))
         self.at += count
@@ -117,7 +117,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """Make one piece of everything that is read in the block."""
+        """Join all bytes that are read in the block into one piece."""
         start = self.at
         self._silent += 1
         try:
@@ -128,12 +128,12 @@ class Reader:
                 self._keep(Piece(RAW, start, self.data[start : self.at], name, "", "", self.depth))
 
     def close(self) -> list[PieceState]:
-        """Return all pieces for the page; bytes that were not read are the last one."""
+        """Return all pieces for the page; the bytes that were not read are the last piece."""
         if self.rest:
-            self.take(self.rest, RAW, "the rest", "", "bytes that do not belong to anything before")
+            self.take(self.rest, RAW, "the rest", "", "bytes that belong to no other piece")
         if self._folded is not None:
             data = self.data[self._folded : self.at]
-            self.pieces.append(Piece(RAW, self._folded, data, "and so on, folded"))
+            self.pieces.append(Piece(RAW, self._folded, data, "more pieces, folded"))
         return [piece.state() for piece in self.pieces]
 
     def _keep(self, piece: Piece) -> None:
@@ -146,5 +146,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return a text in at most `most` characters."""
+    """Return a text, shortened to at most `most` characters."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,4 +1,4 @@
-"""A call on the wire as a still picture: a sequence diagram of the steps, and the bytes of some of them."""
+"""The still picture of a call: a sequence diagram of its steps, and the bytes of some of them."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from course_pkg.panels.paper import (
     wrapped,
 )
 
-ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}  # px: where the line of each end is
-ROW = 34.0  # px of a step
+ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}  # px, position of the line of each end
+ROW = 34.0  # px, height of a step
 MOST, BYTES = 24, 8  # pieces of a step, and bytes of a piece that are shown
-# Ports differ from run to run.
+# The addresses are replaced, because their ports differ in each run.
 ADDRESS = re.compile(r"(?:rosrpc://|http://)?[\w.-]+:\d{4,5}\b/?")
 SMALL = Style(12.0)
 DETAILED = ("Request", "Response", "Error")
 
 
 def still(state: State) -> str:
-    """Return the steps without times and ports, and the pieces of request and response."""
+    """Return the picture of the steps and of the pieces of request and response, without times and ports."""
     exchange = state["exchange"]
     steps = exchange["steps"]
     paper = Paper(f"A call of {exchange['service']}, byte by byte: {len(steps)} steps")
@@ -42,7 +42,7 @@ def still(state: State) -> str:
     if exchange["outcome"]:
         paper.band(f"The call failed: {_stable(exchange['outcome'])}", bad=True)
     if not steps:
-        paper.write("No connection came by while this was recorded.", FAINT)
+        paper.write("No connection was made during the recording.", FAINT)
     else:
         _draw_steps(paper, exchange["names"], steps)
     for step in steps:
@@ -108,5 +108,5 @@ def _bytes(piece: State) -> str:
 
 
 def _stable(text: str) -> str:
-    """Return a text without addresses, whose ports differ from run to run."""
+    """Return a text without addresses, because their ports differ in each run."""
     return ADDRESS.sub("the address of the server", text)

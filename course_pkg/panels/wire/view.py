@@ -1,4 +1,4 @@
-"""The wire view as a widget: it only passes a recorded call to the page."""
+"""The widget of the wire view, which only sends a recorded call to the page."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class WireView(Panel):
     """A real call, byte by byte: look-up, connection headers, request and reply, each piece with its value.
 
     `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows it, even if it
-    fails. `kind` is a type other than the server's own, `headers` are more fields for the connection header.
-    `WireView(wire)` shows a recorded call. The protocol: http://wiki.ros.org/ROS/TCPROS and
-    http://wiki.ros.org/ROS/Connection%20Header.
+    fails. `kind` is a type to use instead of the server's own type. `headers` are additional fields for the
+    connection header. `WireView(wire)` shows a recorded call. The protocol is described at
+    http://wiki.ros.org/ROS/TCPROS and http://wiki.ros.org/ROS/Connection%20Header.
     """
 
     front_end: ClassVar[Path] = HERE / "wire.js"
@@ -56,7 +56,7 @@ class WireView(Panel):
         return self._bytes(client=False)
 
     def error_message(self) -> str:
-        """Return the error of the panel itself, or else that of the call."""
+        """Return the error of the panel itself or, if there is none, the error of the call."""
         return super().error_message() or str(self.exchange.get("outcome", ""))
 
     def _bytes(self, *, client: bool) -> bytes:
@@ -72,7 +72,7 @@ def _recorded(
     headers: Mapping[str, str] | None,
     fields: Mapping[str, Plain],
 ) -> Wire:
-    # It imports rospy, which a page of recorded calls does not need.
+    # The module imports rospy, which a page with a recorded call does not need.
     from course_pkg.ros.wire.capture import record_call
 
     return record_call(name, kind, headers, fields)

@@ -1,4 +1,4 @@
-/* The wire view: the steps of a call, and the bytes of the one that is looked at beside what they say. */
+/* The wire view: the steps of a call, and the bytes of the chosen step beside their meaning. */
 import { freshId, h, say, setAttribute } from "../kit.js";
 
 /** @typedef {{role: string, at: number, size: number, depth: number, name: string, type: string, value: string, hex: string}} Piece */
@@ -6,9 +6,9 @@ import { freshId, h, say, setAttribute } from "../kit.js";
  *   bad: boolean, connection: number}} Step */
 /** @typedef {{service: string, names: Record<string, string>, steps: Step[], outcome: string, notes: string[]}} Exchange */
 
-const ROW = 8; // bytes
-const HUES = 6; // colours that take turns
-const LOUD = ["key", "md5", "value"]; // what they colour
+const ROW = 8; // bytes in a row
+const HUES = 6; // colours that are used in turn
+const LOUD = ["key", "md5", "value"]; // the roles that these colours are for
 const KEYS = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -36,9 +36,9 @@ class WireView {
         h("div", { class: "ros-steps" }, this.back, this.slider, this.next, this.count)),
       outcome ? h("p", { class: "ros-banner ros-bad", text: `The call failed: ${outcome}` }) : null,
       steps.length ? h("ol", { class: "ros-ladder", "aria-label": `Steps between ${names.client} and ${names.server}` }, ...this.rungs)
-        : h("p", { class: "ros-empty", text: "No connection came by while this was recorded." }),
+        : h("p", { class: "ros-empty", text: "No connection was made during the recording." }),
       this.details, this.table,
-      h("p", { class: "ros-foot ros-muted", text: ["Recorded from a real call: it can be stepped through without a kernel. The relay that took it down adds some time of its own.", ...notes].join(" ") }));
+      h("p", { class: "ros-foot ros-muted", text: ["This is a recording of a real call, and needs no kernel. The relay that recorded it adds some time of its own.", ...notes].join(" ") }));
     const failed = steps.findIndex((step) => step.bad);
     this.#go(Math.max(failed < 0 ? steps.findIndex((step) => step.title === "Request") : failed, 0));
   }
@@ -54,7 +54,7 @@ class WireView {
       h("span", { class: "ros-arrow", text: right ? "──▶" : "◀──" }), " ", h("code", { class: "ros-end", text: far }), " ",
       h("span", { class: "ros-title", text: `${step.connection ? `${step.connection}: ` : ""}${step.title}` }), " ",
       h("span", { class: "ros-size", text: step.size ? `${step.size.toLocaleString("en")} B` : "" }));
-    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // what is written on it can be said aloud
+    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // the name contains the visible text, which speech input needs
     button.addEventListener("keydown", (event) => {
       const by = KEYS[/** @type {keyof KEYS} */ (event.key)];
       if (by === undefined) return;
@@ -99,7 +99,7 @@ class WireView {
     const hues = huesOf(step.pieces);
     const leaves = step.pieces.filter((piece) => piece.role !== "group");
     /** @type {Map<number, HTMLElement[]>} */
-    const cells = new Map(); // what stands for a byte, by its offset
+    const cells = new Map(); // the elements that show a byte, by the offset of the byte
     const dump = h("div", { class: "ros-dump" });
     let row = /** @type {HTMLElement | null} */ (null);
     let column = 0;
@@ -164,7 +164,7 @@ class WireView {
       h("td", {}, h("code", { text: piece.type })), h("td", { class: "ros-says" }, h("code", { text: piece.value })));
   }
 
-  /** Made when it is opened first. */
+  /** Fills the table when it is opened for the first time. */
   #fillTable() {
     if (!(/** @type {HTMLDetailsElement} */ (this.table).open) || this.table.childElementCount > 1) return;
     const heads = ["Step", "Offset", "Size", "Bytes", "Name", "Type", "Value"].map((text) => h("th", { scope: "col", text }));
@@ -178,7 +178,7 @@ class WireView {
   }
 }
 
-/** A row of the dump: offset, bytes, characters. @param {HTMLElement} dump @param {number} at */
+/** Adds a row to the dump: offset, bytes, characters. @param {HTMLElement} dump @param {number} at */
 function line(dump, at) {
   const row = h("div", { class: "ros-row" }, h("span", { class: "ros-offset", text: offset(at) }), h("span", { class: "ros-hex" }), h("span", { class: "ros-chars" }));
   dump.append(row);

@@ -60,7 +60,7 @@ def form(shared: Page) -> Locator:
     return panel(shared, LABEL)
 
 
-def test_a_case_is_seen_looked_into_and_answered(form: Locator) -> None:
+def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     """At first only the symptom is shown, then tools; each answer is shown with its reason."""
     picture(form, "breakit-opened")
     begin(form, "stale")
@@ -74,8 +74,8 @@ def test_a_case_is_seen_looked_into_and_answered(form: Locator) -> None:
     form.get_by_label(other.replace("`", "")).check()
     form.get_by_label(named("stale").remedy.replace("`", "")).check()
     form.get_by_role("button", name="Check").click()
-    expect(form.get_by_text("Not this.")).to_be_visible()
-    expect(form.get_by_text("If it were that")).to_be_visible()
+    expect(form.get_by_text("This is not the fault.")).to_be_visible()
+    expect(form.get_by_text("That fault would look different")).to_be_visible()
     picture(form, "breakit-wrong")
     answer(form, named("stale"))
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
@@ -105,7 +105,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
     expect(form.get_by_text("The fault is undone.")).to_be_visible()
 
 
-def test_a_call_that_hangs_is_said_to_hang(form: Locator) -> None:
+def test_a_hanging_call_is_described(form: Locator) -> None:
     """A call without an answer within 2 s is described; at 560 px nothing overflows the panel."""
     begin(form, "stopped")
     expect(form.get_by_text("No answer within 2 s; still waiting.")).to_be_visible()
@@ -117,14 +117,14 @@ def test_a_call_that_hangs_is_said_to_hang(form: Locator) -> None:
 
 
 def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) -> None:
-    """When no page shows the lab any more, nothing of it is left on the graph."""
+    """When no page shows the lab any more, its fault and its nodes are removed from the graph."""
     with (
         new_page(context) as page,
         running_notebook(page, lab, "leaving", SET_UP.replace("NODE", "leaving"), SHOW),
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        before = master.system_state().nodes  # among them those of another lab's fault
+        before = master.system_state().nodes  # these can include nodes of another lab's fault
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before
         page.goto("about:blank")

@@ -88,7 +88,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
     ):
         expect(panel(lab_page, "Prediction compared")).to_contain_text("You had made no prediction.")
         panel(lab_page, "Prediction").get_by_label("an empty reply").check()
-        expect(panel(lab_page, "Prediction")).to_contain_text("a change now is marked as made afterwards")
+        expect(panel(lab_page, "Prediction")).to_contain_text("a change now is marked as a late change")
         run_all(lab_page)
         expect(panel(lab_page, "Prediction").get_by_label("an empty reply")).to_be_checked()
         expect(panel(lab_page, "Prediction compared")).to_contain_text("came after the result")
@@ -97,7 +97,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """By keyboard: all cases, then the reasons; another run still shows them, and the first choices count."""
+    """All cases are decided by keyboard, then the reasons appear. Only the first choices count."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
@@ -125,7 +125,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()
         choices.get_by_role("button", name="Show the reasons").click()
-        said = "2 of 2 fit. 1 of 2 fitted the first time, and that is what counts."
+        said = "2 of 2 fit. 1 of 2 of your first choices fit, and only the first choices count."
         expect(choices.get_by_text(said)).to_be_visible()
         figure = lab_page.locator(".jp-RenderedSVG img")
         expect(figure).to_be_visible()
@@ -155,7 +155,7 @@ def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
     ):
         form = panel(lab_page)
         form.get_by_role("button", name="Call").click()
-        expect(form.get_by_label("The error as ROS words it")).to_contain_text("unavailable")
+        expect(form.get_by_label("The error message of ROS")).to_contain_text("unavailable")
         for label in ("Graph panel", "Service panel"):
             assert panel(lab_page, label).evaluate(FAINT) == []
         picture(form, "service-panel-error")

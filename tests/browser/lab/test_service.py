@@ -93,7 +93,7 @@ def test_fill_call_read(form: Locator) -> None:
 
 
 def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
-    """The mark at the field names the allowed values, gets the focus, and goes with the mistake."""
+    """A wrong field gets the focus and a note with the allowed values, which disappears with the mistake."""
     fill(form, length="1.2", width="five")
     form.get_by_role("button", name="Call").click()
     width = form.get_by_label("width")
@@ -111,7 +111,7 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
     expect(answer(form, "area")).to_have_text("6.24")
 
 
-def test_a_mark_does_not_push_the_button_from_under_the_press(form: Locator) -> None:
+def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None:
     """The kernel reports the mistake before Call is pressed; the message moves the page after the click."""
     fill(form, length="1.2", width="five")
     expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
@@ -138,7 +138,7 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
     fill(form, length="-1")
     form.get_by_label("Wait at most").fill("0.3")
     form.get_by_role("button", name="Call").click()
-    words = form.get_by_label("The error as ROS words it")
+    words = form.get_by_label("The error message of ROS")
     expect(words).to_contain_text("CallTimeout: service [/getGeometry]: no answer within 0.3 s")
     expect(form.get_by_text("Find out what the handler waits for")).to_be_visible()
     picture(form, "service-panel-timeout")
@@ -196,7 +196,7 @@ def test_a_copy_button_copies(form: Locator) -> None:
     assert form.page.evaluate("navigator.clipboard.readText()") == "rosservice call /getGeometry 0.0 0.0 0.0"
 
 
-def test_a_kernel_that_ends_is_said(own_form: Locator, lab_page: Page) -> None:
+def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) -> None:
     """After a shutdown of the kernel the panel keeps its last state, names the reason, and does not call."""
     form = own_form
     form.get_by_role("button", name="Call").click()

@@ -50,7 +50,7 @@ class Terminal:
 
     @property
     def text(self) -> str:
-        """What it shows, with everything above the visible part."""
+        """The text of the terminal, including the part above the visible lines."""
         text: str = self._page.evaluate(TEXT, self._number)
         return text
 
@@ -88,7 +88,7 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
 
 
 def steps() -> Iterator[tuple[str, str]]:
-    """Yield what the chapter asks for, in its order: ("type", commands) or ("write", exercise cell)."""
+    """Yield the steps of the chapter in order: ("type", commands) or ("write", exercise cell)."""
     for cell in read(NotebookStore().solutions(["07"])[0])["cells"]:
         source = cell["source"]
         if source.startswith(LAST):

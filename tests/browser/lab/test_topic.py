@@ -36,7 +36,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Message 1 went to nobody: no subscriber was connected")).to_be_visible()
         expect(topic.locator(".ros-deliveries")).to_contain_text("this panel")
-        expect(topic.get_by_text("Nothing heard yet.").first).to_be_visible()
+        expect(topic.get_by_text("Nothing received yet.").first).to_be_visible()
         topic.get_by_label("data").fill("-2.5")
         lab_page.keyboard.press("Enter")
         expect(topic.get_by_text("Message 2 went to this panel.")).to_be_visible()
@@ -65,7 +65,7 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
         topic = listening(lab_page)
         topic.get_by_label("Rate", exact=True).fill("50")
         topic.get_by_role("button", name="Publish at a rate").click()
-        expect(topic.get_by_text(re.compile(r"Publishing at 50 Hz, really [45]\d"))).to_be_visible()
+        expect(topic.get_by_text(re.compile(r"Publishing at 50 Hz \(measured: [45]\d"))).to_be_visible()
         expect(topic.locator(".ros-figures")).to_contain_text(re.compile(r"at [45]\d\.\d Hz"))
         expect(topic.locator("polyline")).to_be_attached()
         picture(topic, "topic-panel-rate")
@@ -76,7 +76,7 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
         picture(topic, "topic-panel-burst")
 
 
-def test_a_page_that_is_left_takes_the_node_off_the_graph(lab: Lab, lab_page: Page) -> None:
+def test_leaving_the_page_ends_the_node(lab: Lab, lab_page: Page) -> None:
     """Closing the page ends the panel's publisher, while the kernel continues."""
     with running_notebook(lab_page, lab, "left", JOIN, 'open("master.txt", "w").write(node.master)', PANEL):
         topic = listening(lab_page)
@@ -89,7 +89,7 @@ def test_a_page_that_is_left_takes_the_node_off_the_graph(lab: Lab, lab_page: Pa
         assert "/topic_test" in master.system_state().nodes
 
 
-def test_a_busy_kernel_is_said_to_be_busy(lab: Lab, lab_page: Page) -> None:
+def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
     """A click while a cell runs takes effect after the cell; until then a sentence gives the reason."""
     busy = lab.folder / "busy"
     wait = "import os, time\nwhile os.path.exists('busy'): time.sleep(0.05)"
@@ -106,7 +106,7 @@ def test_a_busy_kernel_is_said_to_be_busy(lab: Lab, lab_page: Page) -> None:
         expect(topic.get_by_text("Waiting for the kernel")).to_be_hidden()
 
 
-def test_what_is_wrong_is_said_at_its_field(lab: Lab, lab_page: Page) -> None:
+def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
     """Nothing is published while a field or a setting is wrong; the first wrong one gets the focus."""
     with running_notebook(lab_page, lab, "wrong", JOIN, PANEL):
         topic = listening(lab_page)
@@ -121,7 +121,7 @@ def test_what_is_wrong_is_said_at_its_field(lab: Lab, lab_page: Page) -> None:
         assert topic.evaluate(FAINT) == []
 
 
-def test_a_type_that_differs_is_said_in_words(lab: Lab, lab_page: Page) -> None:
+def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
     """A publisher and a subscriber of another type are named with their types; rospy reports neither."""
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
@@ -140,7 +140,7 @@ def test_a_type_that_differs_is_said_in_words(lab: Lab, lab_page: Page) -> None:
         picture(topic, "topic-panel-types")
 
 
-def test_a_topic_that_is_not_there_yet_comes(lab: Lab, lab_page: Page) -> None:
+def test_a_panel_waits_for_its_topic(lab: Lab, lab_page: Page) -> None:
     """Without a type, the panel waits for a publisher and uses its type."""
     later = """
 import threading
@@ -148,7 +148,7 @@ threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float
 """
     with running_notebook(lab_page, lab, "later", JOIN, 'TopicPanel("/later")', later):
         topic = panel(lab_page, "Topic panel")
-        expect(topic.get_by_text("Nobody publishes /later yet")).to_be_visible()
+        expect(topic.get_by_text("No node publishes /later yet")).to_be_visible()
         expect(topic.get_by_label("data")).to_be_visible()
         expect(topic.locator(".ros-about")).to_contain_text("std_msgs/Float64")
 

@@ -81,8 +81,8 @@ def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
     expect(table).to_contain_text("30446f62d79d69140d848ff84559306a")
 
 
-def test_a_failure_says_where_it_came_from(page: Page, tmp_path: Path) -> None:
-    """A refusal is an ok byte of 0 and its error message; another definition ends in the server's header."""
+def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
+    """A refused call shows an ok byte of 0 and its error message; another MD5 shows the server's header."""
     wire = show(page, tmp_path, WireView("/getGeometry", **{**SIDES, "length": -1.0}))
     expect(wire.get_by_text("The call failed")).to_be_visible()
     wire.get_by_role("button", name=re.compile("Error$")).click()
@@ -100,7 +100,7 @@ def test_a_failure_says_where_it_came_from(page: Page, tmp_path: Path) -> None:
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
     """A call that no server accepts is described; of a long field, the beginning and the length are shown."""
     wire = show(page, tmp_path, WireView("/nobody"))
-    expect(wire.locator("[aria-current]")).to_contain_text("Nobody serves it")
+    expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
     expect(wire.get_by_text("unavailable")).to_be_visible()
     headers = {"long": "x" * 3000}
     wire = show(page, tmp_path, WireView("/getGeometry", None, headers, **SIDES))
