@@ -97,4 +97,4 @@ def test_doctor_finds_nothing_to_do_where_the_suite_runs() -> None:
     assert "to do" not in answer.stdout
     answer = course("doctor", ROS_MASTER_URI="localhost:11311")
     assert answer.returncode == 1
-    assert "It must be like http://localhost:11311" in answer.stdout
+    assert "Change it to the form http://localhost:11311" in answer.stdout

@@ -97,13 +97,13 @@ def test_an_exception_is_explained_by_its_own_words_first() -> None:
 
 
 def test_errors_of_the_course_are_explained() -> None:
-    """Errors of a master are explained by their row; one without a row, by its own message."""
+    """An error of the master is explained by its row; an error without a row, by its own message."""
     with pytest.raises(Exception, match="No ROS master") as raised:
         MasterClient("http://localhost:1").pid()
     assert "No master answers" in explain(raised.value).cause
     assert "No master answers" in explain(str(raised.value)).cause
     silent = MasterSilent(
-        "The program at http://localhost:1 takes connections and did not answer within 2 s."
+        "The program at http://localhost:1 accepts connections, but did not answer within 2 s."
     )
     assert "it is stopped, or hangs" in explain(silent).cause
     assert explain(str(silent)) == explain(silent)

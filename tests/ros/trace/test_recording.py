@@ -425,6 +425,6 @@ def test_a_rospy_that_is_built_otherwise(kernel: Kernel) -> None:
     """) == [
         "here",
         True,
-        ["/other does not record service calls: this rospy makes and answers them otherwise."],
+        ["/other does not record service calls: this rospy makes and answers them in another way."],
         [],
     ]
