@@ -46,7 +46,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"roscore cannot run as another roscore/master is already running",
-        "A master is already running on this port; each computer needs only one.",
+        "A master already runs on this port; each computer needs only one.",
         "Use the running master. If you really need a second one, use another port: `roscore -p 11312`.",
         "01",
     ),
