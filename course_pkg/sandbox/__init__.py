@@ -1,4 +1,4 @@
-"""The sandbox in which submissions run. It forks a process with all imports done for each part.
+"""The sandbox in which submissions run. For each part, it forks a process that has done all imports.
 
     course grade                    outside the sandbox; trusts only the records of check runners
     └─ bwrap                        no network, no home, no solutions, a read-only root

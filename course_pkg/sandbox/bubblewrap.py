@@ -101,8 +101,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and then to become nobody.
 
-    bwrap covers parts of its own /proc. With such a /proc, the kernel forbids the inner sandboxes to mount
-    another one.
+    bwrap covers parts of its own /proc. The kernel then does not allow the inner sandboxes to mount their
+    own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):

@@ -35,7 +35,7 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def unshare(kinds: int) -> None:
-    """Create and enter namespaces of these `kinds`; with PROCESS, only the next fork enters the new one."""
+    """Create and enter namespaces of these `kinds`; a PROCESS namespace contains only later forks."""
     _done(_libc.unshare(ctypes.c_int(kinds)), "unshare")
 
 
@@ -60,7 +60,7 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate this namespace's mounts from its parent's: a new mount appears only in one of them."""
+    """Separate the mounts of this namespace from its parent: a new mount appears only in one of the two."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 

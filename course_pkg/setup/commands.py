@@ -16,7 +16,7 @@ UNSAFE = "--unsafe-no-sandbox"  # with this option, `course grade` needs no pack
 class Command(NamedTuple):
     """A subcommand. It exists before the set-up, so only `run` may import other modules.
 
-    `needs` lists what has to be set up for it: "course", and also "grade" or "test". A command that imports
+    `needs` lists what has to be set up first: "course", and also "grade" or "test". A command that imports
     libraries needs "libraries" and runs with the interpreter of the virtual environment. If `rest` is not
     empty, all arguments are for another program, and `rest` is their text in the usage.
     """

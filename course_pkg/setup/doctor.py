@@ -116,7 +116,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 
 
 def _leftovers(places: Places) -> Iterator[Finding]:
-    """Find processes of this checkout whose parent has ended, and that keep running.
+    """Find processes of this checkout that are still running although their parent has ended.
 
     If the owner of a process is killed by SIGKILL, its supervisor normally ends the process within seconds.
     """

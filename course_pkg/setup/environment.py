@@ -1,4 +1,4 @@
-"""The environment of ROS: read once from the workspace's setup.bash, stored in a file, applied from it."""
+"""The environment of ROS: it is read once from the workspace's setup.bash, and then stored in a file."""
 
 from __future__ import annotations
 

@@ -137,7 +137,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return the words before a command that run it as root; raises SetupError if that is not possible."""
+    """Return the prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
-CATKIN_FOLDERS = ("srv", "msg", "action", "launch")  # the catkin package's folders beside course_pkg
-PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")  # its parts
+# The folders of the catkin package in addition to course_pkg, and all parts of the catkin package.
+CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
+PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
 class Places(NamedTuple):

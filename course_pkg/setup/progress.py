@@ -69,7 +69,7 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Add `count` to the number that is done; with `kept`, an earlier run did them, without time here."""
+        """Add `count` to the items that are done; with `kept`, an earlier run did them, so they took 0 s."""
         with self._lock:
             self._done += count
             self._kept += count if kept else 0
@@ -80,7 +80,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, the reason for a wait, once."""
+        """Show `text`, which says what the user waits for; the same text is not shown twice in a row."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

@@ -64,7 +64,7 @@ def test_a_full_disk_is_reported_without_a_message_from_the_tool(
 def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If another program holds the lock, the tool is repeated until it succeeds, and the user is informed."""
+    """If another program holds the lock, the tool is repeated until it succeeds; the user gets a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"

@@ -62,7 +62,7 @@ def _string(thing: object) -> str:
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:
-    """Yield the exception and its causes, each one once: an exception may be its own cause."""
+    """Yield the exception and its causes; the loop ends if an exception is indirectly its own cause."""
     seen: set[int] = set()
     each: BaseException | None = error
     while each is not None and id(each) not in seen:
@@ -90,7 +90,7 @@ def _candidates(text: str) -> Iterator[str]:
 
 
 def _below_frames(part: str) -> Iterator[str]:
-    """Yield the lines of a traceback that are neither frames nor code, such as `ValueError: boom`."""
+    """Yield the lines of a traceback with an error message, such as `ValueError: boom`, the last first."""
     for line in reversed(part.splitlines()[1:]):
         if re.match(r"[\w.]+(?:: |$)", line) and not line.startswith(("During", "The above")):
             yield line

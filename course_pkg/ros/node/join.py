@@ -1,4 +1,4 @@
-"""Make a kernel a node, as often as a cell runs join(): rospy itself can start only once in a process."""
+"""Make a kernel a node. A cell may run join() many times, although rospy starts only once in a process."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ NAME_TIMEOUT = 2.0  # s for another node of this name to end, such as a kernel t
 def join(name: str) -> Node:
     """Make this kernel the node `name`, and return the node; a second call returns the same node.
 
-    join() uses the master at ROS_MASTER_URI, or starts a master that ends with this kernel. If another
-    master has replaced a lost one, join() registers this node's services and topics at the new master.
+    join() uses the master at ROS_MASTER_URI, or starts a master that ends with this kernel. If a new master
+    has replaced a lost master, join() registers this node's services and topics there again.
     """
     return _kernel(os.getpid()).join(name)
 
@@ -61,7 +61,7 @@ def leave(node: Node) -> None:
 
 @cache
 def _kernel(pid: int) -> _Kernel:
-    """Return the only _Kernel of this process; a forked child gets its own, because it is not a node."""
+    """Return the only _Kernel of this process; a forked child gets a new one, because it is no node."""
     return _Kernel(pid)
 
 

@@ -64,8 +64,8 @@ def prepare_node() -> None:
 def guard_against_idle_connections() -> bool:
     """Make this process's node wait for headers on separate threads; return whether that is possible.
 
-    Call this function after init_node(). It changes rospy's internals. If they differ from the expected
-    ones, it changes nothing and returns False.
+    Call this function after init_node(). It changes rospy's internals. If this release of rospy is built
+    differently, it changes nothing and returns False.
     """
     tcpros_base.start_tcpros_server()
     server = getattr(tcpros_base, "_tcpros_server", None)
@@ -98,7 +98,7 @@ def hasten_shutdown() -> None:
 def extend_slave() -> None:
     """Make this process's node return its records through the slave API."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy's wrapper around this method, which checks the arguments, takes args and kwds.
+    # rospy wraps this method in a function with the parameters args and kwds, which checks the arguments.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -159,6 +159,6 @@ def _add_services(method: Method) -> Method:
 
 
 def _service_stats() -> list[tuple[str, list[CallerCount]]]:
-    """Return [service, [caller, requests, time of the last one, running ones]*] for each service here."""
+    """Return [service, [caller, requests, time of the last request, running requests]*] for each service."""
     names = sorted({name for name, _ in get_service_manager().get_services()})
     return [(name, recorder().call_counter.callers(name)) for name in names]

@@ -236,7 +236,7 @@ class _Call:
 
 
 def settle_keepalive(master: MasterClient) -> None:
-    """Read the keepalive parameter with a time limit, because rospy itself would read it without one."""
+    """Read the keepalive parameter with a time limit, because rospy itself sets no limit."""
     if getattr(tcpros_base, KEEPALIVE, True) is None:
         setattr(tcpros_base, KEEPALIVE, master.get_param("/tcp_keepalive", True))
 

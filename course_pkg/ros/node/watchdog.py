@@ -1,4 +1,4 @@
-"""One thread that acts when deadlines pass: a call needs no thread of its own for its deadline."""
+"""One thread watches the deadlines of all calls, so a call needs no extra thread for its deadline."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ from course_pkg.ros.protocol.rospy_registrations import registration_manager
 from course_pkg.ros.trace.hooks import Hook, Method
 
 GOAL_TIMEOUT = 2.0  # s for a goal to end after it was cancelled
-# rospy's errors for a topic that is already closed or for a node that has been shut down; and our GraphError.
+# The errors if a topic is already closed, the node has been shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
 # The address of a service that has ended. With its old address, its shutdown() would unregister a newer
 # service of this process with the same name.
@@ -96,7 +96,7 @@ def _unregistering_in_bounded_time() -> Iterator[None]:
 
 
 def _noting(cells: Cells, close: Callable[[Any], None]) -> Callable[[Method], Method]:
-    """Return a function that replaces an `__init__` by one that also records the new object."""
+    """Return a function that replaces an `__init__`; the new `__init__` also records the object."""
 
     def replace(method: Method) -> Method:
         def __init__(self: Any, *args: Any, **kwds: Any) -> None:  # noqa: ANN401, N807 -- of rospy's classes
@@ -142,8 +142,8 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
     """Shut down the service of another cell and return True; return False if that service must continue.
 
-    It must continue during a check: a check may create a second object of a class that creates a service in
-    its `__init__`, but the service of the first object should still answer.
+    It must continue during a check. A check may create a second object of a student's class, and the class
+    may create a service in its `__init__`. The service of the first object must still answer.
     """
     ours = _Identity(before) in run.created
     if run.temporary and not ours:
@@ -201,7 +201,7 @@ def _end_with_process(server: actionlib.SimpleActionServer) -> None:
 
 
 class _Identity:
-    """A dict key for an object: two keys are equal only if they have the same object, not an equal one."""
+    """A dict key for an object: two keys are equal only if both contain the identical object."""
 
     def __init__(self, thing: object) -> None:
         self.thing = thing

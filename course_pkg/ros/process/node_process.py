@@ -129,7 +129,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process serves `name`; another process may still be registered for it."""
+        """Return whether this process serves `name`; another process may still be registered for the name."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False

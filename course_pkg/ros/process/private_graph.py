@@ -89,7 +89,7 @@ class PrivateGraph:
 
 
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
-    """End all programs at the same time, then the master; it has all registrations, so none remains."""
+    """End all programs at the same time, and then the master, which has all their registrations."""
     for process in processes:
         process.interrupt()
     while processes:

@@ -133,7 +133,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection with one deadline for a request and its whole answer, not one for each byte."""
+    """An HTTP connection whose deadline applies to a request and its whole answer, not to each byte."""
 
     sock: _DeadlineSocket | None
 

@@ -78,7 +78,7 @@ class TopicNode:
                 rospy.signal_shutdown("the panel is no longer shown")
 
     def _join(self) -> None:
-        """Become a node; report a missing master, because rospy would wait for it without a report."""
+        """Become a node; until there is a master, report the error, because rospy would only wait."""
         while True:
             try:
                 self._master.pid()
@@ -125,7 +125,7 @@ class TopicNode:
         """Find the nodes on the topic, and register again if the master was restarted."""
         try:
             with self._registering:
-                # The master does not know this node after leave() either, but then it must not register.
+                # After leave(), the master does not know the node, but the node must not register again.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
             self._connections = find_connections(self._master, self._topic)

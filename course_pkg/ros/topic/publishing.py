@@ -16,7 +16,7 @@ from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
 BURST = 1000  # messages at most
-CATCH_UP = 0.25  # s; later ticks are skipped, less late ticks are made at once
+CATCH_UP = 0.25  # s; a tick that is later than this is skipped, and any other late tick follows at once
 
 
 class Timer:

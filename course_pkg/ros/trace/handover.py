@@ -24,7 +24,7 @@ KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
 TIMEOUT = 0.5  # s for each call, so that a node's end is not delayed
 LONGEST = 600.0  # s; a node sends its record of the last 600 s before its end
-PREPARED = "prepared_for_handover_by_course"  # an attribute of a registration manager whose node hands over
+PREPARED = "prepared_for_handover_by_course"  # an attribute of a manager whose node sends its record
 
 
 def hand_over_at_exit() -> None:

@@ -52,7 +52,7 @@ class Span:
 
 
 class Exchange:
-    """A call with its handler, or a message with its callbacks; spans without a match are alone."""
+    """A call with its handler, or a message with its callbacks; an unmatched span has its own exchange."""
 
     def __init__(self, kind: str, first: Span) -> None:
         self.kind = kind

@@ -207,7 +207,7 @@ class CallCounter:
             return [(name, each.calls, each.last, each.running) for name, each in reversed(callers.items())]
 
     def _forget_one(self, callers: dict[str, _Count]) -> None:
-        """Forget the caller with the oldest last call, if possible one that is not waiting for a response."""
+        """Forget the caller whose last call is the oldest; skip waiting callers if not all are waiting."""
         idle = (name for name, each in callers.items() if not each.running)
         callers.pop(next(idle, next(iter(callers))))
 

@@ -2,8 +2,8 @@
 
 A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
 count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for this, so
-this module replaces a few methods of rospy. If these methods differ from the expected ones, rospy is not
-changed.
+this module replaces a few methods of rospy. It changes nothing in a release of rospy in which these methods
+differ.
 """
 
 from __future__ import annotations
