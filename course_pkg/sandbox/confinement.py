@@ -124,7 +124,7 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read its flags
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read clone3's flags
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
     return rules

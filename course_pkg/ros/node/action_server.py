@@ -35,7 +35,12 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        work = (self._server, execute, self._goal_came, self._stopped)  # no reference to self
+        work = (
+            self._server,
+            execute,
+            self._goal_came,
+            self._stopped,
+        )  # without self, which must not stay alive
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()

@@ -165,7 +165,7 @@ class Node:
 
     def close(self, *, with_master: bool = True) -> None:
         """End everything that this node has started; unregister it only if `with_master` is true."""
-        deadline = time.monotonic() + GRACE  # One deadline for all, because all get their signal now.
+        deadline = time.monotonic() + GRACE  # one deadline, because all are interrupted now
         for process in self._processes.values():
             process.interrupt()
         while self._processes:

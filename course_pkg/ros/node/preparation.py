@@ -2,8 +2,8 @@
 
 Idle connections: in rospy, one thread accepts all connections and also reads their headers. A client that
 connects and sends nothing therefore stops all services and topics of the node. In a prepared node, this
-thread accepts a connection only after its header has arrived. A connection with a slow header waits on a
-separate thread, for a limited time.
+thread reads a header only after it has arrived. A connection with a slow header waits on a separate thread,
+for a limited time.
 
 The slave API (http://wiki.ros.org/ROS/Slave_API): the answer of `getBusStats` has a part for the statistics
 of services, which rospy leaves empty. `getCourseRecord` is an extra method of the course; a node without it

@@ -1,4 +1,4 @@
-"""Calling a service in bounded time.
+"""Call a service with a time limit.
 
 rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
 itself. A watchdog or another thread can then shut its socket down in every phase of the call.
@@ -242,7 +242,7 @@ def settle_keepalive(master: MasterClient) -> None:
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the server has closed an idle connection, on which it otherwise sends nothing."""
+    """Return whether the server has closed an idle connection; an open one has no data to read."""
     sock = transport.socket
     if sock is None:
         return True

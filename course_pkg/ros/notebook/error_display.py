@@ -85,7 +85,7 @@ class ErrorDisplay:
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
-        if name == f"In[{self._shell.execution_count}]":  # nbval makes the kernel not count
+        if name == f"In[{self._shell.execution_count}]":  # nbval does not count cells
             return "An earlier cell"
         return f"{kind} {name}".strip()
 

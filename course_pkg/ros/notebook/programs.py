@@ -80,14 +80,14 @@ class ProgramMagics:
         shell.magics_manager.register_function(self._roslaunch, "line", "roslaunch")
 
     def _rosrun(self, line: str) -> Program:
-        """Start a program of a package, as rosrun does in a terminal, and return its handle."""
+        """Start a program of a package, as rosrun does in a terminal, and return its Program object."""
         words = _words(line)
         if len(words) < 2:
             raise _usage(ROSRUN)
         return self._started("rosrun", words, partial(NodeProcess.rosrun, *words))
 
     def _roslaunch(self, line: str) -> Program:
-        """Start a launch file, or a master, as roslaunch does in a terminal, and return the handle."""
+        """Start a launch file or a master, as roslaunch does in a terminal; return its Program object."""
         words = _words(line)
         if CORE not in words:
             _require_launchable(words)

@@ -15,7 +15,7 @@ from course_pkg.errors import UnknownExecutable
 def find_executable(package: str, name: str) -> Path:
     """Return the path of a package's program.
 
-    Raises UnknownExecutable if there is no such program; the message then lists the package's programs.
+    Raises UnknownExecutable if there is no such program; its message suggests other programs.
     """
     found: dict[str, Path] = {}
     for path in _programs(package):

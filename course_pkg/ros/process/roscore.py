@@ -14,7 +14,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
-ROSOUT = "/rosout"  # the node and its topic
+ROSOUT = "/rosout"  # the name of the node, and also of its topic
 READY = 15.0  # s; the start takes 0.05 s, but much longer on a busy machine
 INTERVAL = 0.005  # s between polls
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, NotAMaster
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, items
 
-Addresses = dict[str, str]  # of nodes or services, by name
+Addresses = dict[str, str]  # the addresses of nodes or services, by name
 REMAP = "__master:="  # http://wiki.ros.org/Remapping%20Arguments
 Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> the nodes that have it
 

@@ -18,7 +18,7 @@ from rosgraph.network import (
 
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, decode, encode, items, port_of
 
-END = b"</methodResponse>"  # of an XML-RPC answer
+END = b"</methodResponse>"  # the end of an XML-RPC answer
 HTTP_HEAD = "POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {}\r\n\r\n"
 
 

@@ -15,7 +15,7 @@ from course_pkg.ros.topic.reports import DeliveryReport, PublisherReport
 from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
-BURST = 1000  # messages at most
+BURST = 1000  # the largest number of messages
 CATCH_UP = 0.25  # s; a tick that is later than this is skipped, and any other late tick follows at once
 
 

@@ -22,7 +22,7 @@ from course_pkg.ros.trace.recorder import recorder
 
 KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
-TIMEOUT = 0.5  # s for each call, so that a node's end is not delayed
+TIMEOUT = 0.5  # s for each call; a longer timeout would delay the end of a node
 LONGEST = 600.0  # s; a node sends its record of the last 600 s before its end
 PREPARED = "prepared_for_handover_by_course"  # an attribute of a manager whose node sends its record
 

@@ -31,7 +31,7 @@ from course_pkg.ros.trace.recording import (
 
 SIZE = 20_000  # spans; about 6 MB when full
 HANDED_OVER = 50  # stored records of nodes that have ended
-LONGEST = 300  # characters of an error message
+LONGEST = 300  # characters; a longer error message is cut
 CALLERS = 100  # callers of a service; each run of a command-line tool is a caller with a new name
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that use the connection
