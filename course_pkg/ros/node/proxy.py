@@ -78,7 +78,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            text = "request object type [%s] does not match service type [%s]"  # rospy's
+            text = "request object type [%s] does not match service type [%s]"  # the message of rospy
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
         self._running.add(call)
