@@ -35,12 +35,8 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        work = (
-            self._server,
-            execute,
-            self._goal_came,
-            self._stopped,
-        )  # without self, which must not stay alive
+        # With a reference to self, the thread would keep this object alive, and __del__ would never run.
+        work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()
