@@ -1,6 +1,6 @@
-"""The ROS graph: find or start a master, join as a node, run nodes, call with a deadline, list what is there.
+"""The ROS graph: find or start a master, join as a node, run nodes, call with a deadline, list all nodes.
 
-The names are looked up on first use: `course` starts a master before it can import rospy.
+Each name is imported on its first use, because `course` starts a master before it can import rospy.
 """
 
 from typing import TYPE_CHECKING

@@ -1,14 +1,14 @@
-"""The sandbox in which submissions run. A process that has everything imported is forked for each part.
+"""The sandbox in which submissions run. For each part, it forks a process that has done all imports.
 
-    course grade                    outside the sandbox; believes nothing but the records of check runners
-    └─ bwrap                        no network, no home, no solutions, a root that cannot be written
-       └─ worker.py                 trusted; has the checks imported, and forks a check runner for each part
+    course grade                    outside the sandbox; trusts only the records of check runners
+    └─ bwrap                        no network, no home, no solutions, a read-only root
+       └─ worker.py                 trusted; imports all checks, and forks a check runner for each part
           ├─ check_process.py       the check runner, in the part's network; only its record earns points
-          └─ fork_server.py         has imported no check, and cannot read one; forks for each part
-             └─ supervisor.py       with a network, a hostname and a work folder for this part only
+          └─ fork_server.py         imports no checks, and cannot read them; forks for each part
+             └─ supervisor.py       has a network, a hostname and a work folder only for this part
                 ├─ master           on the usual port
-                ├─ command_runner.py  runs the check's commands, where the student's kernel cannot reach them
+                ├─ command_runner.py  runs the check's commands; the student's kernel cannot change them
                 └─ student_process.py  the answer: no privileges, its own users and processes, limited memory
 
-What crosses a boundary is JSON. What comes from `student_process.py` is shown as feedback and never believed.
+These processes exchange JSON. Messages from `student_process.py` are shown as feedback, but never trusted.
 """

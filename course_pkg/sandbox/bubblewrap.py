@@ -1,7 +1,8 @@
-"""The outer sandbox: what bubblewrap shows of the machine to everything that a submission starts.
+"""The outer sandbox: the files of the machine that a submission and its processes can see.
 
-bubblewrap (https://github.com/containers/bubblewrap) builds the view of the file system. If root starts it,
-the command runs as an unprivileged user in the sandbox; if another user starts it, it needs user namespaces.
+bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts
+it, the command runs as an unprivileged user in the sandbox. If another user starts it, the machine must
+allow user namespaces.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from course_pkg.errors import SandboxUnavailable
 from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
-NOBODY = 65534  # uid and gid that own nothing; the command runs as this user if root starts it
+NOBODY = 65534  # uid and gid without own files; the command runs as this user if root starts it
 READABLE = (
     "/usr",
     "/etc/alternatives",
@@ -37,14 +38,15 @@ INVENTED = {
     "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
 }
 WRITABLE = 512 << 20  # bytes that the trusted processes may write
-AS_ROOT = (  # an uncovered /proc, which the inner sandboxes need to mount their own; then no privileges
+# The inner sandboxes can mount their own /proc only if this one is complete. After that, drop all privileges.
+AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'
 )
 
 
 def refusal() -> str:
-    """Return why this machine has no sandbox, and what to do about it; an empty string if it has one."""
+    """Return why this machine cannot create a sandbox, and what to do; an empty string if it can."""
     if sys.platform != "linux" or not (found := shutil.which("bwrap")):
         return (
             "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
@@ -59,25 +61,25 @@ def refusal() -> str:
     )
     if tried.returncode == 0:
         return ""
-    reason = (tried.stderr.strip().splitlines() or ["it gave no reason"])[-1]
-    return f"{found} cannot build a sandbox on this machine: {reason}."
+    reason = (tried.stderr.strip().splitlines() or ["the reason is unknown"])[-1]
+    return f"{found} cannot create a sandbox on this machine: {reason}."
 
 
 def require_sandbox() -> None:
-    """Raise SandboxUnavailable if this machine has no sandbox."""
+    """Raise SandboxUnavailable if this machine cannot create a sandbox."""
     if reason := refusal():
         raise SandboxUnavailable(
             f"{reason} Without a sandbox, students' code runs with your permissions: it can read your files "
-            "and forge grades. Grade on another machine. If you trust every submission, you can add "
-            "--unsafe-no-sandbox."
+            "and change grades. Grade on another machine, or add --unsafe-no-sandbox if you trust every "
+            "submission."
         )
 
 
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
     """Return the command that runs `command` in a sandbox; start it with an empty environment.
 
-    The sandbox shows the course and ROS read-only, without solutions and tests, and also the paths
-    `readable`.
+    The sandbox shows the course (without solutions and tests), ROS, and the paths `readable`. All of them are
+    read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []
@@ -97,9 +99,10 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 
 
 def _root_capabilities() -> Iterator[str]:
-    """Yield the options with which root can mount /proc and then become nobody.
+    """Yield the options that allow root to mount /proc, and then to become nobody.
 
-    bwrap's own /proc is covered in part, so no inner sandbox could mount one.
+    bwrap covers parts of its own /proc. The kernel then does not allow the inner sandboxes to mount their
+    own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -122,9 +125,9 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shadows(shown: Sequence[Path]) -> Iterator[str]:
-    """Yield copies of those paths that lie in /tmp or /dev/shm.
+    """Yield options that copy the shown paths in /tmp and /dev/shm to another place.
 
-    A part mounts folders of its own there, and shows these paths in them again.
+    Each part mounts its own folders at /tmp and /dev/shm, and shows these paths there again, from the copies.
     """
     inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]
     for number, path in enumerate(inside):
@@ -150,7 +153,7 @@ def _course() -> Iterator[Path]:
 
 
 def _variables() -> Iterator[str]:
-    """Yield the course's environment, without any variable of the user who grades."""
+    """Yield options that set the course's environment, without variables of the user who grades."""
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
     for name, value in known.items():

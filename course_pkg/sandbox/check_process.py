@@ -1,4 +1,4 @@
-"""The check runner of one part: a trusted process in the part's network, one fork for each check."""
+"""The check runner of one part: a trusted process in the part's network, forked for this check only."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def check_part(
         report = replace(
             _undecided(job, f"The kernel gave no valid answer: {error}."), verdict=Verdict.FAILED
         )
-    except Exception as error:  # noqa: BLE001 -- a submission that breaks the graph earns nothing by it
+    except Exception as error:  # noqa: BLE001 -- a submission that breaks the graph must get no points
         report = _undecided(job, f"The check could not be run ({type(error).__name__}: {error}).")
     with os.fdopen(out, "w") as file:
         json.dump(record(report, job.seed), file)

@@ -1,8 +1,8 @@
-"""Runs the commands of a check in grading, where the student's kernel cannot reach them.
+"""Runs the commands of a check during grading; the student's kernel cannot change their results.
 
-In class the kernel runs them. In grading a kernel could report that a failed build succeeded, or that a
-program printed something else. So another process, in a sandbox of its own, runs them and reads the part's
-folder.
+In class, the kernel runs these commands. In grading, a student's kernel could report a false result, for
+example that a failed build succeeded. Another process in a separate sandbox therefore runs the commands and
+reads the part's folder.
 """
 
 from __future__ import annotations
@@ -18,24 +18,27 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.sandbox.namespaces import be_unreadable
 from course_pkg.types import Plain
 
-OWN = "/tmp"  # noqa: S108 -- in the sandbox, for this process only
+OWN = "/tmp"  # noqa: S108 -- only this process uses it, in its sandbox
 COMMANDS = frozenset({"folder", "run", "start", "poll", "stop"})
 
 
 def is_command(do: object, name: object) -> bool:
-    """Return whether a request is about commands and files, and not about what is in the kernel."""
+    """Return whether a request is about commands and files, not about objects in the kernel."""
     return do in COMMANDS or (do in ("look", "source") and str(name).startswith("file:"))
 
 
 class SplitChannel(Channel):
-    """The check runner's channel: commands and files go to the command runner, all else to the kernel."""
+    """The check runner's channel: requests about commands and files go to the command runner.
+
+    All other requests go to the student's kernel.
+    """
 
     def __init__(self, client: socket.socket, commands: socket.socket) -> None:
         super().__init__(client)
         self._commands = Channel(commands)
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
-        """Ask the process whose answer can be believed, and return the answer."""
+        """Send a request to the command runner or to the kernel, and return the answer."""
         if is_command(do, arguments.get("name")):
             return self._commands.ask(do, timeout=timeout, **arguments)
         return super().ask(do, timeout=timeout, **arguments)

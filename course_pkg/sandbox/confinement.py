@@ -1,4 +1,4 @@
-"""What a process gives up before it runs what a student wrote."""
+"""Remove the rights of a process before it runs a student's code."""
 
 from __future__ import annotations
 
@@ -10,23 +10,20 @@ from typing import Any, NoReturn
 
 from course_pkg.sandbox import namespaces
 
-STUDENT = 1000  # uid and gid, as the student's code sees them
-MEMORY = 1 << 30  # bytes of addresses a process
-CHECK_RUNNER = 2 << 30  # bytes of addresses of a check runner; most of them are stacks of its threads
-TOGETHER = 768 << 20  # bytes of memory that all processes of a part may use
-PROCESSES = 200  # and threads: a launch file of three nodes has about 60
-DISK = 128 << 20  # bytes below /student, and as much below /tmp
+STUDENT = 1000  # uid and gid of the student's code inside the sandbox
+MEMORY = 1 << 30  # bytes of address space for each process
+CHECK_RUNNER = 2 << 30  # bytes of address space of a check runner; its threads' stacks need most of it
+TOGETHER = 768 << 20  # bytes of memory for all processes of a part together
+PROCESSES = 200  # processes and threads; a launch file with three nodes has about 60
+DISK = 128 << 20  # bytes of files in /student, and the same limit for /tmp
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-SHADOW, SHADOWED = (
-    "/run/shown",
-    "COURSE_SHOWN",
-)  # copies of shown paths, and the variable that lists them
-FILES = 20_000
+SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"  # a folder with copies of paths, and the list of these paths
+FILES = 20_000  # the number of files in each of these folders
 FILE = 64 << 20  # bytes of one file
-OPEN = 256  # files and sockets, whose buffers no other limit counts
-PROCESSOR = 120  # s
+OPEN = 256  # open files and sockets; no other limit counts the buffers of sockets
+PROCESSOR = 120  # s of processor time
 
-TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: typing in another user's terminal
+TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: they write input into another user's terminal
 # fmt: off
 FORBIDDEN = (
     "acct", "add_key", "bpf", "chroot", "clock_adjtime", "clock_settime", "delete_module", "fanotify_init",
@@ -42,10 +39,11 @@ FORBIDDEN = (
 
 
 def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
-    """Run `work` with users, processes and memory folders of its own, and without privileges.
+    """Run `work` without privileges, in separate user and process namespaces with separate memory folders.
 
-    Call it in a fork of a trusted process that is root of its user namespace. It never returns: when `work`
-    has ended, all processes that it started are ended too. Without `may_write`, /student is read-only.
+    Call this function in a fork of a trusted process that is root of its user namespace. It never returns:
+    after the end of `work`, it also ends all processes that `work` started. Without `may_write`, /student is
+    read-only.
     """
     namespaces.die_with_parent()
     namespaces.unshare(
@@ -74,7 +72,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount empty folders for this sandbox only, and show what the outer sandbox shows below them."""
+    """Mount empty folders only for this sandbox, and show the paths of the outer sandbox in them again."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):
@@ -89,7 +87,7 @@ def _mount_memory_folders() -> None:
 
 
 def shadowed_paths() -> list[str]:
-    """Return the paths below /tmp and /dev/shm that the outer sandbox shows, such as a checkout in /tmp."""
+    """Return the paths in /tmp and /dev/shm that the outer sandbox shows, such as a checkout in /tmp."""
     return [path for path in os.environ.get(SHADOWED, "").split(os.pathsep) if path]
 
 
@@ -115,7 +113,7 @@ def write_filter(path: Path) -> None:
 
 
 def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
-    """Return a filter that refuses calls which no exercise needs and with which sandboxes were broken."""
+    """Return a filter that refuses system calls that attacks have used and that no exercise needs."""
     import errno
 
     import seccomp
@@ -126,7 +124,7 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read its flags
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read clone3's flags
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
     return rules
@@ -138,7 +136,7 @@ def _wait_and_exit(child: int) -> NoReturn:
 
 
 def _reap_until(child: int) -> NoReturn:
-    """Be the first process of a namespace: reap orphans, and end when `child` has ended."""
+    """Do the work of a namespace's first process: reap orphans, and end when `child` has ended."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while os.wait()[0] != child:
         pass

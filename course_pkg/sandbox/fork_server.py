@@ -1,4 +1,4 @@
-"""The process from which submissions are forked: it has imported everything except the checks."""
+"""The process that forks a process for each submission; it has imported everything except the checks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CLEAR_TIMEOUT = 60.0  # s
 
 
 def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoReturn:
-    """Fork a supervisor for each job from `sock`, and report when it and all below it have ended."""
+    """Fork a supervisor for each job from `sock`, and report when it and its descendants have ended."""
     namespaces.adopt_orphans()
     if sandboxed:
         _hide_checks(private)
@@ -27,19 +27,19 @@ def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoRetu
         send(sock, {"ready": True})
         while True:
             _, (job_file, messages, commands) = receive(sock)
-            # The supervisor reads the job: all later forks could find what this process once had in memory.
+            # Only the supervisor reads the job, because later forks could read this process's old memory.
             pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, sandboxed=sandboxed))  # noqa: B023
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
-            end_all_below(CLEAR_TIMEOUT)  # in a sandbox nothing is left
+            end_all_below(CLEAR_TIMEOUT)  # in a sandbox, there are no other processes left
             send(sock, {"over": status})
     except (EOFError, OSError):
         os._exit(0)
 
 
 def _hide_checks(private: str) -> None:
-    """Cover the checks of all chapters: no process that is forked from here can read them."""
+    """Hide the files of all checks, so that no process that is forked from here can read them."""
     namespaces.unshare(namespaces.MOUNT)
     for path in [*secret_paths(), *([Path(private)] if private else [])]:
         namespaces.hide(str(path))

@@ -1,4 +1,4 @@
-"""What crosses the boundary of the sandbox: the job of checking one part, and how it ended."""
+"""The data that enter and leave the sandbox: the job to check one part, and its result."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-SETUP_TIMEOUT = 25.0  # s for the cells before and after the answer, in which nodes may start
+SETUP_TIMEOUT = 25.0  # s for the cells before and after the answer, which may start nodes
 ANSWER_TIMEOUT = 20.0  # s for a student's cell
 
 LONGEST_PATH = 500  # characters
 
-Record = dict[str, Plain]  # of a check runner: its report, and the seed of its inputs
+Record = dict[str, Plain]  # the record of a check runner: its report, and the seed of its inputs
 
 
 @dataclass(frozen=True)
 class WorkFile:
-    """A file of a package that a student handed in; `content` is in base64."""
+    """A file of a package that a student submitted; `content` is in base64."""
 
     path: str  # relative, with / between the folders
     content: str
@@ -29,7 +29,7 @@ class WorkFile:
 
     @property
     def data(self) -> bytes:
-        """The content itself."""
+        """The decoded content of the file."""
         return base64.b64decode(self.content)
 
     def below(self, folder: str) -> WorkFile:
@@ -37,10 +37,10 @@ class WorkFile:
         return replace(self, path=f"{folder}/{self.path}")
 
     def write(self, folder: Path) -> None:
-        """Write the file below `folder`. Raises ValueError for a path that leads out of it."""
+        """Write the file into `folder`; raises ValueError if its path is invalid or leads out of `folder`."""
         parts = self.path.split("/")
         if not all(parts) or {".", ".."}.intersection(parts) or len(self.path) > LONGEST_PATH:
-            raise ValueError(f"{self.path[:LONGEST_PATH]!r} is no path of a file in a folder.")
+            raise ValueError(f"{self.path[:LONGEST_PATH]!r} is not the path of a file inside a folder.")
         target = folder.joinpath(*parts)
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(self.data)
@@ -56,8 +56,9 @@ def work_file(path: str, data: bytes, *, executable: bool = False) -> WorkFile:
 class PartJob:
     """One part: the cells to run, and the check to run after them.
 
-    `before` and `after` are the reference's cells; `answers` are the student's, the part's own cell the last.
-    `files` are in the work folder before any cell runs: packages that the student handed in.
+    `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last one
+    is the cell of this part. `files` are packages that the student submitted; they are written to the work
+    folder before any cell runs.
     """
 
     check: str
@@ -65,23 +66,23 @@ class PartJob:
     answers: tuple[str, ...]
     after: str
     seed: int
-    deadline: float  # s, of the check itself
+    deadline: float  # s for the check itself
     setup_timeout: float = SETUP_TIMEOUT
     answer_timeout: float = ANSWER_TIMEOUT
     files: tuple[WorkFile, ...] = ()
 
     @property
     def limit(self) -> float:
-        """The time (s) after which every process of this part is ended."""
+        """The time limit (s) for this part; after it, all processes of the part are ended."""
         return at_this_load(self.setup_timeout + self.answer_timeout * len(self.answers) + self.deadline)
 
     def as_json(self) -> str:
-        """Return the job on one line."""
+        """Return the job as one line of JSON."""
         return json.dumps(asdict(self))
 
 
 def job_from(text: str | bytes) -> PartJob:
-    """Return the job that `text`, made by `as_json`, describes."""
+    """Return the job from the output of `as_json`."""
     fields = json.loads(text)
     files = tuple(WorkFile(**each) for each in fields["files"])
     return PartJob(**{**fields, "answers": tuple(fields["answers"]), "files": files})
@@ -89,28 +90,28 @@ def job_from(text: str | bytes) -> PartJob:
 
 @dataclass(frozen=True)
 class PartResult:
-    """How a part ended: the check runner's record, if it made one, and the messages of the student's side."""
+    """The result of a part: the check runner's record, if any, and the messages of the student's process."""
 
     record: Record | None
-    ending: str  # why there is no record; empty where there is one
-    messages: tuple[dict[str, str], ...] = ()  # errors of cells, for feedback; never believed
+    ending: str  # the reason if there is no record, else ""
+    messages: tuple[dict[str, str], ...] = ()  # errors of cells, only for feedback because they may be false
     took: float = 0.0  # s
-    lost: bool = False  # True if the sandbox worker itself failed: then nothing is known about the answer
+    lost: bool = False  # True if the sandbox worker itself failed, so the result of the answer is unknown
 
     @property
     def report(self) -> Report | None:
-        """The check runner's report, where there is a record."""
+        """The check runner's report, or None without a record."""
         if self.record is None:
             return None
         fields = Report.__dataclass_fields__
         return report_from({key: value for key, value in self.record.items() if key in fields})
 
     def as_json(self) -> str:
-        """Return the result on one line."""
+        """Return the result as one line of JSON."""
         return json.dumps(asdict(self))
 
 
 def result_from(text: str | bytes) -> PartResult:
-    """Return the result that `text`, made by `as_json`, describes."""
+    """Return the result from the output of `as_json`."""
     fields = json.loads(text)
     return PartResult(**{**fields, "messages": tuple(fields["messages"])})

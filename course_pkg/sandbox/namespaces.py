@@ -1,7 +1,7 @@
-"""System calls of Linux for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
+"""Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
-Each function changes the calling process, which must have one thread only. It raises OSError with the name of
-the call if the kernel refuses it. The numbers come from the kernel's headers, which are named beside them.
+Each function changes the calling process, which must have only one thread. It raises OSError with the name of
+the system call if the kernel refuses the call. The comments name the kernel headers that define the numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32,
 MS_REC, MS_PRIVATE = 16384, 1 << 18
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # linux/prctl.h
 PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 36, 38
-CAPABILITIES = 64  # more than any kernel of today has
+CAPABILITIES = 64  # more than any current kernel has
 CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522  # asm/unistd.h, linux/capability.h
 SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64  # linux/sockios.h, linux/if.h
 
@@ -35,24 +35,24 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def unshare(kinds: int) -> None:
-    """Enter new namespaces of these `kinds`; for PROCESS, the next fork is the first process in it."""
+    """Create and enter namespaces of these `kinds`; a PROCESS namespace contains only later forks."""
     _done(_libc.unshare(ctypes.c_int(kinds)), "unshare")
 
 
 def enter(descriptor: int, kind: int) -> None:
-    """Enter the namespace that `descriptor` is open on."""
+    """Enter the existing namespace of the open file `descriptor`."""
     _done(_libc.setns(ctypes.c_int(descriptor), ctypes.c_int(kind)), "setns")
 
 
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
-    """In a user namespace just made, be `uid` and `gid`; `outside` are those it had before."""
+    """Become `uid` and `gid` in a new user namespace; `outside` are this process's uid and gid outside it."""
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
     Path("/proc/self/uid_map").write_text(f"{uid} {outside[0]} 1")
 
 
 def become_root() -> None:
-    """Become root of new user and mount namespaces, which gives no rights outside them."""
+    """Become root in new user and mount namespaces; this gives no rights outside of them."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)
@@ -60,14 +60,14 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Keep mounts of this namespace from the one that it came from, and the other way round."""
+    """Separate the mounts of this namespace from its parent: a new mount appears only in one of the two."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
-    """Mount an empty folder of at most `size` bytes and `files` files over `target`.
+    """Mount an empty folder over `target`, for at most `size` bytes and `files` files; 0 means the default.
 
-    The number of files has a limit too, because empty files also use memory.
+    The number of files also has a limit, because empty files use memory, too.
     """
     limits = [f"size={size}"] * bool(size) + [f"nr_inodes={files}"] * bool(files) + ["mode=0777"]
     _mount("tmpfs", target, "tmpfs", MS_NOSUID | MS_NODEV | (MS_RDONLY if read_only else 0), ",".join(limits))
@@ -82,12 +82,12 @@ def hide(path: str) -> None:
 
 
 def mount_processes() -> None:
-    """Mount a new /proc, which shows the processes of this namespace only."""
+    """Mount a new /proc, which shows only the processes of this namespace."""
     _mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, "")
 
 
 def bind(source: str, target: str) -> None:
-    """Show `source`, and all that is mounted below it, also at `target`."""
+    """Also show `source` at `target`, with everything that is mounted inside it."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
@@ -97,7 +97,7 @@ def make_read_only(target: str) -> None:
 
 
 def start_loopback() -> None:
-    """Bring up 127.0.0.1 in a network namespace just made; there is no other interface."""
+    """Start the interface 127.0.0.1 of a new network namespace, which has no other interface."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         asked = struct.pack("16sh14x", b"lo", 0)
         (flags,) = struct.unpack_from("h", fcntl.ioctl(sock, SIOCGIFFLAGS, asked), 16)
@@ -105,24 +105,24 @@ def start_loopback() -> None:
 
 
 def die_with_parent() -> None:
-    """Have this process killed when its parent ends. A change of user or of capabilities undoes this."""
+    """Make the kernel kill this process when its parent ends, until a change of user or capabilities."""
     _done(_libc.prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0), "prctl")
 
 
 def adopt_orphans() -> None:
-    """Become the parent of every descendant whose own parent ends, so that each of them can be found."""
+    """Become the parent of all descendants whose parents have ended; this process can then find them."""
     _done(_libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0), "prctl")
 
 
 def be_unreadable() -> None:
-    """Keep other processes of the same user from reading this one (ptrace, /proc/PID/mem, /proc/PID/fd)."""
+    """Prevent other processes of this user from reading this one (ptrace, /proc/PID/mem, /proc/PID/fd)."""
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 
 
 def give_up_privileges() -> None:
-    """Drop every capability for good; no program that is executed can get one back."""
+    """Drop all capabilities; programs that this process executes cannot get them back."""
     for number in range(CAPABILITIES):
-        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)  # fails for those that this kernel does not have
+        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)  # fails if this kernel has no such capability
     header = (ctypes.c_uint32 * 2)(CAPABILITY_VERSION_3, 0)
     nothing = (ctypes.c_uint32 * 6)()
     _done(_libc.syscall(CAPSET[os.uname().machine], header, nothing), "capset")
@@ -130,7 +130,7 @@ def give_up_privileges() -> None:
 
 
 def limit(**soft_and_hard: int) -> None:
-    """Set limits of this process and its children, such as NPROC=64 for RLIMIT_NPROC."""
+    """Set limits for this process and its children, for example NPROC=64 for RLIMIT_NPROC."""
     for name, value in soft_and_hard.items():
         which = getattr(resource, f"RLIMIT_{name}")
         _, hard = resource.getrlimit(which)

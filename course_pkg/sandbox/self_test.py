@@ -1,4 +1,4 @@
-"""Tries whether this machine can build a part's sandbox: exits with 0, or with the reason if not."""
+"""Test if this machine can create the sandbox of a part: exit with status 0, or with an error message."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course_pkg.sandbox import confinement, namespaces
 
 
 def main() -> None:
-    """Build the sandbox of one part around a process that only reports that it runs."""
+    """Create the sandbox of one part, with a process that only reports that it is running."""
     try:
         namespaces.become_root()
         namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)

@@ -1,6 +1,6 @@
-"""The student's side of one part: runs the cells as a kernel does, then the check client.
+"""The student's process of one part: it runs the cells as a kernel does, and then the check client.
 
-This process belongs to the code that it runs: nothing that it reports earns a point.
+The student's code controls this process, so its reports earn no points.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from course_pkg.waiting import interrupt_after
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
-REPEAT = 0.5  # s between alarms, for a cell that catches the first one
-LONGEST = 2000  # characters of an error that are passed on
+REPEAT = 0.5  # s between alarms, because a cell may catch the first one
+LONGEST = 2000  # characters; a longer error message is cut
 
 Send = Callable[[Mapping[str, str]], None]
 
 
 class CellTooSlow(BaseException):
-    """A cell has used up its time."""
+    """A cell has reached its time limit."""
 
 
 def prepare() -> InteractiveShell:
-    """Import what submissions use, and return the shell that runs them; the forks have all of it at once."""
+    """Import what submissions use, and return the shell that runs them; forks then need no imports."""
     import rosmaster.master  # noqa: F401
     import rospy  # noqa: F401
     from IPython.core.history import HistoryManager
@@ -40,7 +40,7 @@ def prepare() -> InteractiveShell:
     from course_pkg.ros import NodeProcess, PrivateGraph  # noqa: F401
     from course_pkg.types import message_type, service_type
 
-    HistoryManager.enabled = False  # type: ignore[assignment] # no file, no thread
+    HistoryManager.enabled = False  # type: ignore[assignment] # a history needs a file and a thread
     for kind in ("geometry_msgs/Twist", "sensor_msgs/Image", "std_msgs/Float64", "turtlesim/Pose"):
         message_type(kind)
     for kind in ("std_srvs/SetBool", "course_pkg/geometry", "turtlesim/Spawn"):
@@ -52,7 +52,7 @@ def prepare() -> InteractiveShell:
 
 def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
     """Run the cells of `job`, then its check. An error is sent as a message, and the next cell still runs."""
-    random.seed()  # every fork would begin with the same numbers
+    random.seed()  # otherwise, every fork would begin with the same numbers
     _run(shell, "before", job.before, job.setup_timeout, send)
     for number, source in enumerate(job.answers, 1):
         _run(shell, f"answer {number}", source, job.answer_timeout, send)
@@ -81,13 +81,13 @@ def _run(shell: InteractiveShell, name: str, source: str, seconds: float, send: 
         result = shell.run_cell(source, store_history=False)
     error = result.error_before_exec or result.error_in_exec
     if isinstance(error, CellTooSlow):
-        send({"cell": name, "error": f"The cell was stopped, because it ran for more than {seconds:g} s."})
+        send({"cell": name, "error": f"The cell was stopped because it ran for more than {seconds:g} s."})
     elif error is not None:
         send({"cell": name, "error": f"{type(error).__name__}: {error}"[:LONGEST]})
 
 
 def _make_folder(source: str) -> None:
-    """Make the folder of the file that a cell writes: in the notebook, an earlier cell makes it."""
+    """Create the folder of the file that a cell writes; in the notebook, an earlier cell creates it."""
     first, _, _ = source.partition("\n")
     if first.startswith("%%writefile "):
         with suppress(OSError):

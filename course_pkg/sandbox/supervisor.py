@@ -1,4 +1,4 @@
-"""The supervisor of one part: makes its network and folders, starts its processes, and ends them all."""
+"""The supervisor of one part: it creates the network and folders, and starts and ends all processes."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 MASTER_PORT = 11311
 MASTER_TIMEOUT = 5.0  # s
 CLEAR_TIMEOUT = 5.0  # s
-MEMORY_INTERVAL = 0.1  # s between two looks at the memory
-COUNTED = ("RssAnon:", "RssShmem:")  # proc(5): KiB of its own, and shared without a file
+MEMORY_INTERVAL = 0.1  # s between two checks of the memory
+COUNTED = ("RssAnon:", "RssShmem:")  # proc(5): private memory, and shared memory without a file, in KiB
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
-TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # how a supervisor ends: its exit status
+TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # exit statuses of a supervisor
 
 
 def supervise(
@@ -40,9 +40,9 @@ def supervise(
     *,
     sandboxed: bool,
 ) -> NoReturn:
-    """Start the master, the command runner and the student's process; wait until the student's has ended.
+    """Start the master, the command runner and the student's process, and wait for the student's process.
 
-    SIGTERM ends it earlier. All of the part's processes end with this one.
+    SIGTERM ends the wait earlier. All processes of the part end with this process.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
@@ -94,7 +94,7 @@ def _set_environment(folder: str, port: int, listener: int) -> None:
 
 
 def _start(work: Callable[[], None]) -> int:
-    """Fork a process that ends with this one and handles its own signals; return its process id."""
+    """Fork a process that ends when this one ends, with unblocked signals; return its process id."""
 
     def run() -> None:
         namespaces.die_with_parent()
@@ -106,7 +106,7 @@ def _start(work: Callable[[], None]) -> int:
 
 
 def run_master(port: int) -> None:
-    """Run a master at `port` until this process is ended."""
+    """Run a master at `port` until this process ends."""
     import rosmaster.master
 
     rosmaster.master.Master(port, num_workers=3).start()
@@ -130,20 +130,20 @@ def _confine(work: Callable[[], None], *, sandboxed: bool, may_write: bool) -> N
     folder = os.getcwd()
 
     def run() -> None:
-        os.chdir(folder)  # in a sandbox this path leads to another mount
+        os.chdir(folder)  # in a sandbox, the same path now belongs to another mount
         work()
 
     confinement.run_confined(run, may_write=may_write) if sandboxed else run()
 
 
 def _close_all_but(descriptor: int) -> None:
-    """Close every file but the standard ones and `descriptor`: the sandboxed process would inherit them."""
+    """Close all files except `descriptor` and 0 to 2, because the sandboxed process would inherit them."""
     os.closerange(3, descriptor)
     os.closerange(descriptor + 1, 4096)
 
 
 def _watch(student: int) -> int:
-    """Return why the part is over: the student's process ended, it took too much memory, or SIGTERM came."""
+    """Wait for the end of the student's process, too much memory, or SIGTERM; return the exit status."""
     while True:
         came = signal.sigtimedwait(SIGNALS, MEMORY_INTERVAL)
         if came is not None and came.si_signo == signal.SIGTERM:
@@ -155,7 +155,7 @@ def _watch(student: int) -> int:
 
 
 def memory_below(ancestor: int) -> int:
-    """Return how many bytes the processes below `ancestor` hold."""
+    """Return the memory in bytes that the descendants of `ancestor` use."""
     held = 0
     for pid in descendants(ancestor):
         with suppress(OSError):
@@ -167,7 +167,7 @@ def memory_below(ancestor: int) -> int:
 
 
 def _end_all(folder: str, *, sandboxed: bool) -> None:
-    """Kill all that is below, wait for it, and remove the folder; a namespace takes its mounts along."""
+    """Kill all descendants, wait for their end, and remove the folder; a namespace removes its own mounts."""
     end_all_below(CLEAR_TIMEOUT)
     if not sandboxed:
         shutil.rmtree(folder, ignore_errors=True)

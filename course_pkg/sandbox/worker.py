@@ -1,7 +1,7 @@
-"""The trusted process of a sandbox worker: takes one job a line, and answers each with its result, a line.
+"""The trusted process of a sandbox worker: it reads jobs, one per line, and prints a line with each result.
 
-It is started with two arguments: "sandboxed" if bubblewrap runs it, "unsafe" if nothing does; and the folder
-of an instructor's private parts, or an empty string.
+It needs two arguments. The first is "sandboxed" if bubblewrap runs it, or "unsafe" without a sandbox. The
+second is the folder of an instructor's private parts, or an empty string.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
 
 START_TIMEOUT = 60.0  # s for the fork server to import everything
 PLACE_TIMEOUT = 15.0  # s for a supervisor to start its processes
-END_TIMEOUT = 8.0  # s for a supervisor to end all below it
-KILLED_TIMEOUT = 30.0  # s for the fork server to see that a supervisor was killed
-VERDICT_TIMEOUT = 3.0  # s for a check runner to come to its verdict after the student's process has ended
-CHUNK = 65536  # bytes; also the most that is read of the messages of the student's side
+END_TIMEOUT = 8.0  # s for a supervisor to end all its descendants
+KILLED_TIMEOUT = 30.0  # s for the fork server to report that a supervisor was killed
+VERDICT_TIMEOUT = 3.0  # s for a check runner to finish its verdict after the student's process has ended
+CHUNK = 65536  # bytes; also the limit for the messages of the student's process
 
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process in which the answer ran ended before its check was done",
-    supervisor.TOO_MUCH_MEMORY: "the answer used more memory than an answer may use",
+    supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
 }
 
 
 def main() -> None:
-    """Serve jobs from stdin until it ends."""
+    """Run the jobs from stdin until stdin is closed."""
     namespaces.die_with_parent()
     sandboxed, private = sys.argv[1] == "sandboxed", sys.argv[2]
     if sandboxed:
@@ -62,7 +62,10 @@ def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, *, sa
 
 
 def _import_checks(private: str) -> None:
-    """Import every check, so that a check runner costs one fork; the fork server was forked before this."""
+    """Import every check: a check runner then needs no imports, only a fork.
+
+    The fork server was forked before this, so it does not have the checks in its memory.
+    """
     from course_pkg.checking.parts import add_private, every_part
 
     if private:
@@ -77,15 +80,15 @@ class Session:
         self._fork_server = fork_server
         self._job = job
         self._sandboxed = sandboxed
-        self._over: int | None = None  # how the supervisor ended
+        self._over: int | None = None  # the wait status of the supervisor
         self._supervisor = 0
         self._began = time.monotonic()
-        self._limit = job.limit  # s; at the load of this moment
+        self._limit = job.limit  # s; it depends on the current load of the machine
 
     def run(self) -> PartResult:
-        """Run the job, and end all that it started.
+        """Run the job, and end all processes that it started.
 
-        Raises TimeoutError when the fork server does not answer; then this worker cannot be used any more.
+        Raises TimeoutError if the fork server does not answer; after this, the worker is unusable.
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)
@@ -94,7 +97,7 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                raise  # the next message of the fork server could belong to any job
+                raise  # The next message of the fork server may belong to this job or to the next one.
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_supervisor()
@@ -102,9 +105,9 @@ class Session:
             return PartResult(record, "" if record else ending, _messages_of(messages), took)
 
     def _begin(self, stack: ExitStack) -> tuple[int, socket.socket]:
-        """Hand the job to the fork server; return the pipe of messages, and our end of the commands."""
+        """Send the job to the fork server; return the pipe for messages, and the socket for commands."""
         job_file = os.memfd_create("job")
-        unseeded = replace(self._job, seed=0)  # only the check runner may know which inputs it will draw
+        unseeded = replace(self._job, seed=0)  # only the check runner may know its random inputs
         os.write(job_file, unseeded.as_json().encode())
         os.lseek(job_file, 0, os.SEEK_SET)
         reading, writing = os.pipe()
@@ -117,7 +120,7 @@ class Session:
         return reading, stack.enter_context(ours)
 
     def _placed(self, stack: ExitStack) -> tuple[int, int, socket.socket]:
-        """Return the part's network, its master's port, and the socket on which the check client calls."""
+        """Return the part's network, its master's port, and the socket to which the check client connects."""
         message, descriptors = receive(self._fork_server, PLACE_TIMEOUT)
         if "over" in message:
             self._over = int(message["over"])
@@ -130,7 +133,7 @@ class Session:
     def _checked(
         self, network: int, port: int, listener: socket.socket, commands: socket.socket
     ) -> tuple[Record | None, str]:
-        """Wait for the check client, run the check, and return the record, or why there is none."""
+        """Wait for the check client, run the check, and return the record, or the reason without a record."""
         if listener not in self._wait([listener]):
             return None, self._reason()
         client, _ = listener.accept()
@@ -158,11 +161,11 @@ class Session:
         from course_pkg.sandbox.check_process import check_part
 
         namespaces.die_with_parent()
-        namespaces.limit(AS=confinement.CHECK_RUNNER)  # a submission decides how much it sends to its check
+        namespaces.limit(AS=confinement.CHECK_RUNNER)  # a submission may send any amount of data
         check_part(self._job, network, port, client, commands, out, sandboxed=self._sandboxed)
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
-        """Wait for one of `files`, until the supervisor has ended or the job's time is over."""
+        """Wait until one of `files` is ready, the supervisor has ended, or the job's time is over."""
         left = self._began + self._limit - time.monotonic()
         ready = select.select([*files, self._fork_server], [], [], max(left, 0.0))[0]
         if self._fork_server in ready:
@@ -183,7 +186,7 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message: without it, this worker cannot be used any more.
+                # The next job must not receive this message; if it does not come, the worker is unusable.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 
@@ -199,7 +202,7 @@ def _record(reading: int) -> Record | None:
 
 
 def _messages_of(descriptor: int) -> tuple[dict[str, str], ...]:
-    """Return the messages of the student's side; a line that is not a JSON object is dropped."""
+    """Return the messages of the student's process; lines that are not JSON objects are omitted."""
     os.set_blocking(descriptor, False)
     messages = []
     with suppress(BlockingIOError):

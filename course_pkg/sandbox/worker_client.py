@@ -1,4 +1,4 @@
-"""A sandbox worker as the grader sees it: a process that runs parts in a sandbox, one at a time."""
+"""The grader's end of a sandbox worker, a process that runs parts in a sandbox, one at a time."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from course_pkg.sandbox.job import PartJob, PartResult, result_from
 from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
-START_TIMEOUT = 90.0  # s; a machine at rest takes two
-SLACK = 45.0  # s beyond a part's own limit, after which the worker itself has failed
+START_TIMEOUT = 90.0  # s; a machine without load needs 2 s
+SLACK = 45.0  # s after a part's own limit; after this time, the worker itself has failed
 
 
 class SandboxWorker:
-    """Runs parts; a context manager. After WorkerFailed it restarts with the next part.
+    """A context manager that runs parts. After WorkerFailed, the next part starts the worker again.
 
-    The processes in the sandbox end with the thread that called `run` first. `private` is the folder of an
-    instructor's private parts, which no submission can read. With `sandboxed=False` there is no sandbox.
+    The processes in the sandbox end when the thread that called `run` first ends. `private` is the folder of
+    an instructor's private parts, which no submission can read. With `sandboxed=False` there is no sandbox.
     """
 
     def __init__(self, *, sandboxed: bool = True, private: str = "") -> None:
@@ -44,14 +44,14 @@ class SandboxWorker:
         self.close()
 
     def run(self, job: PartJob) -> PartResult:
-        """Run one part to its end. Raises WorkerFailed when the worker itself ends or does not answer."""
+        """Run one part and return its result; raises WorkerFailed if the worker ends or does not answer."""
         process = self._started()
         assert process.stdin is not None
         try:
             process.stdin.write(job.as_json().encode() + b"\n")
             process.stdin.flush()
         except OSError as error:
-            raise self._failed("it takes no work") from error
+            raise self._failed("it accepts no jobs") from error
         return result_from(self._line(job.limit + SLACK))
 
     def close(self) -> None:
@@ -96,9 +96,9 @@ class SandboxWorker:
         return line
 
     def _failed(self, what: str) -> WorkerFailed:
-        """End the worker and return the error that tells how it failed."""
+        """End the worker, and return an error with the reason and the last line of the worker's output."""
         assert self._log is not None
         self._log.seek(0)
         last = self._log.read()[-2000:].decode("utf-8", "replace").strip().splitlines()[-1:]
         self.close()
-        return WorkerFailed(": ".join([f"The process that runs submissions failed, {what}", *last]))
+        return WorkerFailed(": ".join([f"The process that runs submissions failed: {what}", *last]))

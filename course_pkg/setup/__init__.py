@@ -1,6 +1,6 @@
-"""Sets up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
+"""Set up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
 
-It runs before these exist, so it uses only the standard library.
+The set-up runs before these exist, so it uses only the standard library.
 """
 
 from course_pkg.setup import environment

@@ -1,4 +1,4 @@
-"""`course doctor` and `course lock`; and what every command of `course` declares."""
+"""The commands `course doctor` and `course lock`, and the class of all commands."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-UNSAFE = "--unsafe-no-sandbox"  # with it, `course grade` needs nothing besides the course
+UNSAFE = "--unsafe-no-sandbox"  # with this option, `course grade` needs no packages for grading
 
 
 class Command(NamedTuple):
-    """A subcommand. It is read before anything is set up, so it imports what it runs only in `run`.
+    """A subcommand. It exists before the set-up, so only `run` may import other modules.
 
-    `needs` says what has to be set up for it: "course", and also "grade" or "test". A command that imports
-    libraries needs "libraries": it runs on the interpreter of the virtual environment.
-    Where `rest` is not empty, all arguments belong to another program; `rest` shows them in the usage.
+    `needs` lists what has to be set up first: "course", and also "grade" or "test". A command that imports
+    libraries needs "libraries" and runs with the interpreter of the virtual environment. If `rest` is not
+    empty, all arguments are for another program, and `rest` is their text in the usage.
     """
 
     summary: str
@@ -44,6 +44,6 @@ def _lock(_options: SimpleNamespace) -> int:
 
 
 COMMANDS = {
-    "doctor": Command("show what is installed, missing and stale, and what to do", _doctor, frozenset()),
-    "lock": Command("pin every library that pyproject.toml needs", _lock),
+    "doctor": Command("show what is installed, missing or outdated, and what to do", _doctor, frozenset()),
+    "lock": Command("write the exact versions of all libraries that pyproject.toml needs", _lock),
 }

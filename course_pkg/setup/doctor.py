@@ -1,4 +1,4 @@
-"""`course doctor`: what is installed, missing or stale, and what to do about it."""
+"""`course doctor`: show what is installed, missing or outdated, and what to do about it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.steps import Step, steps_of
 from course_pkg.waiting import wait_until
 
-ENDING = 5.0  # s in which a process that has lost its owner ends
-NEEDED = 1 << 30  # bytes that a complete set-up takes, with some to spare
+ENDING = 5.0  # s; a process ends within this time after its owner was killed
+NEEDED = 1 << 30  # bytes; a complete set-up needs a little less
 
 
 class Finding(NamedTuple):
-    """The result of one examination: all is well, or `advice` says what to do."""
+    """The result of one examination; `advice` tells the user what to do, and is empty if all is well."""
 
     what: str
     seen: str
@@ -51,12 +51,12 @@ def _installed(places: Places) -> Iterator[Finding]:
         try:
             platform = packages.read_platform(places.checkout)
         except SetupError as error:
-            yield Finding("system", "not one that has ROS 1", str(error))
+            yield Finding("system", "has no packages of ROS 1", str(error))
             return
         yield Finding("system", platform.name)
         for part, needed_by in (("course", "course lab"), ("grade", "course grade"), ("test", "course test")):
             missing = packages.missing_packages(getattr(platform, part))
-            advice = f"`./course {needed_by.split()[1]}` installs them; or, as an administrator: " + (
+            advice = f"`./course {needed_by.split()[1]}` installs them; or type as an administrator: " + (
                 f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}"
             )
             seen = f"missing: {' '.join(missing)}" if missing else "installed"
@@ -73,19 +73,20 @@ def _installed(places: Places) -> Iterator[Finding]:
 def _made(step: Step, command: str) -> Finding:
     if step.is_done():
         return Finding(step.title, str(step.makes))
-    seen = "stale" if step.makes and step.makes.exists() else "not there yet"
-    return Finding(step.title, seen, f"`./course {command}` does it")
+    seen = "outdated" if step.makes and step.makes.exists() else "missing"
+    return Finding(step.title, seen, f"Run `./course {command}`.")
 
 
 def _disk(places: Places) -> Finding:
     folder = next(path for path in (places.cache, *places.cache.parents) if path.exists())
     if not os.access(folder, os.W_OK):
-        return Finding("cache", f"{folder} cannot be written to", "Set XDG_CACHE_HOME to a folder of yours.")
+        advice = "Set XDG_CACHE_HOME to a folder that you can write to."
+        return Finding("cache", f"{folder} is not writable", advice)
     free = shutil.disk_usage(folder).free
     advice = (
         ""
         if free > NEEDED or places.environment.exists()
-        else f"Make room: a set-up takes {NEEDED >> 20} MB."
+        else f"Delete other files: a set-up needs {NEEDED >> 20} MB."
     )
     return Finding("disk", f"{free >> 20} MB free for {places.cache}", advice)
 
@@ -100,9 +101,7 @@ def _master() -> Finding:
     except ValueError:
         well_formed = False
     if not well_formed:
-        return Finding(
-            "ROS_MASTER_URI", given, "It must be like http://localhost:11311. Correct or unset it."
-        )
+        return Finding("ROS_MASTER_URI", given, "Change it to the form http://localhost:11311, or unset it.")
     return _answering(given, str(parts.hostname), parts.port or 0)
 
 
@@ -117,9 +116,9 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 
 
 def _leftovers(places: Places) -> Iterator[Finding]:
-    """Look for processes of this checkout whose parent has ended, and that do not end by themselves.
+    """Find processes of this checkout that are still running although their parent has ended.
 
-    After a SIGKILL of its owner, a process is ended within seconds.
+    If the owner of a process is killed by SIGKILL, its supervisor normally ends the process within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)

@@ -1,4 +1,4 @@
-"""The environment of ROS: taken once from the workspace's setup.bash, then applied from a file."""
+"""The environment of ROS: it is read once from the workspace's setup.bash, and then stored in a file."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from pathlib import Path
 from course_pkg.files import write_atomically
 from course_pkg.setup.places import Places
 
-# The user's own settings, which must not reach the course. With the last one, Python would compile all of
-# JupyterLab at every start (2 s).
+# Settings of the user that the course does not use. The first three could break it. With the last one, Python
+# would compile all of JupyterLab at every start (2 s).
 REMOVED = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
-LOOPBACK = "devel/lib/libcourse_loopback.so"  # see ros/process/loopback.c
+LOOPBACK = "devel/lib/libcourse_loopback.so"  # built from ros/process/loopback.c
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")
 NETWORK = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")
 
@@ -35,11 +35,11 @@ def write(places: Places) -> None:
 
 
 def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
-    """Return `environ` with the course's environment over it.
+    """Return `environ` with the course's environment added; the course's values replace the user's.
 
-    The interpreter's folder and the system's come first on PATH, before the user's other folders.
-    ROS_MASTER_URI, ROS_HOSTNAME and ROS_IP keep the values that the user gave them. LD_PRELOAD names the
-    library with which nodes in C++ listen on 127.0.0.1 only, if ROS_HOSTNAME is localhost.
+    On PATH, the folders of the interpreter and of the system come before the user's other folders.
+    ROS_MASTER_URI, ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD names a library: if
+    ROS_HOSTNAME is localhost, it makes C++ nodes listen only on 127.0.0.1.
     """
     result = {name: value for name, value in environ.items() if name not in REMOVED}
     result.update(json.loads(places.environment.read_text()))
@@ -49,18 +49,18 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     if not any(environ.get(name) for name in NETWORK):
         result["ROS_HOSTNAME"] = "localhost"
     library = places.workspace / LOOPBACK
-    if library.exists():  # only Linux has it
+    if library.exists():  # it is built only on Linux
         preloaded = environ.get("LD_PRELOAD", "").replace(":", " ").split()
         result["LD_PRELOAD"] = ":".join(dict.fromkeys([*preloaded, str(library)]))
     result.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
-    # rospy's messages import numpy. Its threads would receive signals that a node blocks, and a process that
-    # has threads cannot enter a user namespace.
+    # rospy's messages import numpy, which starts threads. They would receive signals that a node blocks, and
+    # a process with several threads cannot enter a user namespace.
     result.setdefault("OPENBLAS_NUM_THREADS", "1")
     return result
 
 
 def apply(places: Places | None = None) -> bool:
-    """Apply the environment to this process; return False, and change nothing, if it is not built yet."""
+    """Apply the environment to this process; if it is not built yet, change nothing and return False."""
     places = places or Places.of()
     try:
         fresh = merged(places, os.environ)
@@ -74,7 +74,7 @@ def apply(places: Places | None = None) -> bool:
 
 
 def python_path(places: Places) -> list[str]:
-    """Return the folders of the course's modules and of those that catkin generated."""
+    """Return the folders of the course's modules and of the modules that catkin generated."""
     generated = [str(path) for path in (places.workspace / "devel").glob("lib/python3*/*-packages")]
     return [str(places.checkout), *generated]
 

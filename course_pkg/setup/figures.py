@@ -1,6 +1,6 @@
-"""How a kernel shows the figures of matplotlib: as SVG, the same for the same data.
+"""Make a kernel show figures of matplotlib as SVG, with the same SVG for the same data.
 
-nbval compares the text of a figure's output and leaves the SVG out: see authoring/nbval_plugin.py.
+nbval compares the text of a figure's output, but not the SVG: see authoring/nbval_plugin.py.
 """
 
 from __future__ import annotations
@@ -8,8 +8,9 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. Unless "Date" is None, its metadata has the time of the run.
-# With "none", a text stays a text: it is small, and a program can read it aloud.
+# Without a salt, the ids in an SVG are random. Unless "Date" is None, its metadata contain the time of the
+# run. With "none", letters are stored as text, not as shapes: the SVG is smaller, and a screen reader can
+# read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},
@@ -21,15 +22,15 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    It imports nothing: matplotlib's inline backend reads the settings when it draws its first figure. If it
-    has drawn one already, the settings hold from the next figure on.
+    The function imports nothing: matplotlib's inline backend reads the settings before its first figure. If
+    it has already drawn a figure, the settings apply to the next one.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     if shell is None:
         return
     shell.config.InlineBackend.update(SETTINGS)
-    # On a new machine, matplotlib logs that it builds its cache of fonts, and a cell would show that.
+    # On a new machine, matplotlib logs that it builds its cache of fonts, and a cell would show this message.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     config = sys.modules.get("matplotlib_inline.config")
     if config and config.InlineBackend.initialized():

@@ -1,4 +1,4 @@
-"""Runs the tools of the set-up, and keeps their output in one file."""
+"""Run the tools of the set-up, and store their output in one file."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from course_pkg.errors import SetupError
 KEPT_LOGS = 10
 TAIL_LINES = 8
 WATCH_INTERVAL = 0.5  # s
-LEAST_FREE = 1 << 20  # bytes; a disk with less counts as full
+LEAST_FREE = 1 << 20  # bytes; a disk with less free space counts as full
 FULL = ("No space left on device", "not enough free space")
 
 
 class Journal:
-    """One run of the set-up: its log file, and its lock, which its tools hold as well."""
+    """One run of the set-up: its log file, and its lock, which its tools inherit."""
 
     def __init__(self, folder: Path, lock: int) -> None:
         self._lock = lock
@@ -33,11 +33,11 @@ class Journal:
         env: Mapping[str, str] | None = None,
         watch: Callable[[str], None] | None = None,
     ) -> None:
-        """Run `command` to its end; `watch` gets the last line of its output twice a second.
+        """Run `command` to its end; call `watch` with the last line of its output twice per second.
 
-        The output goes to a file and not through a pipe, and the command inherits the lock: if the set-up
-        is killed, a package manager can still finish, and the next set-up waits for that. Raises SetupError,
-        with the last lines of the output, if the command fails.
+        If the set-up is killed, a package manager can still finish, because its output goes to a file, not
+        through a pipe. The command inherits the lock, so the next set-up waits for its end. Raises
+        SetupError, with the last lines of the output, if the command fails.
         """
         with self.path.open("ab") as log:
             log.write(f"$ {' '.join(map(str, command))}\n".encode())
@@ -63,13 +63,13 @@ class Journal:
     def _failure(self, command: Sequence[str | Path], status: int, start: int) -> SetupError:
         lines = self._tail(start, 400)
         if self._is_full() or any(message in line for line in lines for message in FULL):
-            return SetupError(f"The disk is full. Make room, and start again. ({self.path})")
+            return SetupError(f"The disk is full ({self.path}). Delete other files, and start again.")
         shown = "\n".join(f"  {line}" for line in lines[-TAIL_LINES:])
         name = " ".join(str(part) for part in command if not str(part).startswith("-"))[:80]
         return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole output: {self.path}")
 
     def _is_full(self) -> bool:
-        """Return whether the cache's disk is full: not every tool reports it."""
+        """Return whether the cache's disk is full, because not every tool reports this."""
         disk = os.statvfs(self.path)
         return disk.f_bavail * disk.f_frsize < LEAST_FREE
 

@@ -1,4 +1,4 @@
-"""The Python libraries: a virtual environment on the interpreter of ROS, filled by uv from a lock file."""
+"""Install the Python libraries of a lock file with uv, into a virtual environment with ROS's interpreter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-SLOW_STARTER = "a1_coverage.pth"  # it delays every start of Python by 30 ms, also of nodes and kernels
+SLOW_STARTER = "a1_coverage.pth"  # it delays every start of Python by 30 ms, also for nodes and kernels
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -33,7 +33,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    "UV_INDEX_STRATEGY": "unsafe-best-match",  # as pip does; the hashes of the lock keep it safe
+    "UV_INDEX_STRATEGY": "unsafe-best-match",  # pip's strategy; it is safe because the lock file has hashes
 }
 
 
@@ -43,26 +43,26 @@ def lock_file(extra: str) -> Path:
 
 
 def libraries_key(extra: str) -> str:
-    """Return a hash of what the environment is made from: the lock, and the interpreter under it."""
+    """Return a hash of the environment's inputs: the lock file and the interpreter."""
     return digest([lock_file(extra).read_bytes(), base_python(), sys.version])
 
 
 def environment_works(places: Places) -> bool:
-    """Return whether the environment's interpreter still leads to one that exists."""
+    """Return whether the environment's interpreter, which is a link, still exists."""
     return os.access(places.python, os.X_OK)
 
 
 def make_environment(places: Places, extra: str, journal: Journal) -> None:
-    """Make the virtual environment where it is missing, and install what the lock of `extra` names.
+    """Create the virtual environment if it is missing, and install the libraries in the lock of `extra`.
 
-    Libraries that the user has installed besides stay. Raises SetupError if a tool fails.
+    Other libraries that the user has installed are kept. Raises SetupError if a tool fails.
     """
     uv, env = installed_uv(places, journal), uv_environment()
     if not _is_on_base(places):
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # A lock is complete, and leaves out on purpose what some libraries ask for: see lock.py.
+    # --no-deps: a lock lists all libraries, but intentionally omits some unused dependencies (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     journal.run([uv, "pip", "install", "--python", places.python, *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{SLOW_STARTER}"):
@@ -70,12 +70,12 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
 
 
 def uv_program(places: Places) -> Path:
-    """Return where uv is once it is installed; each version has its own folder."""
+    """Return the path of uv after its installation; each version has its own folder."""
     return places.tools / f"uv-{digest([lock_file('uv').read_bytes()])}" / "bin" / "uv"
 
 
 def installed_uv(places: Places, journal: Journal) -> Path:
-    """Return uv; pip installs it first if it is not there yet. Raises SetupError if pip fails."""
+    """Return the path of uv; if it is missing, pip installs it first. Raises SetupError if pip fails."""
     uv = uv_program(places)
     if not uv.exists():
         folder = uv.parents[1]
@@ -91,20 +91,20 @@ def installed_uv(places: Places, journal: Journal) -> Path:
             lock_file("uv"),
         ]
         journal.run(command, env=_clean_environment())
-        with suppress(OSError):  # the set-up of another checkout may have been first
+        with suppress(OSError):  # the set-up of another checkout may have installed it meanwhile
             fresh.rename(folder)
     return uv
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment, with the user's settings for pip as uv's variables."""
+    """Return this process's environment, with the user's pip settings translated to uv's variables."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 
 def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return variables that give pip's `settings` to uv, which reads no pip.conf.
+    """Return pip's `settings` as variables for uv, because uv does not read pip.conf.
 
-    A variable that `environ` sets already is left out.
+    The result omits variables that are already set in `environ`.
     """
     variables = dict(UV_SETTINGS)
     for option, variable in PIP_TO_UV.items():
@@ -115,9 +115,9 @@ def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str
 
 
 def pip_command() -> list[str]:
-    """Return a pip that is there already: the distribution's wheel of it, or the interpreter's own.
+    """Return the command of an installed pip: the distribution's wheel, or the interpreter's own pip.
 
-    Raises SetupError if there is neither.
+    Raises SetupError if this machine has no pip.
     """
     wheels = sorted(Path("/usr/share/python-wheels").glob("pip-*.whl"))
     if wheels:
@@ -134,7 +134,7 @@ def _exists(place: str) -> bool:
 
 
 def _pip_settings() -> dict[str, list[str]]:
-    """Return pip's settings from its files and from the variables PIP_…, which come last and win."""
+    """Return pip's settings from its files and from the variables PIP_…, which have priority."""
     listing = subprocess.run(
         [*pip_command(), "config", "list"],
         capture_output=True,
@@ -162,7 +162,7 @@ def base_python() -> str:
 
 
 def _is_on_base(places: Places) -> bool:
-    """Return whether there is an environment, made at its present place and on this interpreter."""
+    """Return whether the environment exists, and was created in this folder with this interpreter."""
     if not environment_works(places):
         return False
     program = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"

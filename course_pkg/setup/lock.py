@@ -1,4 +1,4 @@
-"""Writes the lock files: every library with its version and the hashes of its files, from pyproject.toml."""
+"""Write the lock files: every library of pyproject.toml with its version and the hashes of its files."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from course_pkg.setup.libraries import lock_file, uv_program
 from course_pkg.setup.places import Places
 
 UV = "uv==0.13.8"
-# Parsers of rare formats in JSON schemas, and what only these need. jupyter_events asks for them as an extra
-# of jsonschema, which works without them. One compiles a grammar when it is imported: 1.3 s of each start.
+# Parsers of rare formats in JSON schemas, and their own dependencies. jupyter_events requires them as an
+# extra of jsonschema, which works without them. The import of one parser compiles a grammar: 1.3 s at each
+# start.
 LEFT_OUT = ("arrow", "fqdn", "isoduration", "lark", "rfc3987-syntax", "uri-template", "webcolors")
 HEADER = "# Written by `./course lock` from pyproject.toml. Do not edit.\n"
 WITHOUT = f"""\
@@ -22,7 +23,7 @@ WITHOUT = f"""\
 
 
 def write_locks(places: Places) -> list[Path]:
-    """Resolve pyproject.toml for every Python that the course supports, and write the lock files."""
+    """Write the lock files of pyproject.toml for all supported versions of Python; return their paths."""
     checkout, uv = places.checkout, uv_program(places)
     _compile(uv, checkout, ["-"], lock_file("uv"), UV)
     _compile(uv, checkout, ["pyproject.toml"], lock_file("course"))

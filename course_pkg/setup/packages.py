@@ -1,4 +1,4 @@
-"""The packages of the distribution: which ones the course needs on this machine, and installing them."""
+"""The packages of the distribution: list those that the course needs on this machine, and install them."""
 
 from __future__ import annotations
 
@@ -26,23 +26,24 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    "Dpkg::Options::=--force-unsafe-io",  # fewer syncs: a power failure is repaired by starting again
+    "Dpkg::Options::=--force-unsafe-io",  # faster; a failed set-up is repeated
     "-o",
     "Dpkg::Options::=--force-confold",
 )
 LISTS = Path("/var/lib/apt/lists")
 STATUS = Path("/var/lib/dpkg/status")
-FRESH = 24 * 3600  # s for which apt's lists count as up to date
+FRESH = 24 * 3600  # s; apt's lists are up to date for this time
 APT = "/usr/bin/apt-get"
-UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")  # in English, because of LOCKED
+# The messages have to be in English, because LOCKED matches English messages.
+UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")
 LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
-LOCK_TIMEOUT = 600.0  # s; apt-get install can wait for a lock by itself, its update and dpkg cannot
+LOCK_TIMEOUT = 600.0  # s; `apt-get install` can wait for a lock, but `apt-get update` and dpkg cannot
 RETRY_INTERVAL = 2.0  # s between two attempts
-WAITING = "Another program is installing packages; waiting for it (10 minutes at most)."
+WAITING = "Another program is installing packages. Waiting for its end, for at most 10 minutes."
 
 
 class Platform(NamedTuple):
-    """A distribution that has ROS 1, with the packages that the course needs on it."""
+    """A distribution with ROS 1, and the packages that the course needs on it."""
 
     name: str
     bootstrap: tuple[str, ...]
@@ -52,9 +53,9 @@ class Platform(NamedTuple):
 
 
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
-    """Return the platform that `os_release` names; derivatives name the one that they are built on.
+    """Return the platform that the file `os_release` names, also for systems that are based on it.
 
-    Raises SetupError, with the commands for conda, for any other system.
+    Raises SetupError on all other systems; its message contains the commands for conda.
     """
     data = json.loads(DATA.read_text())
     release = _read_release(os_release)
@@ -71,7 +72,7 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
     names = ", ".join(entry["name"] for entry in data["distributions"].values())
     raise SetupError(
         f"ROS 1 comes with {names}; this is {release.get('PRETTY_NAME', 'another system')}. "
-        "Use conda here:\n"
+        "Use conda on this system:\n"
         f"  conda env create -f {checkout / 'environment.yml'}\n"
         "  conda activate ros-services-course\n"
         "and start again."
@@ -79,7 +80,7 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
 
 
 def missing_packages(wanted: Iterable[str]) -> list[str]:
-    """Return those of `wanted` that are not installed, or only partly. Raises SetupError without dpkg."""
+    """Return the packages in `wanted` that are not completely installed; raises SetupError without dpkg."""
     wanted = list(wanted)
     command = ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Abbrev}\n", *wanted]
     try:
@@ -91,7 +92,7 @@ def missing_packages(wanted: Iterable[str]) -> list[str]:
 
 
 def database_state() -> str:
-    """Return a string that changes whenever a package is installed or removed."""
+    """Return a string that changes when a package is installed or removed."""
     try:
         return str(STATUS.stat().st_mtime_ns)
     except OSError:
@@ -99,10 +100,10 @@ def database_state() -> str:
 
 
 def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
-    """Install `names`, after waiting for another package manager that is at work.
+    """Install `names`; if another package manager is running, wait for its end.
 
-    `report` gets a message while this waits. Raises SetupError if only an administrator can install them,
-    or if a tool fails.
+    `report` is called with a message during the wait. Raises SetupError if only an administrator can install
+    packages, or if a tool fails.
     """
     root = [*become_root(names), *UNATTENDED]
 
@@ -118,12 +119,12 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        run(APT, "update", "-q")  # the lists may name files that have been replaced since
+        run(APT, "update", "-q")  # the lists may contain files that were replaced on the server
         run(APT, "install", *APT_OPTIONS, *names)
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`; run it again while another program holds a lock that it needs."""
+    """Run `command`, and repeat it while another program holds a lock that it needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:
@@ -136,7 +137,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return what to put before a command to run it as root. Raises SetupError where that is not possible."""
+    """Return the prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )
@@ -150,7 +151,7 @@ def become_root(names: Sequence[str]) -> list[str]:
         return ["sudo", "-n"]
     if not sys.stdin.isatty() or subprocess.run(["sudo", "-v"], check=False).returncode:
         raise SetupError(
-            f"Packages are missing, and sudo did not let you install them. {advice}\nand start again."
+            f"Packages are missing, and sudo did not allow the installation. {advice}\nand start again."
         )
     return ["sudo", "-n"]
 

@@ -1,4 +1,4 @@
-"""Where files are: the checkout, and the cache folder that holds everything that is made for it."""
+"""The folders of the course: the checkout, and the cache folder with all files that the set-up creates."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
-CATKIN_FOLDERS = ("srv", "msg", "action", "launch")  # beside course_pkg: what the catkin package is made of
-PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")  # all of that
+# The folders of the catkin package in addition to course_pkg, and all parts of the catkin package.
+CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
+PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
 class Places(NamedTuple):
-    """The folders of one checkout. Files that are made for it are outside it, because rosrun searches it."""
+    """The folders of one checkout. Created files are outside the checkout, because rosrun searches it."""
 
     checkout: Path
     cache: Path
 
     @classmethod
     def of(cls, checkout: Path | None = None) -> Places:
-        """Return the places of `checkout`; the default is the checkout that this module is in."""
+        """Return the places of `checkout`; the default is the checkout that contains this module."""
         checkout = (checkout or Path(__file__).parents[2]).resolve()
         key = hashlib.sha256(os.fsencode(checkout)).hexdigest()[:8]
         name = "".join(letter if letter.isalnum() else "-" for letter in checkout.name)
@@ -30,7 +31,7 @@ class Places(NamedTuple):
 
     @property
     def conda(self) -> Path | None:
-        """The active conda environment, where it is the one that runs this and holds ROS."""
+        """The active conda environment if it contains this interpreter and ROS, else None."""
         prefix = os.environ.get("CONDA_PREFIX")
         if not prefix or Path(prefix).resolve() != Path(sys.prefix).resolve():
             return None
@@ -38,12 +39,12 @@ class Places(NamedTuple):
 
     @property
     def venv(self) -> Path:
-        """The virtual environment; conda's own environment where that is used."""
+        """The virtual environment, or the conda environment if conda is used."""
         return self.conda or self.cache / "venv"
 
     @property
     def python(self) -> Path:
-        """The interpreter that everything of the course runs on."""
+        """The interpreter for all programs of the course."""
         return self.venv / "bin" / "python"
 
     @property
@@ -53,30 +54,30 @@ class Places(NamedTuple):
 
     @property
     def stamps(self) -> Path:
-        """Which steps of the set-up are done, and with what inputs."""
+        """The folder that records which steps of the set-up are done, and with which inputs."""
         return self.cache / "done"
 
     @property
     def environment(self) -> Path:
-        """The variables that the workspace's setup.bash sets, so that it is sourced only once."""
+        """The file with the variables of the workspace's setup.bash, which is sourced only once."""
         return self.workspace / "environment.json"
 
     @property
     def logs(self) -> Path:
-        """What the tools of the set-up print, and the logs of ROS."""
+        """The folder for the output of the set-up's tools, and for the logs of ROS."""
         return self.cache / "log"
 
     @property
     def tools(self) -> Path:
-        """What the set-up itself needs; every checkout shares it."""
+        """The folder for the set-up's own tools; all checkouts share it."""
         return self.cache.parent / "tools"
 
     def make_cache(self) -> None:
-        """Create the cache folder. Raises SetupError, with what to do, where that fails."""
+        """Create the cache folder; raises SetupError, with the next step, if that fails."""
         if any(letter.isspace() for letter in str(self.cache)):
             raise SetupError(
-                f"catkin cannot build in {self.cache}, because there is a blank in the name. "
-                "Set XDG_CACHE_HOME to a folder without one, and start again."
+                f"catkin cannot build in {self.cache}, because the name contains a space. "
+                "Set XDG_CACHE_HOME to a folder without spaces, and start again."
             )
         try:
             self.logs.mkdir(parents=True, exist_ok=True)
@@ -88,7 +89,7 @@ class Places(NamedTuple):
 
 
 def cache_root() -> Path:
-    """Return the user's folder that holds the caches of all checkouts."""
+    """Return the user's folder with the caches of all checkouts."""
     base = os.environ.get("XDG_CACHE_HOME", "")
     folder = Path(base) if os.path.isabs(base) else Path(os.path.expanduser("~")) / ".cache"
     return folder / "ros-services-course"

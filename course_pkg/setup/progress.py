@@ -1,4 +1,4 @@
-"""What a user sees while waiting: on a terminal one live line, elsewhere a line now and then."""
+"""Show the progress of long steps: one live line on a terminal, or a few lines in other outputs."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-LIVE_INTERVAL = 0.2  # s between two paintings of the live line
-LINE_INTERVAL = 10.0  # s between two lines about the count, where the output is no terminal
+LIVE_INTERVAL = 0.2  # s between two updates of the live line
+LINE_INTERVAL = 10.0  # s between two lines about the count, if the output is not a terminal
 BAR = 20  # characters
 GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
 
 
 class Progress:
-    """Shows the steps that run on stderr, so that the output of a command stays its own.
+    """Shows the running steps on stderr, because stdout is for the output of a command.
 
-    With a `total`, it also shows how many of the `unit` (such as "cells") are done, and an estimate of the
-    time left.
+    With a `total`, it also shows how many of the `unit` (such as "cells") are done, and the estimated time
+    that is left.
     """
 
     def __init__(self, stream: TextIO | None = None, *, total: int = 0, unit: str = "") -> None:
@@ -37,7 +37,7 @@ class Progress:
 
     @contextmanager
     def step(self, title: str) -> Iterator[None]:
-        """Show that `title` runs, for how long, and how it ended."""
+        """Show that the step `title` is running, its duration, and at the end its result."""
         started = time.monotonic()
         with self._lock:
             self._running[title] = started
@@ -55,7 +55,7 @@ class Progress:
 
     @contextmanager
     def painting(self) -> Iterator[None]:
-        """Keep the live line up to date for as long as the block runs."""
+        """Update the live line until the end of the block."""
         over = threading.Event()
         painter = threading.Thread(target=self._paint_until, args=(over,), daemon=True)
         if self._live:
@@ -69,7 +69,7 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Count `count` more as done; those that are `kept` from an earlier run took no time in this one."""
+        """Add `count` to the items that are done; with `kept`, an earlier run did them, so they took 0 s."""
         with self._lock:
             self._done += count
             self._kept += count if kept else 0
@@ -80,7 +80,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Say once what is being waited for."""
+        """Show `text`, which says what the user waits for; the same text is not shown twice in a row."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:
@@ -100,7 +100,7 @@ class Progress:
         return f"[{'#' * filled}{'.' * (BAR - filled)}] "
 
     def _counted(self, now: float) -> str:
-        """Return how much is done, and how long the rest will take at the pace of this run."""
+        """Return how much is done, and the estimated time for all that is left."""
         counted = f"{self._done} of {self._total} {self._unit}"
         left, here = self._total - self._done, self._done - self._kept
         if not left or not here:

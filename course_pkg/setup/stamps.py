@@ -1,4 +1,4 @@
-"""Which steps are done: one small file for each. A lock lets one set-up at a time change them."""
+"""Record which steps are done, in one small file per step; with a lock, one set-up at a time changes them."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from course_pkg.files import write_atomically
 
 
 class Stamps:
-    """The steps that are done: for each, a file with a hash of what the step used."""
+    """The steps that are done; each has a file with a hash of the step's inputs."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     def read(self, name: str) -> str | None:
-        """Return the hash of the step `name`, or None if it is not done."""
+        """Return the hash of the step `name`, or None if the step is not done."""
         try:
             return (self._folder / name).read_text()
         except OSError:
@@ -29,12 +29,12 @@ class Stamps:
         write_atomically(self._folder / name, key)
 
     def clear(self, name: str) -> None:
-        """Record that the step `name` is not done; it is cleared before it is repeated."""
+        """Record that the step `name` is not done; call this before the step runs again."""
         (self._folder / name).unlink(missing_ok=True)
 
 
 def digest(parts: Iterable[str | bytes]) -> str:
-    """Return a short hash of `parts`; where one part ends and the next begins counts, too."""
+    """Return a short hash of `parts` and of their lengths: ["ab", "c"] differs from ["a", "bc"]."""
     hasher = hashlib.sha256()
     for part in parts:
         data = part.encode() if isinstance(part, str) else part

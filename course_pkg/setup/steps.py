@@ -1,4 +1,4 @@
-"""Runs the steps of the set-up that are not done; independent steps run at the same time."""
+"""Run the steps of the set-up that are not done; independent steps run at the same time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.setup.stamps import Stamps, digest, locked
 
 
 class Step(NamedTuple):
-    """A part of the set-up. `is_done` runs at every start, so it must be fast; `makes` is its folder."""
+    """A part of the set-up. `is_done` runs at every start, so it must be fast; `makes` is the new folder."""
 
     title: str
     is_done: Callable[[], bool]
@@ -26,16 +26,16 @@ class Step(NamedTuple):
 
 
 def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
-    """Set up what is missing; if nothing is, this takes a few milliseconds and prints nothing.
+    """Set up what is missing; if nothing is missing, this takes a few milliseconds and prints nothing.
 
-    Raises SetupError, with what to do, where a step fails.
+    Raises SetupError, with the next step for the user, if a step fails.
     """
     stages = steps_of(places, grade=grade, test=test)
     if all(step.is_done() for stage in stages for step in stage):
         return
     places.make_cache()
     progress = Progress()
-    waiting = "Another set-up of this checkout is under way; waiting for it."
+    waiting = "Another set-up of this checkout is running. Waiting for its end."
     try:
         with locked(places.cache / "lock", lambda: progress.note(waiting)) as lock:
             journal = Journal(places.logs, lock)
@@ -44,16 +44,16 @@ def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
     except OSError as error:
         raise _explained(error, places) from error
     except KeyboardInterrupt:
-        progress.note("Interrupted. The next start goes on with what is not done yet.")
+        progress.note("Interrupted. The next start continues with the steps that are not done.")
         raise
 
 
 def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
-    """Return the steps in stages; the steps of one stage do not depend on one another."""
+    """Return the steps in stages; the steps of one stage do not depend on each other."""
     stamps = Stamps(places.stamps)
     library_step = _library_step(places, stamps, "test" if test else "course")
     catkin = _workspace_step(places, stamps)
-    if places.conda:  # environment.yml holds the packages and the libraries
+    if places.conda:  # environment.yml lists the packages and the libraries
         return [[catkin]]
     platform = packages.read_platform(places.checkout)
     wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
@@ -83,7 +83,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        with suppress(OSError):  # the stamp only saves the next start from asking dpkg
+        with suppress(OSError):  # the stamp only makes the next start faster, because it need not call dpkg
             stamps.write(name, state)
         return True
 
@@ -96,7 +96,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in (extra, "test"))
-        return libraries.environment_works(places) and any(made)  # the lock of the tests includes the other
+        return libraries.environment_works(places) and any(made)  # the lock of "test" includes "course"
 
     def make(journal: Journal, _progress: Progress) -> None:
         stamps.clear(f"python-{extra}")
@@ -124,7 +124,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
         with progress.step(step.title):
             step.make(journal, progress)
 
-    from concurrent.futures import ThreadPoolExecutor  # 5 ms; only a start that sets something up needs it
+    from concurrent.futures import ThreadPoolExecutor  # imported here: 5 ms, and most starts do not need it
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:
         for finished in [pool.submit(run, step) for step in steps]:
@@ -133,5 +133,5 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
 
 def _explained(error: OSError, places: Places) -> SetupError:
     if error.errno == errno.ENOSPC:
-        return SetupError(f"The disk that holds {places.cache} is full. Make room, and start again.")
-    return SetupError(f"The set-up stopped: {error}. Correct that, and start again.")
+        return SetupError(f"The disk of {places.cache} is full. Delete other files, and start again.")
+    return SetupError(f"The set-up stopped: {error}. Correct the cause, and start again.")

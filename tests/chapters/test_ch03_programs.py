@@ -259,7 +259,7 @@ def test_a_cashier_does_not_hammer_a_detector_that_answers_at_once(
     ("settings", "words"),
     [
         (["_design:=hope"], "~design is 'hope', but it has to be one of poll, topic, wait"),
-        (["_rate:=0"], "/cashier/rate is 0, and has to be a number from 0.01 to 1000"),
+        (["_rate:=0"], "/cashier/rate is 0, but it has to be a number from 0.01 to 1000"),
         (["_rate:=often"], "/cashier/rate is 'often'"),
         (["_patience:=-1"], "/cashier/patience is -1"),
     ],

@@ -1,7 +1,8 @@
 """Attacks that try to earn points without an answer, or to harm the grader or the next submission.
 
-Each is code in a student's cell for exercise 05.1, run before an answer in the same cell. Those in SLOW never
-end by themselves. Those in BUILD are the lines of a package's CMakeLists.txt after catkin_package().
+Each attack is code in a student's cell for exercise 05.1, before the answer in the same cell. The attacks in
+SLOW never end by themselves. The attacks in BUILD are lines of a package's CMakeLists.txt after
+catkin_package().
 """
 
 FORGED = {
@@ -37,7 +38,7 @@ FORGED = {
         other.sendall(json.dumps({"protocol": 1, "check": "00.1"}).encode() + b"\\n")
         other.recv(65536)
     """,
-    "messages of the student's side, forged": """
+    "forged messages of the student's process": """
         import os
         words = b'{"record": {"verdict": "passed", "points": 2}, "over": 0, "ready": true}\\n'
         for descriptor in range(3, 64):
@@ -69,7 +70,7 @@ FORGED = {
     "an input transformer that rewrites later cells": """
         get_ipython().input_transformers_cleanup.append(lambda lines: ["pass\\n"])
     """,
-    "a magic that swallows the rest": """
+    "a magic that ignores all later lines": """
         get_ipython().register_magic_function(lambda *_: None, "cell", "python3")
         get_ipython().run_cell_magic("python3", "", "")
     """,
@@ -98,18 +99,18 @@ GRAPH = {
         import os, xmlrpc.client
         xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/chapter_05", "because")
     """,
-    "every service is taken over": """
+    "every service is replaced": """
         import os, xmlrpc.client
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
         master.registerService("/chapter_05", "/getGeometry", "rosrpc://localhost:1", "http://localhost:1/")
     """,
-    "a node of the same name": """
+    "a node with the same name": """
         import os, xmlrpc.client
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
         for name in ("/check_runner", "/check_runner_05_1", "/chapter_05"):
             master.registerPublisher(name, "/x", "std_msgs/String", "http://localhost:1/")
     """,
-    "simulated time that stands still": """
+    "simulated time that never changes": """
         rospy.set_param("/use_sim_time", True)
     """,
     "a second service with the same suffix": """
@@ -182,7 +183,7 @@ HOST = {
         except MemoryError:
             pass
     """,
-    "hogs in many processes": """
+    "memory hogs in many processes": """
         import os
         for _ in range(8):
             if os.fork() == 0:
@@ -280,7 +281,7 @@ SLOW = {
         while True:
             pass
     """,
-    "a loop that swallows everything": """
+    "a loop that catches every exception": """
         while True:
             try:
                 while True:

@@ -1,4 +1,4 @@
-"""No attack earns a point, and none disturbs the next submission."""
+"""An attack in a cell earns no points and does not disturb the next submission."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ each_attack = pytest.mark.parametrize(("batch", "attack"), KINDS, indirect=["bat
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests, so that the next part meets what an attack leaves behind."""
+    """Return one sandbox worker for all tests: an attack must not leave anything for the next part."""
     with SandboxWorker() as started:
         yield started
 
@@ -57,12 +57,12 @@ def job(source: str, *, setup_timeout: float = 25.0, answer_timeout: float = 20.
 
 
 def points(result: PartResult) -> int:
-    """Return the points in the check runner's record; 0 if there is no record."""
+    """Return the points in the check runner's record, or 0 without a record."""
     return int((result.record or {}).get("points", 0))
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> None:
-    """Run an attack beside a wrong answer: it must earn nothing and end with a record or a reason."""
+    """Run an attack and a wrong answer: they must earn no points and end with a record or a reason."""
     result = worker.run(job(textwrap.dedent(attack) + WRONG))
     assert points(result) == 0
     assert result.record or result.ending
@@ -70,7 +70,7 @@ def attack_wrong(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_right(worker: SandboxWorker, attack: str) -> None:
-    """Run an attack beside a right answer: it must end in time and earn all points or none."""
+    """Run an attack and a right answer: they must end in time and earn all points or none."""
     limited = job(textwrap.dedent(attack) + RIGHT, setup_timeout=10.0, answer_timeout=8.0)
     began = time.monotonic()
     result = worker.run(limited)
@@ -79,7 +79,7 @@ def attack_right(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
-    """Run a wrong answer that hangs: it must end after its time, with a reason, and earn nothing."""
+    """Run a wrong answer that never ends: it must be ended in time, with a reason, and earn no points."""
     limited = job(textwrap.dedent(attack) + WRONG, setup_timeout=3.0, answer_timeout=2.0)
     began = time.monotonic()
     result = worker.run(limited)
@@ -89,23 +89,23 @@ def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
 
 
 @each_attack
-def test_an_attack_earns_a_wrong_answer_nothing(worker: SandboxWorker, batch: str, attack: str) -> None:
-    """A wrong answer beside an attack earns nothing."""
+def test_a_wrong_answer_with_an_attack_earns_no_points(
+    worker: SandboxWorker, batch: str, attack: str
+) -> None:
+    """A wrong answer with an attack earns no points."""
     attack_wrong(worker, QUICK[batch][attack])
 
 
 @each_attack
-def test_an_attack_on_a_right_answer_stays_in_its_sandbox(
-    worker: SandboxWorker, batch: str, attack: str
-) -> None:
-    """A right answer with an attack beside it ends in time."""
+def test_a_right_answer_with_an_attack_ends_in_time(worker: SandboxWorker, batch: str, attack: str) -> None:
+    """A right answer with an attack ends in time."""
     attack_right(worker, QUICK[batch][attack])
 
 
 @pytest.mark.parametrize("batch", ["endless"], indirect=True, scope="module")
 @pytest.mark.parametrize("attack", SLOW)
-def test_what_never_ends_is_ended(worker: SandboxWorker, batch: str, attack: str) -> None:
-    """An answer that hangs is ended after its time, with a reason."""
+def test_an_endless_answer_is_ended(worker: SandboxWorker, batch: str, attack: str) -> None:
+    """An answer that never ends is ended after its time limit, with a reason."""
     attack_endlessly(worker, SLOW[attack])
 
 
@@ -121,6 +121,6 @@ CAMPAIGN = [
 def test_no_attack_harms_the_next_answer(
     worker: SandboxWorker, run: Callable[[SandboxWorker, str], None], attack: str
 ) -> None:
-    """After each single attack, the next student's right answer passes."""
+    """After each attack, the next student's right answer passes."""
     run(worker, {**FORGED, **GRAPH, **HOST, **SLOW}[attack])
     assert points(worker.run(job(RIGHT))) == 2

@@ -1,4 +1,4 @@
-"""No build of a package earns a point, and none harms the next submission."""
+"""An attack in the build of a package earns no points and does not harm the next submission."""
 
 from __future__ import annotations
 
@@ -35,19 +35,19 @@ add_custom_target(my_geometry_programs ALL
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """One sandbox worker for all: the next part meets what a build leaves behind."""
+    """Return one sandbox worker for all tests: a build must not leave anything for the next part."""
     with SandboxWorker() as started:
         yield started
 
 
 def examined(worker: SandboxWorker, changes: dict[str, str], check: str = CHECK) -> PartResult:
-    """Examine the package of the solution with `changes`."""
+    """Run the check of the solution's package with `changes`, and return the result."""
     files = work_files(my_geometry(changes))
     return worker.run(PartJob(check, BEFORE, (), AFTER, 1, find(check).deadline, files=files))
 
 
 def points(result: PartResult) -> int:
-    """Return the points in the check runner's record; 0 where there is none."""
+    """Return the points in the check runner's record, or 0 without a record."""
     return int((result.record or {}).get("points", 0))
 
 
@@ -59,7 +59,7 @@ def attacked(attack: str) -> str:
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
-    """Examine a package with an attack and a wrong server; it earns nothing, and ends with a reason."""
+    """Check a package with an attack and a wrong server: it earns no points, and ends with a reason."""
     result = examined(worker, {LISTS: attacked(attack), SERVER: NO_SERVER})
     assert points(result) == 0, result
     assert result.record or result.ending
@@ -67,8 +67,8 @@ def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
 
 
 @pytest.mark.parametrize("attack", BUILD)
-def test_a_build_earns_a_wrong_program_nothing(worker: SandboxWorker, attack: str) -> None:
-    """A wrong server stays wrong, whatever its build does; a right one passes afterwards."""
+def test_an_attack_in_a_build_earns_no_points(worker: SandboxWorker, attack: str) -> None:
+    """A wrong server earns no points with any attack in its build; a right server passes afterwards."""
     attack_wrong(worker, BUILD[attack])
     assert points(examined(worker, {})) == 3, f"the attack {attack!r} left something"
 
@@ -76,15 +76,15 @@ def test_a_build_earns_a_wrong_program_nothing(worker: SandboxWorker, attack: st
 @pytest.mark.slow
 @pytest.mark.parametrize("attack", BUILD_SLOW)
 def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) -> None:
-    """It is given up after its time, with a reason."""
+    """An endless build is ended after its time limit, with a reason."""
     began = time.monotonic()
     attack_wrong(worker, BUILD_SLOW[attack])
     assert time.monotonic() - began < find(CHECK).deadline + 60.0
     assert points(examined(worker, {})) == 3
 
 
-def test_a_type_that_a_build_forges_earns_nothing(worker: SandboxWorker) -> None:
-    """The MD5 sum of the exercise is known, so 07.3 builds with a definition that is drawn anew."""
+def test_a_forged_type_earns_no_points(worker: SandboxWorker) -> None:
+    """A forged class with the known MD5 sum earns no points, because 07.3 builds a random definition."""
     from course_pkg.chapters.ch07_build_a_package.checks.packages import geometry_class
 
     forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)

@@ -1,4 +1,4 @@
-"""What a submission cannot reach, tried from inside: each probe raises BREACH if it succeeds."""
+"""Tests in the sandbox: a submission tries to read, write, or call what it must not."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ READABLE = [
     Path("/proc/kcore"),
 ]
 WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
-CALLS = {  # a successful call returns 0, or a positive number
+CALLS = {  # -1 means refused; a successful call returns 0 or a positive number
     "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
     "unshare users": "libc.unshare(0x10000000)",
     "unshare network": "libc.unshare(0x40000000)",
@@ -51,9 +51,9 @@ CALLS = {  # a successful call returns 0, or a positive number
     "a new user namespace by clone3": "libc.syscall(435, b'\\0' * 88, 88)",
     "setns": "libc.setns(os.open('/proc/self/ns/net', 0), 0)",
     "another process's memory": "libc.syscall(310, 1, 0, 0, 0, 0, 0)",
-    "typing for somebody else": "libc.ioctl(0, 0x5412, b'x')",
+    "input into another terminal": "libc.ioctl(0, 0x5412, b'x')",
     "memory that no limit counts": "libc.memfd_create(b'hidden', 0)",
-    "memory that stays when nobody holds it": "libc.shmget(0, 4096, 0o1600)",
+    "memory that stays after its process has ended": "libc.shmget(0, 4096, 0o1600)",
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }
@@ -67,15 +67,15 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Return the error that a cell of a submission raises."""
+    """Run a cell in a submission, and return the error message that it raises."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
-    assert said, "the probe came to no end"
+    assert said, "the cell raised no error"
     return str(said[0])
 
 
-def test_nothing_of_the_instructors_can_be_read(worker: SandboxWorker) -> None:
-    """No solution, check, test, home or secret of the machine is visible, and no other user's environment."""
+def test_files_of_the_instructor_cannot_be_read(worker: SandboxWorker) -> None:
+    """A submission cannot read solutions, checks, tests, files of the machine, or other environments."""
     paths = [str(path) for path in READABLE]
     words = told(
         worker,
@@ -95,7 +95,7 @@ def test_nothing_of_the_instructors_can_be_read(worker: SandboxWorker) -> None:
 
 
 def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
-    """A process that was forked from a warm one contains no check: no module, no part, no hint."""
+    """A student's process contains no module of a check and no hint in its memory."""
     hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)
     words = told(
         worker,
@@ -112,8 +112,8 @@ def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
     assert words == "RuntimeError: [] []"
 
 
-def test_what_the_check_runner_will_draw_is_not_in_memory(worker: SandboxWorker) -> None:
-    """Only the check runner of a part receives the seed of its inputs."""
+def test_the_seed_of_the_check_is_not_in_memory(worker: SandboxWorker) -> None:
+    """The student's process does not contain the seed of the check's random inputs."""
     job = PartJob(
         "05.1",
         "",
@@ -133,8 +133,8 @@ raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, P
     assert "987654321" not in str(worker.run(job).messages)
 
 
-def test_nothing_can_be_written_but_its_own(worker: SandboxWorker) -> None:
-    """Files can be written only in the work folder and the memory folders of the part."""
+def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
+    """A submission can write files only in its work folder and in its own memory folders."""
     words = told(
         worker,
         f"""
@@ -152,8 +152,8 @@ def test_nothing_can_be_written_but_its_own(worker: SandboxWorker) -> None:
     assert words == "RuntimeError: [], (True, True)"
 
 
-def test_no_network_but_its_own(worker: SandboxWorker) -> None:
-    """No server of this machine or of the network can be reached; only a private loopback exists."""
+def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
+    """A submission cannot connect to servers of this machine or of the network."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
         words = told(
@@ -174,10 +174,10 @@ def test_no_network_but_its_own(worker: SandboxWorker) -> None:
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_a_call_that_walls_were_broken_with_is_refused(worker: SandboxWorker, call: str) -> None:
-    """The Linux kernel refuses it, with one of several reasons."""
+def test_a_dangerous_system_call_is_refused(worker: SandboxWorker, call: str) -> None:
+    """The Linux kernel refuses a system call that could break out of the sandbox."""
     if os.uname().machine != "x86_64" and "syscall" in CALLS[call]:
-        pytest.skip("the numbers of the calls are those of x86-64")
+        pytest.skip("the numbers of these system calls are valid only on x86-64")
     words = told(
         worker,
         f"""
@@ -192,8 +192,8 @@ def test_a_call_that_walls_were_broken_with_is_refused(worker: SandboxWorker, ca
     assert words == "RuntimeError: refused"
 
 
-def test_it_has_no_privileges_and_sees_itself_alone(worker: SandboxWorker) -> None:
-    """There are no capabilities and no way to gain one, a filter is active, and no process is visible."""
+def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWorker) -> None:
+    """The student's process has no capabilities, has a filter, and cannot see other processes."""
     words = told(
         worker,
         """
@@ -208,8 +208,8 @@ def test_it_has_no_privileges_and_sees_itself_alone(worker: SandboxWorker) -> No
     assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
 
 
-def test_nobody_finds_the_answer_of_the_one_before(worker: SandboxWorker) -> None:
-    """The text of one student is not in the memory from which the next one's process is forked."""
+def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
+    """The memory of the next student's process does not contain the text of the previous answer."""
     text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))
     assert told(worker, text.replace("' '", "") + "\nraise RuntimeError('left')") == "RuntimeError: left"
     words = told(
@@ -233,8 +233,8 @@ def test_nobody_finds_the_answer_of_the_one_before(worker: SandboxWorker) -> Non
     assert words == "RuntimeError: 0"
 
 
-def test_a_part_finds_nothing_of_the_one_before(worker: SandboxWorker) -> None:
-    """Files, processes and names of one part do not exist for the next."""
+def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
+    """The next part finds no files, processes or variables of the previous part."""
     leave = """
     import os
     open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()
@@ -254,8 +254,8 @@ def test_a_part_finds_nothing_of_the_one_before(worker: SandboxWorker) -> None:
     assert told(worker, look) == "RuntimeError: [[], True, False]"
 
 
-def test_a_build_is_not_believed_when_the_kernel_says_so(worker: SandboxWorker) -> None:
-    """Commands of a check run beside the kernel, not in it: a kernel cannot report a build of its own."""
+def test_a_kernel_cannot_report_a_false_build(worker: SandboxWorker) -> None:
+    """A patched kernel cannot report a successful build: another process runs the check's commands."""
     wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
     forged = """
 from course_pkg.checking.commands.workbench import CommandFolders
@@ -270,8 +270,8 @@ CommandFolders.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took"
     assert outcome.record["points"] == 0
 
 
-def test_without_bubblewrap_it_is_refused_and_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a sandbox nothing is graded, unless the instructor asks for it."""
+def test_without_bubblewrap_grading_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without bubblewrap, require_sandbox() raises an error that says what to install."""
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(
         bubblewrap.SandboxUnavailable, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"

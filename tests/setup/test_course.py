@@ -1,4 +1,4 @@
-"""The `course` script: which Python it takes, and what it answers without setting anything up."""
+"""The `course` script: which Python it uses, and its answers before any set-up."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ SUBCOMMANDS = ("lab", "run", "test", "sync", "grade", "grade-one", "progress", "
 
 
 def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course`, with `variables` set besides the environment."""
+    """Run `course` with `variables` added to the environment."""
     env = {**os.environ, "ROS_MASTER_URI": "http://localhost:9", **variables}
     return subprocess.run([ROOT / "course", *words], cwd=cwd, env=env, capture_output=True, text=True)
 
 
 @pytest.fixture
 def nowhere(tmp_path: Path) -> dict[str, str]:
-    """A cache folder that cannot be made, so that every set-up fails."""
+    """Return variables with a cache folder that cannot be created, so every set-up fails."""
     (tmp_path / "file").write_text("")
     return {"XDG_CACHE_HOME": str(tmp_path / "file")}
 
 
 @pytest.mark.parametrize("name", SUBCOMMANDS)
 def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, str]) -> None:
-    """`course COMMAND --help` answers on a machine that has nothing; `course --help` lists the command."""
+    """`course COMMAND --help` works before any set-up, and `course --help` lists the command."""
     answer = course(name, "--help", **nowhere)
     assert answer.returncode == 0, answer.stderr
     assert answer.stdout.startswith(f"usage: course {name}")
@@ -35,30 +35,30 @@ def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, s
 
 
 @pytest.mark.parametrize(("words", "seen"), [(["fly"], "invalid choice: 'fly'"), ([], "COMMAND")])
-def test_what_is_no_command_is_refused_at_once(words: list[str], seen: str, nowhere: dict[str, str]) -> None:
-    """A slip in the command is answered before a set-up, with the usage and status 2."""
+def test_an_unknown_command_is_refused_at_once(words: list[str], seen: str, nowhere: dict[str, str]) -> None:
+    """An unknown command ends with a message and status 2 before any set-up."""
     answer = course(*words, **nowhere)
     assert answer.returncode == 2
     assert seen in answer.stderr
 
 
 def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str]) -> None:
-    """The message says which folder, and what to set."""
+    """The error message is one line, and says which variable to set."""
     answer = course("run", "true", **nowhere)
     assert answer.returncode == 1
     assert answer.stderr.count("\n") == 1
     assert "Set XDG_CACHE_HOME to a folder that you can write to" in answer.stderr
 
 
-def test_a_blank_in_the_name_of_the_cache_is_one_clear_message(tmp_path: Path) -> None:
-    """Catkin cannot build in such a folder; the message says so before anything is downloaded."""
+def test_a_space_in_the_name_of_the_cache_is_one_clear_message(tmp_path: Path) -> None:
+    """If the folder name has a space, an error message of one line comes before any download."""
     answer = course("run", "true", XDG_CACHE_HOME=str(tmp_path / "a b"))
     assert (answer.returncode, answer.stderr.count("\n")) == (1, 1)
     assert "catkin cannot build in" in answer.stderr
 
 
 def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
-    """With a broken python3, PYTHONPATH and PYTHONHOME of the user's, python is the course's own."""
+    """The course's Python runs even if the user's python3, PYTHONPATH and PYTHONHOME are broken."""
     for name in ("python3", "python", "rosservice"):
         (tmp_path / name).write_text("#!/bin/sh\nexit 66\n")
         (tmp_path / name).chmod(0o755)
@@ -75,7 +75,7 @@ def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
 
 
 def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
-    """The folder one is in stays, and a link to `course` on PATH leads to its checkout."""
+    """A command runs in the current folder, and a link to `course` also works."""
     assert course("run", "pwd", cwd=tmp_path).stdout == f"{tmp_path}\n"
     link = tmp_path / "my course"
     link.symlink_to(ROOT / "course")
@@ -84,17 +84,17 @@ def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
 
 
 def test_a_second_start_sets_nothing_up() -> None:
-    """Where all is done, nothing is printed but what the command prints."""
+    """After a complete set-up, `course run` prints only the output of the command."""
     course("run", "true")
     answer = course("run", "echo", "it")
     assert (answer.stdout, answer.stderr) == ("it\n", "")
 
 
-def test_doctor_finds_nothing_to_do_where_the_suite_runs() -> None:
-    """`course doctor` ends with status 0 if all is well, and names a malformed ROS_MASTER_URI otherwise."""
+def test_doctor_reports_no_problem_on_this_machine() -> None:
+    """`course doctor` ends with status 0 without problems, and reports a malformed ROS_MASTER_URI."""
     answer = course("doctor", ROS_MASTER_URI="")
     assert answer.returncode == 0, answer.stdout
     assert "to do" not in answer.stdout
     answer = course("doctor", ROS_MASTER_URI="localhost:11311")
     assert answer.returncode == 1
-    assert "It must be like http://localhost:11311" in answer.stdout
+    assert "Change it to the form http://localhost:11311" in answer.stdout

@@ -1,4 +1,4 @@
-"""The environment of ROS, put over the user's own."""
+"""The environment of ROS replaces variables of the user's environment."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ import pytest
 from course_pkg.setup import Places, environment
 
 PLACES = Places.of()
-pytestmark = pytest.mark.skipif(not PLACES.environment.exists(), reason="set up by ./course only")
+pytestmark = pytest.mark.skipif(not PLACES.environment.exists(), reason="only ./course creates it")
 
 
-def test_no_python_of_the_users_comes_first() -> None:
-    """A pyenv or conda at the front of PATH moves behind the course's interpreter and the system's tools."""
+def test_the_courses_python_comes_first_on_path() -> None:
+    """On PATH, the course's interpreter and the system's tools come before the user's pyenv or conda."""
     fresh = environment.merged(PLACES, {"PATH": "/home/u/.pyenv/shims:/usr/bin:/opt/conda/bin"})
     assert fresh["PATH"].split(":")[:2] == [str(PLACES.venv / "bin"), "/usr/bin"]
     assert fresh["PATH"].endswith("/home/u/.pyenv/shims:/opt/conda/bin")
 
 
-def test_no_module_of_the_users_gets_in() -> None:
-    """PYTHONPATH is the course's, PYTHONHOME and PYTHONSTARTUP are removed, the rest is unchanged."""
+def test_the_users_python_variables_are_removed() -> None:
+    """The course's PYTHONPATH is used, PYTHONHOME and PYTHONSTARTUP are removed, other variables stay."""
     user = {"PYTHONPATH": "/x", "PYTHONHOME": "/y", "PYTHONSTARTUP": "/z", "EDITOR": "vi"}
     fresh = environment.merged(PLACES, user)
     assert "/x" not in fresh["PYTHONPATH"].split(":")
@@ -31,15 +31,15 @@ def test_no_module_of_the_users_gets_in() -> None:
 
 
 @pytest.mark.parametrize("name", ["ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP"])
-def test_a_user_who_names_a_host_is_heard(name: str) -> None:
-    """ROS_HOSTNAME is localhost unless the user says where the master or this host is."""
+def test_the_users_ros_variables_are_kept(name: str) -> None:
+    """ROS_HOSTNAME is localhost unless the user sets ROS_MASTER_URI, ROS_HOSTNAME or ROS_IP."""
     assert environment.merged(PLACES, {})["ROS_HOSTNAME"] == "localhost"
     assert environment.merged(PLACES, {name: "x"}).get("ROS_HOSTNAME", "") != "localhost"
     assert "ROS_MASTER_URI" not in environment.merged(PLACES, {})
 
 
-def test_a_library_that_the_user_preloads_stays() -> None:
-    """The course's own, with which nodes in C++ listen on 127.0.0.1 only, is added to it."""
+def test_the_users_preloaded_libraries_are_kept() -> None:
+    """LD_PRELOAD contains the user's libraries and also the course's library for C++ nodes."""
     loopback = environment.merged(PLACES, {})["LD_PRELOAD"]
     assert loopback.endswith("/libcourse_loopback.so")
     assert (
@@ -47,14 +47,14 @@ def test_a_library_that_the_user_preloads_stays() -> None:
     )
 
 
-def test_twice_is_as_good_as_once() -> None:
-    """`course run` within `course run bash` changes nothing."""
+def test_applying_the_environment_twice_changes_nothing() -> None:
+    """`course run` inside of `course run bash` gets the same environment."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 
 
-def test_an_editor_that_knows_the_interpreter_only_can_import_all() -> None:
-    """The bare interpreter imports the package, rospy and the generated types; apply() finds ROS."""
+def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
+    """Without a special environment, the interpreter imports the package, rospy and the generated types."""
     program = (
         "import os, course_pkg.srv, rospy, std_srvs.srv, anywidget\n"
         "from course_pkg.setup import environment\n"
@@ -69,8 +69,8 @@ def test_an_editor_that_knows_the_interpreter_only_can_import_all() -> None:
     assert answer.stdout.split() == [str(PLACES.workspace / "src" / "course_pkg"), "localhost"], answer.stderr
 
 
-def test_nothing_is_applied_where_nothing_is_built(tmp_path: os.PathLike[str]) -> None:
-    """apply() returns False, and changes nothing, for a checkout without a workspace."""
+def test_apply_changes_nothing_without_a_workspace(tmp_path: os.PathLike[str]) -> None:
+    """For a checkout without a workspace, apply() returns False and changes nothing."""
     before, path = dict(os.environ), list(sys.path)
     assert not environment.apply(PLACES._replace(cache=PLACES.cache / "none"))
     assert (dict(os.environ), sys.path) == (before, path)

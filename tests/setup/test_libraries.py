@@ -7,8 +7,8 @@ from pathlib import Path
 from course_pkg.setup.libraries import UV_SETTINGS, as_uv_variables
 
 
-def test_a_mirror_named_to_pip_is_used(tmp_path: Path) -> None:
-    """Index, further indexes, find-links and certificates of pip become those of uv."""
+def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
+    """The settings of pip for indexes, find-links and certificates become variables of uv."""
     settings = {
         "index-url": ["https://mirror.example/simple"],
         "extra-index-url": ["https://a.example/simple", "https://b.example/simple"],
@@ -22,13 +22,13 @@ def test_a_mirror_named_to_pip_is_used(tmp_path: Path) -> None:
     assert words["SSL_CERT_FILE"] == "/etc/hosts"
 
 
-def test_a_folder_that_is_not_there_is_left_out() -> None:
-    """A missing folder of wheels or a missing local index is left out, as pip does; uv would stop."""
+def test_a_missing_folder_is_omitted() -> None:
+    """A missing folder of wheels or local index is omitted: pip ignores it, but uv would stop."""
     words = as_uv_variables({"find-links": ["/none"], "extra-index-url": ["file:///none/simple"]}, {})
     assert words == UV_SETTINGS
 
 
-def test_what_the_user_tells_uv_stands() -> None:
+def test_the_users_variables_for_uv_are_kept() -> None:
     """A variable of uv that is already set is not replaced."""
     assert "UV_DEFAULT_INDEX" not in as_uv_variables(
         {"index-url": ["https://a.example"]}, {"UV_DEFAULT_INDEX": "x"}

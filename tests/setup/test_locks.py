@@ -15,18 +15,18 @@ from course_pkg.setup.lock import LEFT_OUT, UV
 ROOT = Path(__file__).parents[2]
 DEPENDENCIES = "\ndependencies = ["
 PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
-OLDEST = "< '3.11'"  # in the marker of a pin: the library's next version does not run on Python 3.10
+OLDEST = "< '3.11'"  # a marker of a pin: the library's next version does not support Python 3.10
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:
-    """Return the versions of each library in a lock."""
+    """Return the name and version of each library in a lock."""
     return {(name, version) for name, version, _ in PIN.findall(lock_file(extra).read_text())}
 
 
 def declared(heading: str) -> list[tuple[str, str, str]]:
     """Return name, version and marker of each pin in pyproject.toml's list after `heading`.
 
-    Python 3.10 has no TOML reader.
+    This function reads the file as text because Python 3.10 has no TOML reader.
     """
     text = (ROOT / "pyproject.toml").read_text()
     block = text[text.index(heading) :].split("\n]", 1)[0]
@@ -35,20 +35,20 @@ def declared(heading: str) -> list[tuple[str, str, str]]:
 
 @pytest.mark.parametrize(("extra", "heading"), [("course", DEPENDENCIES), ("test", "\ntest = [")])
 def test_the_lock_is_made_from_pyproject(extra: str, heading: str) -> None:
-    """Each library that pyproject.toml names is in the lock, at that version."""
+    """The lock contains each library of pyproject.toml, with the same version."""
     wanted = {(name, version) for name, version, _ in declared(heading)}
     assert wanted
     assert wanted <= pinned(extra), "type: ./course lock"
 
 
-def test_the_tests_run_with_what_students_have() -> None:
-    """The lock of the tests contains every library of the course's lock, at the same version."""
+def test_the_tests_use_the_libraries_of_students() -> None:
+    """The lock of the tests contains every library of the course's lock, with the same version."""
     assert pinned("course") <= pinned("test")
 
 
 @pytest.mark.parametrize("extra", ["course", "test", "uv"])
-def test_every_file_is_known_by_its_hash_and_by_no_host(extra: str) -> None:
-    """Each library has hashes, so that it may come from any mirror; no registry is named."""
+def test_every_file_has_a_hash_and_no_host(extra: str) -> None:
+    """Each library in a lock has hashes, and the lock contains no address of a registry."""
     text = lock_file(extra).read_text()
     assert "://" not in text
     pins = re.sub(r"^#.*\n", "", text, flags=re.MULTILINE)
@@ -57,7 +57,7 @@ def test_every_file_is_known_by_its_hash_and_by_no_host(extra: str) -> None:
 
 
 def test_uv_is_the_version_that_the_code_names() -> None:
-    """The lock contains exactly what `course lock` resolves."""
+    """The lock of uv contains exactly the version in the code of `course lock`."""
     assert pinned("uv") == {tuple(UV.split("=="))}
 
 
@@ -72,25 +72,25 @@ def test_conda_gets_the_same_libraries() -> None:
 
 
 @pytest.mark.parametrize("name", LEFT_OUT)
-def test_what_slows_a_start_is_in_no_lock(name: str) -> None:
-    """Libraries that are excluded are not installed by another one, and the lock names them."""
+def test_excluded_libraries_are_in_no_lock(name: str) -> None:
+    """The locks do not pin the excluded libraries, but a comment at their beginning names them."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]
 
 
 def test_every_library_that_the_course_imports_is_declared() -> None:
-    """pyproject.toml names each distribution of the lock from which course_pkg imports a module."""
+    """If course_pkg imports a module of a locked library, pyproject.toml names this library."""
     assert undeclared() == set()
 
 
 def undeclared() -> set[str]:
-    """Return the distributions of the lock that course_pkg imports and pyproject.toml does not name."""
+    """Return the locked libraries that course_pkg imports but pyproject.toml does not name."""
     locked = {name for name, _ in pinned("test")}
     modules = {
         name.partition(".")[0]
         for path in (ROOT / "course_pkg").rglob("*.py")
-        if path.name not in ("answers.py", "fixtures.py")  # some hold cells of notebooks
+        if path.name not in ("answers.py", "fixtures.py")  # some contain cells of notebooks
         for node in ast.walk(ast.parse(path.read_bytes()))
         for name in imported(node)
     }

@@ -27,34 +27,34 @@ def release(folder: Path, text: str) -> Path:
 
 @pytest.mark.parametrize("name", RELEASES)
 def test_each_distribution_is_known_by_its_codename(name: str, tmp_path: Path) -> None:
-    """Debian 12, Debian 13 and Ubuntu 22.04 are found in the data, and each lists ROS."""
+    """The codenames of Debian 12, Debian 13 and Ubuntu 22.04 select platforms with ROS's packages."""
     platform = read_platform(tmp_path, release(tmp_path, RELEASES[name]))
     assert platform.name == name
     assert {"python3-rospy", "catkin", "rosbash", "ros-message-generation"} <= set(platform.course)
 
 
 @pytest.mark.parametrize("name", RELEASES)
-def test_each_distribution_gets_what_chapters_13_and_16_build_with(name: str, tmp_path: Path) -> None:
-    """The lists contain a compiler, roscpp, and what actions need."""
+def test_each_distribution_has_the_tools_of_chapters_13_and_16(name: str, tmp_path: Path) -> None:
+    """The lists contain a compiler, roscpp, and the packages for actions."""
     platform = read_platform(tmp_path, release(tmp_path, RELEASES[name]))
     assert {"g++", "make", "libroscpp-dev"} <= set(platform.course)
     assert {"libactionlib-msgs-dev", "ros-actionlib-msgs", "python3-actionlib"} <= set(platform.course)
 
 
-def test_a_derivative_counts_as_what_it_is_built_on(tmp_path: Path) -> None:
-    """Linux Mint 21 takes Ubuntu 22.04's packages."""
+def test_a_derivative_uses_the_packages_of_its_base(tmp_path: Path) -> None:
+    """Linux Mint 21 uses the packages of Ubuntu 22.04."""
     assert read_platform(tmp_path, release(tmp_path, MINT)).name == "Ubuntu 22.04"
 
 
 @pytest.mark.parametrize("text", ['PRETTY_NAME="Ubuntu 24.04"\nVERSION_CODENAME=noble\n', "", "nonsense"])
-def test_elsewhere_the_message_says_how_to_use_conda(text: str, tmp_path: Path) -> None:
-    """A system without ROS 1 gets the conda commands, with the path of environment.yml."""
+def test_on_other_systems_the_message_recommends_conda(text: str, tmp_path: Path) -> None:
+    """On a system without ROS 1, the error message contains the command for conda."""
     with pytest.raises(SetupError, match=r"conda env create -f .*environment.yml"):
         read_platform(tmp_path, release(tmp_path, text))
 
 
 def test_no_package_is_named_twice() -> None:
-    """A package that all distributions need is listed once, and the lists are sorted."""
+    """The lists are sorted, and a package for all distributions is not in the list of one of them."""
     data = json.loads(DATA.read_text())
     assert data["course"] == sorted(set(data["course"]))
     for entry in data["distributions"].values():

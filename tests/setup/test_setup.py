@@ -1,4 +1,4 @@
-"""The whole set-up: a finished step is not repeated, an interrupted one is."""
+"""The set-up: its steps, the errors of its tools, waiting for package managers, and its progress."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def journal(tmp_path: Path) -> Iterator[Journal]:
         yield Journal(tmp_path, lock)
 
 
-def test_where_nothing_is_made_every_step_but_the_packages_is_to_do(tmp_path: Path) -> None:
-    """In an empty cache folder, libraries and workspace are missing; the report changes nothing."""
+def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
+    """With an empty cache folder, the steps for libraries and workspace are not done."""
     places = Places(Places.of().checkout, tmp_path / "cache")
     *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
     assert not libraries.is_done()
@@ -33,23 +33,23 @@ def test_where_nothing_is_made_every_step_but_the_packages_is_to_do(tmp_path: Pa
 
 
 def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journal) -> None:
-    """The message contains the status, the last lines, and the path of the log."""
+    """The error message contains the exit status, the last lines of output, and the path of the log."""
     with pytest.raises(SetupError, match=r"status 3:\n  first\n  last\nThe whole output: .*setup-.*log"):
         journal.run(["sh", "-c", "echo first; echo last; exit 3"])
 
 
-def test_a_full_disk_is_called_that(journal: Journal) -> None:
-    """The message about a full disk is the same for each tool."""
-    with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
+def test_a_full_disk_is_reported(journal: Journal) -> None:
+    """If a tool prints an error about a full disk, the set-up's error message says so."""
+    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["sh", "-c", "echo 'write: No space left on device'; exit 1"])
 
 
-def test_a_full_disk_is_named_without_a_message_from_the_tool(
+def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a tool fails without a message and the disk is full, the message names this reason."""
+    """If a tool fails without a message and the disk is full, the error message names this reason."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
-    with pytest.raises(SetupError, match=r"The disk is full. Make room, and start again."):
+    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["false"])
 
 
@@ -61,10 +61,10 @@ def test_a_full_disk_is_named_without_a_message_from_the_tool(
         "E: Unable to acquire the dpkg frontend lock (/var/lib/dpkg/lock-frontend)",
     ],
 )
-def test_another_package_manager_is_waited_for(
+def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A tool that finds the lock taken is repeated until the lock is free; the user is informed once."""
+    """If another program holds the lock, the tool is repeated until it succeeds; the user gets a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
@@ -73,8 +73,8 @@ def test_another_package_manager_is_waited_for(
     assert (tmp_path / "tries").read_text().count("x") == 3
 
 
-def test_no_lock_is_waited_for_without_end(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the timeout, and at once for other failures, the tool's own message is shown."""
+def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After the timeout, or at once after another failure, the tool's own error message is shown."""
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):
@@ -82,21 +82,21 @@ def test_no_lock_is_waited_for_without_end(journal: Journal, monkeypatch: pytest
             packages._run_when_unlocked(journal, ["sh", "-c", f"echo '{words}'; exit 100"], lambda _: None)
 
 
-def test_what_is_missing_is_named() -> None:
-    """A package that is not installed is reported as missing, an installed one is not."""
+def test_missing_packages_are_listed() -> None:
+    """missing_packages() returns a package that is not installed, but not an installed one."""
     assert packages.missing_packages(["dpkg", "no-such-package-anywhere"]) == ["no-such-package-anywhere"]
 
 
-def test_without_root_and_sudo_the_message_is_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An ordinary user without sudo gets the whole command, and nothing waits for a password."""
+def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A user without sudo gets an error message with the whole command."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     monkeypatch.setattr("shutil.which", lambda _: None)
     with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):
         packages.become_root(["rosbash", "catkin"])
 
 
-def test_progress_is_a_line_at_either_end_where_nobody_watches() -> None:
-    """In a pipe, each step prints its start and its result with the seconds, without colours."""
+def test_progress_in_a_pipe_prints_start_and_result() -> None:
+    """In a pipe, each step prints a line at its start and a line with its result, without colours."""
     stream = io.StringIO()
     progress = Progress(stream)
     with progress.painting(), progress.step("catkin workspace"):
@@ -114,7 +114,7 @@ def test_progress_is_a_line_at_either_end_where_nobody_watches() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a pipe, a line is printed every ten seconds; times of earlier runs are not added."""
+    """In a pipe, a line is printed every 10 s; items of an earlier run do not change the estimate."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

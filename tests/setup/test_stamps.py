@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """A step without a stamp, or with a deleted one, is not done."""
+    """A step is done from write() until clear()."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")
@@ -22,14 +22,14 @@ def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
     assert stamps.read("step") is None
 
 
-def test_a_digest_tells_parts_apart() -> None:
+def test_a_digest_depends_on_the_borders_of_its_parts() -> None:
     """The digest depends on the borders between the parts."""
     assert digest(["ab", "c"]) != digest(["a", "bc"])
     assert digest(["a", b"b"]) == digest([b"a", "b"])
 
 
-def test_the_second_to_lock_says_that_it_waits_and_then_goes_on(tmp_path: Path) -> None:
-    """Of two set-ups at the same time, the second waits for the first."""
+def test_the_second_set_up_waits_for_the_lock(tmp_path: Path) -> None:
+    """If two set-ups run at the same time, the second waits, reports this, and continues after the first."""
     waits, got = threading.Event(), threading.Event()
 
     def second() -> None:

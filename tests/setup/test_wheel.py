@@ -1,4 +1,4 @@
-"""The wheel that pip installs."""
+"""The wheel of the course contains all files and can be installed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the wheel without the network from a copy of the files that git lists."""
+    """Build the wheel without a network, from a copy of the files that git lists."""
     folder = tmp_path_factory.mktemp("wheel")
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -30,8 +30,8 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return built
 
 
-def test_the_wheel_holds_whatever_lies_beside_the_modules(wheel: Path) -> None:
-    """The wheel contains front ends, settings, locks and service definitions, and no cache."""
+def test_the_wheel_contains_all_data_files(wheel: Path) -> None:
+    """The wheel contains all files beside the modules and the service definitions, but no cache."""
     names = ZipFile(wheel).namelist()
     beside = [
         str(path.relative_to(ROOT))
@@ -44,7 +44,7 @@ def test_the_wheel_holds_whatever_lies_beside_the_modules(wheel: Path) -> None:
 
 
 def test_the_installed_package_can_be_imported(wheel: Path, tmp_path: Path) -> None:
-    """Installed outside of the checkout, the package can be imported and started."""
+    """An installation of the wheel outside of the checkout can be imported."""
     venv.create(tmp_path / "v", system_site_packages=True, symlinks=True)
     [packages] = (tmp_path / "v" / "lib").glob("python3*/site-packages")
     ZipFile(wheel).extractall(packages)

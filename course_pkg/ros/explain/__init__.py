@@ -1,6 +1,7 @@
-"""What an error means, what to do about it, and which chapter teaches it; needs no rospy.
+"""Explain an error: its cause, what to do, and which chapter teaches it; works without rospy.
 
-`known` looks up one error message. `explain` accepts an exception, or any text with an error in it.
+`known` finds the explanation of one error message. `explain` accepts an exception, or any text that contains
+an error message.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The errors of a call itself; rows as in handler_errors."""
+"""The errors of a call itself; `handler_errors` describes the rows."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"md5sums do not match",
         "Client and server were built from different definitions of the service.",
-        "Use one definition on both sides: rebuild, restart both, and compare with `rossrv md5`.",
+        "Build and restart the client and the server with one definition. Compare both with `rossrv md5`.",
         "04",
     ),
     (
         r"Unable to communicate with (?:service|node) \[|connection refused to \[|cannot ping",
         "A registered node does not answer: it was killed and could not unregister, or it is stopped.",
-        "Start it again, or remove the stale registration with `rosnode cleanup`.",
+        "Start the node again, or remove the stale registration with `rosnode cleanup`.",
         "12",
     ),
     (
@@ -51,13 +51,13 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"unable to receive data|transport error completing service call|Connection reset",
         "The server ended during the call.",
-        "Start the server again. Repeat the call if doing the work twice does no harm.",
+        "Start the server again. Repeat the call only if the server may do the work twice.",
         "12",
     ),
     (
-        r"CallTimeout.{0,300}takes connections and does not speak",
+        r"CallTimeout.{0,300}accepts connections, but sends nothing",
         "The server did not answer in time: it is stopped, or blocked by a connection that sends nothing.",
-        "Look at its process: `kill -CONT` continues a stopped process. Otherwise start the server again.",
+        "Inspect its process: `kill -CONT` continues a stopped process. Otherwise start the server again.",
         "12",
     ),
     (
@@ -68,7 +68,7 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallCancelled",
-        "You cancelled the call. The server is not informed: its handler continues to its end.",
+        "You cancelled the call. The server does not know this, so its handler continues to its end.",
         "Find out what the handler waits for before you call again.",
         "12",
     ),
@@ -105,7 +105,7 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"SerializationError|must be an? .{0,300}(?:type|integer|float|string)|field \w+ is not a bool",
         "A value in the request has the wrong type for its field.",
-        "Give each field a value of its own type.",
+        "Give each field a value of the right type.",
         "06",
     ),
 )

@@ -1,4 +1,4 @@
-"""Explaining an exception, or a text of any length with an error in it."""
+"""Explain an exception, or a text of any length that contains an error message."""
 
 from __future__ import annotations
 
@@ -9,30 +9,30 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-LONGEST = 50_000  # characters at the end of a text that are searched
+LONGEST = 50_000  # characters; only this part at the end of a text is searched
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
 
 NOTHING = Explanation(
-    "There are no words to go by. A call that only waits says nothing: rospy sets no time limit on a call.",
-    "Ask who serves the name with `rosservice info`, and whether that node answers with `rosnode ping`.",
+    "There is no error message. A call that waits prints nothing, because rospy has no time limit for calls.",
+    "Find the server's name with `rosservice info`, then check with `rosnode ping` if this node answers.",
     "12",
     known=False,
 )
 UNKNOWN = Explanation(
-    "These words are in none of the course's tables, so here is no guess at the cause.",
-    "Read the last line first: it names the error. In a traceback, the lowest line that names your own file "
-    "is where to begin.",
+    "The course has no explanation for this error message.",
+    "Read the last line first: it names the error. In a traceback, begin with the lowest line that names "
+    "your own file.",
     known=False,
 )
 
 
 def explain(error: object) -> Explanation:
-    """Return what an error means: cause, remedy, and the chapter that teaches it. It never raises.
+    """Return the explanation of an error: cause, remedy, and chapter. This function raises no exception.
 
-    `error` is an exception, or text: its message, a traceback, lines of rospy's log, or what catkin_make,
-    rosrun, roslaunch or roscore printed. For an error that is in no table, the result's `known` is False.
+    `error` is an exception, or a text: an error message, a traceback, lines of rospy's log, or the output of
+    catkin_make, rosrun, roslaunch or roscore. If no table contains the error, the result's `known` is False.
     """
     if isinstance(error, BaseException):
         return _of_exception(error)
@@ -43,13 +43,13 @@ def explain(error: object) -> Explanation:
 
 
 def _of_exception(error: BaseException) -> Explanation:
-    """Return the explanation of an exception or of its cause; for the course's errors, their message."""
+    """Return the explanation of an exception or of its cause; an error of the course explains itself."""
     for each in _chain(error):
         message = f"{type(each).__name__}: {_string(each)}"
         if found := known(message) or _of_build(message):
             return found
     if isinstance(error, CourseError):
-        return Explanation(_string(error), "The message says it: what happened, where, and what to do next.")
+        return Explanation(_string(error), "Read the message: it contains the cause and the next step.")
     return UNKNOWN
 
 
@@ -57,12 +57,12 @@ def _string(thing: object) -> str:
     """Return an object as a string; empty if its __str__ raises an error."""
     try:
         return thing.decode("utf-8", "replace") if isinstance(thing, bytes) else str(thing)
-    except Exception:  # noqa: BLE001 -- whatever a student's own class does when it is shown
+    except Exception:  # noqa: BLE001 -- a student's __str__ may raise any exception
         return ""
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:
-    """Yield the exception and its causes; a chain of causes may be a ring."""
+    """Yield the exception and its causes; the loop ends if an exception is indirectly its own cause."""
     seen: set[int] = set()
     each: BaseException | None = error
     while each is not None and id(each) not in seen:
@@ -72,7 +72,7 @@ def _chain(error: BaseException) -> Iterator[BaseException]:
 
 
 def _of_text(text: str) -> Explanation | None:
-    """Return the explanation of a text: of the output of a build, else of its last known error."""
+    """Return the explanation of a build's output, or of the last known error in another text."""
     if _BUILD.search(text) and (found := _of_build(text)):
         return found
     for message in _candidates(text):
@@ -82,7 +82,7 @@ def _of_text(text: str) -> Explanation | None:
 
 
 def _candidates(text: str) -> Iterator[str]:
-    """Yield possible error messages: those below tracebacks, the last first; then the whole text."""
+    """Yield possible error messages: the lines below each traceback, the last first; then the whole text."""
     if _TRACEBACK in text:
         for part in reversed(text.split(_TRACEBACK)[1:]):
             yield from _below_frames(part)
@@ -90,7 +90,7 @@ def _candidates(text: str) -> Iterator[str]:
 
 
 def _below_frames(part: str) -> Iterator[str]:
-    """Yield the lines of a traceback that are neither frames nor code, such as `ValueError: boom`."""
+    """Yield the lines of a traceback with an error message, such as `ValueError: boom`, the last first."""
     for line in reversed(part.splitlines()[1:]):
         if re.match(r"[\w.]+(?:: |$)", line) and not line.startswith(("During", "The above")):
             yield line

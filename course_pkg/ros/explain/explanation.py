@@ -1,4 +1,4 @@
-"""The explanation of an error, how it looks in a notebook, and the table in which it is found."""
+"""The explanation of an error, its form in a notebook, and the table of all explanations."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ CHAPTERS = {
 class Explanation:
     """The cause of an error and the next step, in whole sentences that are the same in every run.
 
-    `chapter` is the number of the chapter that teaches it, "" for none; `known` is False if the error is in
-    no table.
+    `chapter` is the number of the chapter about this error, or "". `known` is False if no table contains the
+    error.
     """
 
     cause: str
@@ -40,7 +40,7 @@ class Explanation:
 
     @property
     def taught(self) -> str:
-        """The chapter that teaches it, such as "chapter 06, Write a client"; "" for none."""
+        """The chapter about this error, such as "chapter 06, Write a client", or ""."""
         return taught(self.chapter)
 
     def as_dict(self) -> dict[str, str]:
@@ -57,7 +57,7 @@ class Explanation:
 
 
 def known(message: str) -> Explanation | None:
-    """Return the explanation of an error given as `TypeName: message`, None if it is not in the table."""
+    """Return the explanation of the error message `TypeName: message`, or None if the table has none."""
     for pattern, cause, remedy, chapter in TABLE:
         if re.search(pattern, message):
             return Explanation(cause, remedy, chapter)
@@ -65,12 +65,12 @@ def known(message: str) -> Explanation | None:
 
 
 def taught(chapter: str) -> str:
-    """Return number and title of a chapter, such as "chapter 06, Write a client"; "" for an unknown one."""
+    """Return number and title of a chapter, such as "chapter 06, Write a client"; "" if it is unknown."""
     title = CHAPTERS.get(chapter, "")
     return f"chapter {chapter}, {title}" if title else ""
 
 
 def _marked(text: str) -> str:
-    """Return text as HTML, with parts between backticks as code."""
+    """Return the text as HTML; parts between backticks become code."""
     parts = escape(text).split("`")
     return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))

@@ -1,6 +1,6 @@
-"""The errors of the master, of nodes and of addresses; rows as in handler_errors.
+"""The errors of the master, of nodes and of addresses; `handler_errors` describes the rows.
 
-They are searched before those of calls, because `unable to contact master` is a failed call, too.
+These rows are searched before the rows for calls, because `unable to contact master` is also a failed call.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ FROM_GRAPH: tuple[Row, ...] = (
         "12",
     ),
     (
-        r"MasterSilent|takes connections and did not answer within|the master at \S+ does not answer",
-        "The master accepts connections and does not answer: it is stopped, or hangs.",
+        r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
+        "The master accepts connections, but does not answer: it is stopped, or hangs.",
         "Continue it (`kill -CONT` with its process id), or end it and restart the master and all nodes.",
         "12",
     ),
@@ -52,8 +52,8 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"\[Errno 98\]|Address already in use|PortBusy",
-        "Another program already uses the port. A rosmaster that prints this never ends by itself.",
-        "End it with Ctrl-C. Find the program that uses the port with `ss -tlnp`, or use another port.",
+        "Another program already uses the port. A rosmaster that prints this error does not end by itself.",
+        "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use another port.",
         "01",
     ),
     (
@@ -64,7 +64,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"signal only works in main thread",
-        "init_node() was called outside of the main thread. It stopped halfway; a second call does not work.",
+        "init_node() was called outside the main thread. It stopped halfway; a second call does not work.",
         "Restart the kernel, and call init_node() or join() in a separate cell before you start threads.",
         "02",
     ),
@@ -76,20 +76,20 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"ROSInterruptException|node shutdown interrupted|rospy has shut down|NotJoined",
-        "The node was shut down: by Ctrl-C, by interrupting rospy.spin(), or by a node with the same name.",
+        "The node was shut down by Ctrl-C, by an interrupt of rospy.spin(), or by a node with the same name.",
         "Start the program again. In a notebook, run the cell with join() again, and never call spin().",
         "12",
     ),
     (
         r"time is not initialized|ROSInitException",
-        "The program used a function that needs a node, and it is not a node yet.",
+        "The program used a function that needs a node, but the program is not a node yet.",
         "Call init_node() first; in a notebook, call join().",
         "02",
     ),
     (
         r"topic types do not match",
         "Publisher and subscriber of one topic have different types. The subscriber gets no error.",
-        "Compare both with `rostopic info` and `rostopic type`, and use one type on both sides.",
+        "Compare them with `rostopic info` and `rostopic type`, and use the same type in both nodes.",
         "02",
     ),
     (

@@ -1,7 +1,7 @@
 """The errors that a client gets if the server's handler fails, or if the service is declared wrongly.
 
-A row is (pattern, cause, remedy, chapter). It matches the part of a message that is the same in every
-release; the first row that matches counts.
+A row is (pattern, cause, remedy, chapter). The pattern matches the part of an error message that is the same
+in every release of ROS. The first row that matches is used.
 """
 
 from __future__ import annotations
@@ -48,31 +48,31 @@ FROM_HANDLERS: tuple[Row, ...] = (
     (
         r"[Ee]rror processing request",
         "The handler raised an exception. Its traceback is in the server's terminal, or below its cell.",
-        "Find the line in the traceback and correct it, or refuse the request by rospy.ServiceException.",
+        "Find the line in the traceback and correct it, or refuse the request with rospy.ServiceException.",
         "05",
     ),
     (
         r"service cannot process request: handler ended with (?:SystemExit|KeyboardInterrupt)",
-        "The handler tried to end the program by sys.exit() or an interrupt, and returned no response.",
-        "Return or raise ServiceException in a handler; plain rospy would have left the client waiting.",
+        "The handler called sys.exit() or was interrupted, so it returned no response.",
+        "Return a response or raise ServiceException; with plain rospy, the client would wait for ever.",
         "05",
     ),
     (
         r"service cannot process request",
-        "The handler refused this request on purpose, by raising ServiceException.",
+        "The handler refused this request: it raised ServiceException.",
         "Read the reason above and send a request that the service accepts.",
         "05",
     ),
     (
         r"responded with an error: b''",
-        "The server refused the request and gave no reason, as handlers in C++ do that return false.",
-        "Look for the reason in the server's own output.",
+        "The server refused the request without a reason. A handler in C++ does this when it returns false.",
+        "Look for the reason in the server's output.",
         "05",
     ),
     (
         r"has no attribute '_request_class'|is the (?:request|response) of a service type",
         "The class of the request or of the response was used instead of the type of the service.",
-        "Use the type itself: SetBool, and not SetBoolRequest or SetBoolResponse.",
+        "Use the type itself, for example SetBool instead of SetBoolRequest or SetBoolResponse.",
         "05",
     ),
     (

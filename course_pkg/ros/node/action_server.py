@@ -1,7 +1,7 @@
-"""An action server in a kernel, which a cell may create again and which does not keep the kernel from ending.
+"""An action server in a kernel: a cell may create it again, and the kernel can end while it exists.
 
-actionlib has a thread for goals that does not end with its process. So goals are accepted here by the other
-way that it has: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
+actionlib's own thread for goals would keep the process running. This module therefore uses actionlib's
+second method: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ import rospy
 
 from course_pkg.ros.node.type_lookup import Message
 
-END_TIMEOUT = 2.0  # s for a running `execute` to end after it was told to
-INTERVAL = 0.5  # s between checks whether rospy has ended
+END_TIMEOUT = 2.0  # s for a running `execute` to end after its goal was cancelled
+INTERVAL = 0.5  # s between checks if rospy has ended
 
 Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 
 
 class ActionServer:
-    """Serves the action `name` of type `kind` by `execute(goal, server)`, one goal after the other.
+    """Serves the action `name` of type `kind`: calls `execute(goal, server)` for one goal after the other.
 
-    `server` is an actionlib.SimpleActionServer: it takes feedback and result, and tells whether the goal was
-    cancelled. An ActionServer ends by stop(), or when the last reference to it is gone, as when its cell runs
-    again.
+    `server` is an actionlib.SimpleActionServer: `execute` sends feedback and the result through it, and
+    asks it if the goal was cancelled. An ActionServer ends with stop(), or when no variable refers to it.
+    This happens, for example, when its cell runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -35,13 +35,14 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        work = (self._server, execute, self._goal_came, self._stopped)  # no reference to self
+        # With a reference to self, the thread would keep this object alive, and __del__ would never run.
+        work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()
 
     def stop(self) -> None:
-        """Take the action off the graph. A running goal is cancelled; its thread may outlive this call."""
+        """Remove the action from the graph; a running goal is cancelled, but its thread may run longer."""
         if self._stopped.is_set():
             return
         self._stopped.set()
@@ -76,7 +77,7 @@ def _work(
 
 
 def _execute(server: actionlib.SimpleActionServer, execute: Execute, goal: Message) -> None:
-    """Execute a goal; it ends in a terminal state even if the function raises."""
+    """Execute a goal, and set a terminal state even if the student's function raises an exception."""
     try:
         execute(goal, server)
         message = "No terminal state was set."

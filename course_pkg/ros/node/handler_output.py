@@ -1,4 +1,4 @@
-"""What a handler prints, stored with the handler instead of shown below the cell that runs at the time."""
+"""The printed text of a handler is stored with its service, not shown below the cell that is running."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Printed(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Store `text`, and as much of the text before it as the limit allows."""
+        """Append `text`, and drop the oldest characters beyond the limit."""
         self.text = (self.text + text)[-LIMIT:]
         return len(text)
 
 
 class RoutedStream(io.TextIOBase):
-    """Replaces sys.stdout or sys.stderr: what a handler's thread writes is stored, all else passes through.
+    """Replaces sys.stdout or sys.stderr: text from a handler's thread is stored, other text passes through.
 
-    Where a thread's text is stored is a context variable, so that it holds for this thread alone.
+    The destination of a thread's text is a context variable, because each thread has its own destination.
     """
 
     def __init__(self, stream: TextIO, destination: ContextVar[Printed | None]) -> None:
@@ -43,7 +43,7 @@ class RoutedStream(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Write to where this thread's output belongs."""
+        """Write to this thread's destination, or to the replaced stream if the thread has none."""
         return int((self._destination.get(None) or self.stream).write(text) or 0)
 
     def flush(self) -> None:
@@ -73,20 +73,20 @@ class RoutedStream(io.TextIOBase):
 
 
 class HandlerOutput:
-    """Stores what this node's handlers print, between install() and remove()."""
+    """Stores the printed text of this node's handlers from install() until remove()."""
 
     def __init__(self) -> None:
         self._destination: ContextVar[Printed | None] = ContextVar("handler output", default=None)
 
     def install(self) -> None:
-        """Replace sys.stdout and sys.stderr, unless they are replaced already."""
+        """Replace sys.stdout and sys.stderr, unless they are already replaced."""
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
             if not isinstance(stream, RoutedStream):
                 setattr(sys, name, RoutedStream(stream, self._destination))
 
     def remove(self) -> None:
-        """Put the replaced streams back, unless another program has replaced them again since."""
+        """Put the original streams back, unless another program has replaced them since install()."""
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
             if isinstance(stream, RoutedStream):
@@ -94,7 +94,7 @@ class HandlerOutput:
 
     @contextmanager
     def into(self, printed: Printed) -> Iterator[None]:
-        """Store what this thread prints during the block in `printed`."""
+        """Store the text that this thread prints during the block in `printed`."""
         token = self._destination.set(printed)
         try:
             yield

@@ -1,4 +1,4 @@
-"""How a kernel becomes a node, repeatedly, although rospy allows one node in a process and starts once."""
+"""Make a kernel a node. A cell may run join() many times, although rospy starts only once in a process."""
 
 from __future__ import annotations
 
@@ -36,21 +36,21 @@ NAME_TIMEOUT = 2.0  # s for another node of this name to end, such as a kernel t
 
 
 def join(name: str) -> Node:
-    """Make this kernel the node `name`, and return it; run again, it returns the same node.
+    """Make this kernel the node `name`, and return the node; a second call returns the same node.
 
-    Uses the master of ROS_MASTER_URI, or starts one that ends with this kernel. After that master was lost
-    and another has taken its place, it registers again what this node had.
+    join() uses the master at ROS_MASTER_URI, or starts a master that ends with this kernel. If a new master
+    has replaced a lost master, join() registers this node's services and topics there again.
     """
     return _kernel(os.getpid()).join(name)
 
 
 def this_node() -> Node | None:
-    """Return the node that join() has made of this kernel, or None before the first join()."""
+    """Return the node of this kernel, or None before the first join()."""
     return _kernel(os.getpid()).node
 
 
 def cells() -> Cells:
-    """Return what is known about the runs of this kernel's cells."""
+    """Return the record of the runs of this kernel's cells."""
     return _kernel(os.getpid()).cells
 
 
@@ -61,7 +61,7 @@ def leave(node: Node) -> None:
 
 @cache
 def _kernel(pid: int) -> _Kernel:
-    """Return the one _Kernel of this process; a forked child is not the node that its parent is."""
+    """Return the only _Kernel of this process; a forked child gets a new one, because it is no node."""
     return _Kernel(pid)
 
 
@@ -76,7 +76,7 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        self._registered: tuple[str, str, str] | None = None  # what the cleaner withdraws
+        self._registered: tuple[str, str, str] | None = None  # the node that the cleaner unregisters
 
     def join(self, name: str) -> Node:
         _require_main_thread()
@@ -87,7 +87,7 @@ class _Kernel:
             return self._joined(full)
 
     def _follow_cells(self) -> None:
-        """Have the notebook's cells followed, if this is the kernel of one."""
+        """Start to follow the notebook's cells, if this process is the kernel of a notebook."""
         shell = current_shell()
         if shell is not None and self._shell is None:
             self._shell = NotebookShell(shell, self.cells)
@@ -109,7 +109,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # The end of a forked child would unregister its parent's services and topics.
+            # Otherwise, a forked child that ends would unregister its parent's services and topics.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._start_cleaner(master)
@@ -117,7 +117,7 @@ class _Kernel:
 
     @property
     def node(self) -> Node | None:
-        """This kernel's node, if it has joined."""
+        """This kernel's node, or None before the first join()."""
         return self._node
 
     def leave(self, node: Node) -> None:
@@ -133,7 +133,7 @@ class _Kernel:
         self._end_cleaner()
 
     def _ensure_rospy(self, full: str, master: MasterClient) -> None:
-        """Start rospy as this node if necessary, and register it at a master that does not know it."""
+        """Start rospy as this node if necessary, and register the node if the master does not know it."""
         if rospy.core.is_shutdown():
             begin_again()
         if not rospy.core.is_initialized():
@@ -148,7 +148,7 @@ class _Kernel:
         prepare_node()
 
     def _ensure_master(self) -> None:
-        """Find or start a master that answers; replace a lost private one at the same address."""
+        """Find or start a master that answers; restart a lost private master at the same address."""
         try:
             found = find_or_start_master()
         except MasterUnreachable:
@@ -160,7 +160,7 @@ class _Kernel:
             self._private = found
 
     def _start_cleaner(self, master: MasterClient) -> None:
-        """On a master that outlives this kernel, have the node unregistered if the kernel is killed."""
+        """Start a process that unregisters the node if this kernel is killed, unless its master ends, too."""
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
         if registered != self._registered:
@@ -179,7 +179,7 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            manager.master_uri = None  # all is unregistered; rospy's own attempt has no limit
+            manager.master_uri = None  # All is unregistered; rospy would try again, without a time limit.
         if self._private is not None:
             self._private.stop()
 
@@ -187,49 +187,51 @@ class _Kernel:
 def _require_main_thread() -> None:
     if threading.current_thread() is not threading.main_thread():
         raise NotJoined(
-            "join() was called on a thread. rospy can be started on the main thread only, and an attempt "
-            "anywhere else spoils this kernel for the next: call join() in a cell of its own."
+            "join() was called on another thread, but rospy can start only on the main thread. Call join() "
+            "in a separate cell."
         )
 
 
 def _full(name: str) -> str:
     base = name.removeprefix("/")
     if not rosgraph.names.is_legal_base_name(base):
-        raise NotJoined(f"{name!r} cannot be a node's name: letters, digits and _ only, and a letter first.")
+        raise NotJoined(
+            f"{name!r} cannot be a node's name. Use only letters, digits and _, and begin with a letter."
+        )
     return "/" + base
 
 
 def _require_same_name(full: str) -> None:
     if rospy.core.is_shutdown() and not can_begin_again():
         raise NotJoined(
-            "This kernel's node has been shut down, and this release of rospy cannot begin again in one "
-            "process: restart the kernel, and run the cells again."
+            "This kernel's node has been shut down, and this release of rospy cannot start a second time in "
+            "one process. Restart the kernel, and run the cells again."
         )
     if rospy.core.is_initialized() and rospy.get_name() != full:
         base = rospy.get_name().removeprefix("/")
         raise NotJoined(
-            f"This kernel is the node {rospy.get_name()} already, and one process can be one node only. Use "
-            f"join({base!r}), or restart the kernel to be {full}."
+            f"This kernel is already the node {rospy.get_name()}, and one process can be only one node. Use "
+            f"join({base!r}), or restart the kernel before you join as {full}."
         )
 
 
 def _apply_environment() -> None:
-    """Find the workspace where it has not been sourced: in a notebook of an editor, or on Binder."""
+    """Set the workspace's variables if its setup file was not sourced, as in an editor or on Binder."""
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
 
         if not environment.apply():
             raise SetupError(
-                "The course's workspace is not built on this machine. Run `./course doctor` in a terminal: "
-                "it says what is missing. Then run this cell again."
+                "The course's workspace is not built on this machine. Run `./course doctor` in a terminal, "
+                "install what it reports as missing, and run this cell again."
             )
-        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)  # course_pkg.srv is there
+        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)  # finds course_pkg.srv
     if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
         os.environ["ROS_HOSTNAME"] = "localhost"
 
 
 def _free_name(full: str, master: MasterClient) -> None:
-    """Make sure that no living node has the name, and that nothing of a dead one is registered under it."""
+    """Make sure that no running node has the name, and remove the registrations of a node that has ended."""
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:
         probe = node_probe(uri)
@@ -243,9 +245,8 @@ def _free_name(full: str, master: MasterClient) -> None:
 
 
 def _taken(full: str, uri: str, reach: Reach) -> str:
-    silent = " It does not answer: it is stopped, or hangs." if reach is Reach.SILENT else ""
+    silent = ", and does not answer" if reach is Reach.SILENT else ""
     return (
-        f"Another node is {full} already, at {uri}.{silent} Two kernels with one notebook? Shut the other "
-        "kernel down and run this cell again, or take another name here. Joining would have shut that node "
-        "down."
+        f"Another node already has the name {full}, at {uri}{silent}. If it is a second kernel with the same "
+        "notebook, shut that kernel down and run this cell again; otherwise use another name here."
     )

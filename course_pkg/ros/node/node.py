@@ -1,4 +1,4 @@
-"""A notebook's kernel as a node: each of its cells may run again."""
+"""A notebook's kernel as a node; all methods allow that a cell runs again."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from course_pkg.ros.trace.recording import Recording
 
 
 class Node:
-    """This kernel on the graph; join() makes it. `leave` takes it off the graph."""
+    """This kernel as a node of the graph, created by join(). `leave` removes it from the graph."""
 
     def __init__(self, leave: Callable[[Node], None], cells: Cells) -> None:
         self._leave = leave
@@ -49,7 +49,7 @@ class Node:
 
     @property
     def uri(self) -> str:
-        """The node's address, where the master and other nodes call it."""
+        """The node's address: the master and other nodes send their requests there."""
         return str(rospy.get_node_uri())
 
     @property
@@ -58,10 +58,10 @@ class Node:
         return master_uri()
 
     def serve(self, name: str, kind: ServiceKind, handler: Handler) -> Service:
-        """Serve `name` with `handler`, in the place of this kernel's earlier service of that name.
+        """Serve `name` with `handler`; this replaces an earlier service of this kernel with that name.
 
-        Raises UnknownType, NotAServiceType, NotJoined, and MasterUnreachable or MasterSilent where
-        rospy.Service would wait for ever.
+        Raises UnknownType, NotAServiceType and NotJoined. Raises MasterUnreachable or MasterSilent when the
+        master does not answer; rospy.Service would wait for ever.
         """
         self._require()
         service = Service(name, service_class(kind), handler, self._output)
@@ -73,39 +73,41 @@ class Node:
     def call(
         self, name: str, kind: ServiceKind, /, *args: object, timeout: float = 5.0, **fields: object
     ) -> Message:
-        """Call a service and return its response; the request by position, by field, or whole.
+        """Call a service and return its response; give fields by position or name, or one request object.
 
-        Raises CallTimeout after `timeout` s, and otherwise what rospy.ServiceProxy raises.
+        Raises CallTimeout after `timeout` s, and the same errors as rospy.ServiceProxy.
         """
         return self._proxy(name, kind).call(*args, timeout=timeout, **fields)
 
     def caller(
         self, name: str, kind: ServiceKind, *, persistent: bool = False, timeout: float = 5.0
     ) -> BoundedProxy:
-        """Return a new proxy of a service: it can be called, and cancelled from another thread."""
+        """Return a new proxy of a service; another thread can cancel its calls."""
         self._require()
         return BoundedProxy(name, kind, persistent=persistent, timeout=timeout, watchdog=self._watchdog)
 
     def subscribe(self, topic: str, kind: MessageKind, callback: Callback | None = None) -> Subscription:
-        """Subscribe to a topic, in the place of an earlier subscription; `callback` runs on rospy's thread.
+        """Subscribe to a topic, and end this kernel's earlier subscription to it.
 
-        Raises MasterUnreachable or MasterSilent where rospy.Subscriber would wait for ever.
+        `callback` runs on a thread of rospy. Raises MasterUnreachable or MasterSilent when the master does
+        not answer; rospy.Subscriber would wait for ever.
         """
         self._require()
         self._client().pid()
         full = rospy.resolve_name(topic)
         if full in self._subscriptions:
             self._subscriptions.pop(full).stop()
-        with self._cells.paused():  # it ends when another takes its place, not when its cell runs again
+        with self._cells.paused():  # The next subscribe() ends it; a second run of its cell does not.
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
 
     def advertise(
         self, topic: str, kind: MessageKind, *, queue_size: int = 10, latch: bool = False
     ) -> Publisher:
-        """Publish on a topic, in the place of an earlier publisher; `latch` keeps the last message.
+        """Return a new publisher of a topic, and stop this kernel's earlier publisher of it.
 
-        Raises MasterUnreachable or MasterSilent where rospy.Publisher would wait for ever.
+        With `latch`, each later subscriber receives the last message. Raises MasterUnreachable or
+        MasterSilent when the master does not answer; rospy.Publisher would wait for ever.
         """
         self._require()
         self._client().pid()
@@ -117,37 +119,40 @@ class Node:
         return self._publishers[full]
 
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
-        """Run a package's node as a process, in the place of the one started as the same before.
+        """Run a package's program as a process; this replaces a process that had the same name.
 
-        `name` renames the node, so that several of one program can run, as `__name:=…` and `__ns:=…` do
-        among `args`. Raises UnknownExecutable.
+        `name` renames the node, so that one program can run several times. The arguments `__name:=…` and
+        `__ns:=…` have the same effect. Raises UnknownExecutable.
         """
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
         renamed = [arg for arg in map(str, args) if arg.startswith(("__name:=", "__ns:="))]
         return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
 
     def launch(self, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file with arguments such as "client:=true", in the place of the one started before."""
+        """Run a launch file with arguments such as "client:=true"; an earlier run of the file ends."""
         return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def keep(self, process: NodeProcess) -> None:
-        """End `process` with this node, at the latest."""
+        """End `process` when this node ends, if it is still running then."""
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:
-        """Record what every course node on the graph does during the block of a `with`.
+        """Record what all nodes of the course do during the block of a `with` statement.
 
-        The recording is filled when the block ends, which takes at most 1 s longer for nodes that are silent.
+        The recording is filled at the end of the block. That takes up to 1 s if a node does not answer.
         """
         self._require()
         return recorded(self.name, self.uri, self._client())
 
     def leave(self) -> None:
-        """End all that this node has started, and take it off the graph; join() brings it back."""
+        """End everything that this node has started, and remove the node from the graph until join()."""
         self._leave(self)
 
     def renew(self) -> None:
-        """Serve, subscribe and publish again after a restart of rospy; objects of plain rospy are lost."""
+        """Serve, subscribe and publish again after a restart of rospy.
+
+        This does not restore objects that a cell created directly with rospy.
+        """
         if self._uri == rospy.get_node_uri():
             return
         self._uri = rospy.get_node_uri()
@@ -159,8 +164,8 @@ class Node:
             publisher.renew()
 
     def close(self, *, with_master: bool = True) -> None:
-        """End all that was started here; without a master that answers, nothing is unregistered."""
-        deadline = time.monotonic() + GRACE  # of all together: each was asked to end at the same time
+        """End everything that this node has started; unregister it only if `with_master` is true."""
+        deadline = time.monotonic() + GRACE  # one deadline, because all are interrupted now
         for process in self._processes.values():
             process.interrupt()
         while self._processes:
@@ -179,7 +184,7 @@ class Node:
         return f"<node {self.name}>"
 
     def _client(self) -> MasterClient:
-        """Return the client of the master that rospy talks to, which may be another than before."""
+        """Return the client of rospy's current master, which may have a new address."""
         if self._master.uri != master_uri():
             self._master = MasterClient(master_uri())
         return self._master
@@ -193,7 +198,7 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        key = (str(rospy.resolve_name(name)), id(cls))  # the proxy keeps the class, and so its id
+        key = (str(rospy.resolve_name(name)), id(cls))  # the proxy keeps the class, so the id stays valid
         if key not in self._proxies:
             self._proxies[key] = self.caller(name, cls)
         return self._proxies[key]
@@ -201,12 +206,11 @@ class Node:
     def _require(self) -> None:
         if os.getpid() != self._pid:
             raise NotJoined(
-                "This process was forked from the one that is the node, and has none of the threads that a "
-                "node needs. Use threads, or processes that are started afresh and join() by another name."
+                "This process was forked from the node's process, but a fork does not copy the threads that "
+                "a node needs. Use threads, or start a new process and call join() there with another name."
             )
         if rospy.core.is_shutdown():
             raise NotJoined(
-                "This kernel's node has been shut down: by rospy.signal_shutdown(), by interrupting "
-                "rospy.spin(), or by another node that took its name. Run the set-up cell with join() "
-                "again: it begins anew."
+                "This kernel's node has been shut down by rospy.signal_shutdown(), an interrupt of "
+                "rospy.spin(), or another node with its name. Run the set-up cell with join() again."
             )

@@ -1,12 +1,13 @@
-"""What makes a process that has called init_node() a node of the course.
+"""Prepare a process after init_node(): it becomes a node of the course.
 
-Idle connections: rospy reads the header of every connection on the one thread that accepts them, so a client
-that connects and sends nothing stops all services and topics of the node. Here that thread hands a connection
-on only when its header has arrived; a slower one waits on a separate thread, for a limited time.
+Idle connections: in rospy, one thread accepts all connections and also reads their headers. A client that
+connects and sends nothing therefore stops all services and topics of the node. In a prepared node, this
+thread reads a header only after it has arrived. A connection with a slow header waits on a separate thread,
+for a limited time.
 
-The slave API (http://wiki.ros.org/ROS/Slave_API): `getBusStats` has a place for the statistics of services,
-which rospy leaves empty; `getCourseRecord` is the course's own. A node that does not have it answers that it
-does not know the method.
+The slave API (http://wiki.ros.org/ROS/Slave_API): the answer of `getBusStats` has a part for the statistics
+of services, which rospy leaves empty. `getCourseRecord` is an extra method of the course; a node without it
+answers that the method is unknown.
 """
 
 from __future__ import annotations
@@ -35,22 +36,22 @@ from course_pkg.ros.trace.recording import GET_RECORD
 from course_pkg.ros.trace.service_hooks import hook_services
 from course_pkg.ros.trace.topic_hooks import hook_topics
 
-HEADER_TIMEOUT = 10.0  # s for a header to arrive
-AT_ONCE = 2  # ms to wait for a header before a thread is started for it
-LONGEST = 65536  # bytes of a header that is worth waiting for
-BACKLOG = 128  # connections; with rospy's 5, some of a burst of clients wait 1 s for TCP's next attempt
+HEADER_TIMEOUT = 10.0  # s until a header must have arrived
+AT_ONCE = 2  # ms to wait for a header before a separate thread waits for it
+LONGEST = 65536  # bytes; a node does not wait for a longer header
+BACKLOG = 128  # connections; rospy's 5 are too few: in a burst, some clients wait 1 s for TCP's next attempt
 STATISTICS = "getBusStats"
-UNSUPPORTED = "who calls its services: this rospy reports otherwise"
-HASTENED = "hastened_by_course"  # an attribute of a registration manager that is woken already
+UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
+HASTENED = "hastened_by_course"  # an attribute of a registration manager that the shutdown already wakes
 
 Serve = Callable[[socket.socket, Any], None]
 
 
 def prepare_node() -> None:
-    """Make this process's node one that no idle connection blocks, that is recorded, and that ends at once.
+    """Prepare this process's node: idle connections do not block it, it is recorded, and it ends quickly.
 
-    Call it right after rospy.init_node(), before anything is served, published or called. A second call
-    changes nothing.
+    Call this function directly after rospy.init_node(), before you create a service, publisher or proxy. A
+    second call changes nothing.
     """
     guard_against_idle_connections()
     hasten_shutdown()
@@ -61,16 +62,18 @@ def prepare_node() -> None:
 
 
 def guard_against_idle_connections() -> bool:
-    """Make this process's node hand on only connections whose header has arrived; return whether it can.
+    """Make this process's node wait for headers on separate threads; return whether that is possible.
 
-    Call it after init_node(). It changes rospy's internals; a rospy that is built differently is not changed.
+    Call this function after init_node(). It changes rospy's internals. If this release of rospy is built
+    differently, it changes nothing and returns False.
     """
     tcpros_base.start_tcpros_server()
     server = getattr(tcpros_base, "_tcpros_server", None)
     listener = getattr(server, "tcp_ros_server", None)
     serve = getattr(listener, "inbound_handler", None)
     if listener is None or not callable(serve):
-        logging.getLogger("rospy.course").warning("not guarded: this rospy accepts connections otherwise")
+        text = "idle connections can block this node: this rospy accepts connections in another way"
+        logging.getLogger("rospy.course").warning(text)
         return False
     if not (isinstance(serve, partial) and serve.func is _accepted):
         listener.inbound_handler = partial(_accepted, serve)
@@ -79,7 +82,7 @@ def guard_against_idle_connections() -> bool:
 
 
 def hasten_shutdown() -> None:
-    """Spare the end of the process 0.5 s, for which rospy's registration thread sleeps before it notices."""
+    """Make the process end up to 0.5 s earlier: a shutdown wakes rospy's registration thread at once."""
     manager = registration_manager()
     if manager is None or getattr(manager, HASTENED, False):
         return
@@ -93,9 +96,9 @@ def hasten_shutdown() -> None:
 
 
 def extend_slave() -> None:
-    """Make this process's node answer for what it has recorded."""
+    """Make this process's node return its records through the slave API."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy checks the arguments of the method in a wrapper, whose own arguments are these.
+    # rospy wraps this method in a function with the parameters args and kwds, which checks the arguments.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -124,13 +127,13 @@ def _header_arrives(sock: socket.socket, timeout: float) -> bool:
         return False
     start = sock.recv(4, socket.MSG_PEEK)
     if len(start) < 4:
-        return True  # the other end is gone, which rospy notices by itself
+        return True  # The client has closed the connection, and rospy detects this itself.
     (length,) = struct.unpack("<I", start)
     return length <= LONGEST and _readable(sock, 4 + length, deadline)
 
 
 def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
-    """Return whether `count` bytes are there by the deadline; poll() reports no fewer than SO_RCVLOWAT."""
+    """Return whether `count` bytes arrive before the deadline; SO_RCVLOWAT makes poll() wait for all."""
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, count)
     try:
         poll = select.poll()
@@ -141,7 +144,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 
 
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
-    """Return what was recorded since then (s of time.monotonic()), as JSON: XML takes ten times as long."""
+    """Return the records after `since` (s of time.monotonic()) as JSON: XML would take ten times as long."""
     return 1, "", json.dumps(recorder().since(float(since)))
 
 
@@ -156,6 +159,6 @@ def _add_services(method: Method) -> Method:
 
 
 def _service_stats() -> list[tuple[str, list[CallerCount]]]:
-    """Return [service, [caller, requests, when last, how many run]*] for each service of this node."""
+    """Return [service, [caller, requests, time of the last request, running requests]*] for each service."""
     names = sorted({name for name, _ in get_service_manager().get_services()})
     return [(name, recorder().call_counter.callers(name)) for name in names]

@@ -1,4 +1,4 @@
-"""A program that is a node: it serves until it is told to end, or makes one call and prints the response."""
+"""A program that is a node: it serves until a signal ends it, or makes one call and prints the response."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from course_pkg.ros.process.master import wait_for_master
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-TIMEOUT = 5.0  # s to wait for a server, and again for its response
+TIMEOUT = 5.0  # s to wait for a server, and then the same time for its response
 INTERVAL = 0.02  # s between polls
 
 Offered = tuple[type, Callable[[Message], Message]]  # a service's class and its handler
 
 
 def start_node(name: str) -> bool:
-    """Become the node `name` as soon as there is a master; return False when Ctrl-C came before that.
+    """Wait for a master and become the node `name`; return False if Ctrl-C ends the wait.
 
-    Raises MalformedMasterUri and NotAMaster.
+    Raises MalformedMasterUri if ROS_MASTER_URI is invalid, and NotAMaster if another program answers there.
     """
     try:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # Ctrl-C waits: while rospy starts, it holds locks that its shutdown needs, too. A mask is used because
-    # rospy installs handlers of its own meanwhile.
+    # Ctrl-C is delayed, because rospy's start and its shutdown need the same locks. A signal mask is used
+    # because rospy installs its own signal handlers during the start.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -45,7 +45,7 @@ def start_node(name: str) -> bool:
 
 
 def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
-    """Become the node `node` as soon as there is a master, and serve `services`, by name, until Ctrl-C."""
+    """Wait for a master, become the node `node`, and serve `services` (by name) until Ctrl-C."""
     if not start_node(node):
         return
     with undisturbed():
@@ -56,7 +56,7 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block: while rospy registers, it holds a lock that its end needs."""
+    """Delay Ctrl-C until the end of the block, because a registration holds a lock that a shutdown needs."""
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
     try:
@@ -69,12 +69,12 @@ def undisturbed() -> Iterator[None]:
 
 
 def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Message:
-    """Become the node `node` for one call of `service`, which may appear within 5 s; return the response.
+    """Become the node `node`, wait up to 5 s for `service`, call it once, and return the response.
 
-    `kind` is a class, or a type made from text. Raises ROSException when no node serves it in time, what
-    rospy raises for a failed call, CallTimeout, and MasterUnreachable at once.
+    `kind` is a class, or a type made from text. Raises ROSException if no node serves `service` in time,
+    rospy's errors for a failed call, and CallTimeout. Raises MasterUnreachable at once.
     """
-    MasterClient(master_uri()).pid()  # init_node would wait for a master for ever
+    MasterClient(master_uri()).pid()  # Without this check, init_node would wait for a master for ever.
     rospy.init_node(node)
     prepare_node()
     rospy.wait_for_service(service, timeout=TIMEOUT)
@@ -82,7 +82,7 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
 
 
 def print_response(call: Callable[[], str]) -> int:
-    """Print what `call` returns, or why it failed; return the exit status, 0 or 1."""
+    """Print the result of `call`, or its error message; return the exit status, 0 or 1."""
     try:
         print(call())  # noqa: T201 -- the program's result
     except (rospy.ROSException, rospy.ServiceException, CourseError) as error:
@@ -97,9 +97,9 @@ def complain(message: str, status: int) -> int:
 
 
 def number_parameter(name: str, default: float, least: float, most: float) -> float:
-    """Return the number that a program was started with, such as `_rate:=5`; end it when that is none.
+    """Return the number of a parameter such as `_rate:=5`; end the program if the value is not valid.
 
-    It has to be from `least` to `most`, in the unit of the parameter.
+    The value has to be a number from `least` to `most`, in the unit of the parameter.
     """
     given = rospy.get_param(name, default)
     try:
@@ -108,12 +108,12 @@ def number_parameter(name: str, default: float, least: float, most: float) -> fl
         value = float("nan")
     if not least <= value <= most:
         allowed = f"a number from {least:g} to {most:g}"
-        sys.exit(f"{rospy.resolve_name(name)} is {given!r}, and has to be {allowed}.")
+        sys.exit(f"{rospy.resolve_name(name)} is {given!r}, but it has to be {allowed}.")
     return value
 
 
 def wait_until(condition: Callable[[], object], seconds: float) -> bool:
-    """Wait for `condition`, at most `seconds`; return False when they are over, or the node is shut down."""
+    """Wait until `condition` is true; return False after `seconds`, or when the node is shut down."""
     outcome = waiting.wait_until(
         lambda: "met" if condition() else rospy.is_shutdown() and "shut down", seconds, INTERVAL
     )

@@ -1,7 +1,7 @@
-"""Calling a service in bounded time.
+"""Call a service with a time limit.
 
-rospy's ServiceProxy has no time limit, and it sets its sockets to block. So the transport is created here,
-where a watchdog or another thread can shut its socket down in every phase of the call.
+rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
+itself. A watchdog or another thread can then shut its socket down in every phase of the call.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from course_pkg.ros.node.watchdog import Watchdog
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.trace.service_hooks import RecordedCall, RecordedLookup, service_transport
 
-KEEPALIVE = "_use_tcp_keepalive"  # where rospy stores that parameter, None before it has asked the master
+KEEPALIVE = "_use_tcp_keepalive"  # rospy's variable for that parameter; None until it has asked the master
 
 
 class BoundedProxy(rospy.ServiceProxy):
-    """A ServiceProxy whose calls end: with a response, with rospy's own error, or with the deadline.
+    """A ServiceProxy whose calls always end: with a response, with rospy's own error, or at the deadline.
 
-    Threads may share it. A persistent one reconnects when its server has been replaced.
+    Threads may share a proxy. A persistent proxy connects again after its server has been replaced.
     """
 
     def __init__(
@@ -53,22 +53,22 @@ class BoundedProxy(rospy.ServiceProxy):
         self._lock = threading.Lock()  # a persistent connection carries one call at a time
 
     def call(self, *args: object, timeout: float | None = None, **fields: object) -> Message:
-        """Return the response to a request given by position, by field, or whole.
+        """Return the response; give the request's fields by position or by name, or one request object.
 
-        Raises CallTimeout after `timeout` s, CallCancelled after cancel(), and what rospy raises.
+        Raises CallTimeout after `timeout` s, CallCancelled after cancel(), and the errors of rospy.
         """
         with RecordedCall(self.resolved_name):
             return self._call(args, fields, self.timeout if timeout is None else timeout)
 
     def cancel(self) -> None:
-        """End the calls that are under way; each raises CallCancelled where it was made."""
+        """End all running calls; each of them raises CallCancelled in the thread that made the call."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            if call.over:  # it ended meanwhile, and may have missed this action when it disarmed them
+            if call.over:  # The call has ended meanwhile, perhaps before it could disarm this new action.
                 self._disarm(call)
 
     def close(self) -> None:
-        """Cancel what is under way and close the connections."""
+        """Cancel all running calls and close the connections."""
         self.cancel()
         kept, self._connection = self._connection, None
         if kept is not None:
@@ -78,7 +78,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            text = "request object type [%s] does not match service type [%s]"  # rospy's
+            text = "request object type [%s] does not match service type [%s]"  # the message of rospy
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
         self._running.add(call)
@@ -86,10 +86,10 @@ class BoundedProxy(rospy.ServiceProxy):
         try:
             return self._persistently(call, request) if self.persistent else self._once(call, request)
         except (rospy.ServiceException, TransportException, OSError, AttributeError):
-            # A socket that was shut down while rospy used it causes any of these.
+            # If the socket is shut down while rospy uses it, rospy raises one of these errors.
             if call.error is None:
                 raise
-            raise call.error from None  # rospy's error about the closed socket explains nothing
+            raise call.error from None  # rospy's error about the closed socket explains nothing to a reader
         finally:
             call.over = True
             self._running.discard(call)
@@ -108,7 +108,7 @@ class BoundedProxy(rospy.ServiceProxy):
 
     def _persistently(self, call: _Call, request: Message) -> Message:
         if not self._lock.acquire(timeout=call.left()):
-            raise call.too_late("another call over this persistent proxy is still waiting for its answer")
+            raise call.too_late("another call through this persistent proxy still waits for its response")
         try:
             transport, self._connection = self._connection, None
             if transport is not None and _hung_up(transport):
@@ -120,7 +120,7 @@ class BoundedProxy(rospy.ServiceProxy):
                 response = self._exchanged(transport, request)
             except rospy.ServiceException as error:
                 if error.__cause__ is None and call.error is None:
-                    self._connection = transport  # the server answered, with an error
+                    self._connection = transport  # The server has answered, so the connection still works.
                 else:
                     transport.close()
                 raise
@@ -169,7 +169,7 @@ class BoundedProxy(rospy.ServiceProxy):
         return uri
 
     def _exchanged(self, transport: TCPROSTransport, request: Message) -> Message:
-        """Send and receive; the errors are those of rospy.ServiceProxy.call."""
+        """Send the request and return the response; raises the same errors as rospy.ServiceProxy.call."""
         self.seq += 1
         transport.send_message(request, self.seq)
         try:
@@ -190,7 +190,7 @@ class BoundedProxy(rospy.ServiceProxy):
 
 
 class _Call:
-    """One call under way: its deadline, its transport once there is one, and why it was broken off."""
+    """One running call: its deadline, its transport (None at first), and the error that ended it early."""
 
     def __init__(self, name: str, timeout: float) -> None:
         self.deadline = time.monotonic() + timeout
@@ -202,28 +202,28 @@ class _Call:
         self._timeout = timeout
 
     def left(self) -> float:
-        """Return how many s are left, at least 0.001."""
+        """Return the time until the deadline in s, at least 0.001."""
         return max(self.deadline - time.monotonic(), 0.001)
 
     def too_late(self, why: str) -> CallTimeout:
-        """Return the error for a deadline that has passed, with a reason."""
+        """Return the error for a deadline that has passed; `why` is the reason in its message."""
         return CallTimeout(f"service [{self._name}]: no answer within {self._timeout:g} s; {why}.")
 
     def expire(self) -> None:
-        """Break the call off because its deadline has passed."""
+        """End the call because its deadline has passed."""
         self._break_off(self.too_late(self._waiting_for()))
 
     def cancel(self) -> None:
-        """Break the call off because its caller cancelled it."""
+        """End the call because its caller cancelled it."""
         text = "the call was cancelled; the server may still work on it."
         self._break_off(CallCancelled(f"service [{self._name}]: {text}"))
 
     def _waiting_for(self) -> str:
         if self.transport is None or not self.transport.socket:
-            return "it was not even reached"
+            return "the server was not reached"
         if self.transport.md5sum is None:
-            return "the server takes connections and does not speak: stopped, or busy with another one"
-        return "its handler is still working, waits for something itself, or ended without an answer"
+            return "the server accepts connections, but sends nothing: it is stopped or busy with another one"
+        return "its handler is still working, is waiting for something, or has ended without an answer"
 
     def _break_off(self, error: GraphError) -> None:
         if self.over:
@@ -231,18 +231,18 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            with suppress(OSError):  # not connected yet: the watchdog comes again
+            with suppress(OSError):  # The socket is not connected yet; the watchdog repeats this action.
                 sock.shutdown(socket.SHUT_RDWR)
 
 
 def settle_keepalive(master: MasterClient) -> None:
-    """Ask the master for the parameter that rospy asks for at its first connection without a time limit."""
+    """Read the keepalive parameter with a time limit, because rospy itself sets no limit."""
     if getattr(tcpros_base, KEEPALIVE, True) is None:
         setattr(tcpros_base, KEEPALIVE, master.get_param("/tcp_keepalive", True))
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the other end of an idle connection is gone; it never sends anything else then."""
+    """Return whether the server has closed an idle connection; an open one has no data to read."""
     sock = transport.socket
     if sock is None:
         return True

@@ -1,4 +1,4 @@
-"""A publisher that counts its messages, so that a cell can see which were sent, and which were dropped."""
+"""A publisher that counts its messages: a cell can show how many were sent and how many were dropped."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """A publisher; `published` counts its messages, `unheard` those sent while no subscriber was connected.
+    """A publisher that counts its messages.
 
-    With `latch` the last message is sent to each subscriber that connects later. Up to `queue_size` messages
-    wait for each subscriber; 0 sets no limit.
+    `published` counts all messages, and `unheard` counts the messages without any connected subscriber.
+    With `latch`, each subscriber that connects later receives the last message. Up to `queue_size` messages
+    wait for each subscriber; 0 means no limit.
     """
 
     def __init__(self, topic: str, cls: MessageClass, *, queue_size: int = 10, latch: bool = False) -> None:
@@ -38,7 +39,10 @@ class Publisher:
         self._advertise()
 
     def publish(self, *args: object, **fields: object) -> None:
-        """Publish a message: whole, by position, or by field. Raises PublisherStopped after stop()."""
+        """Publish a message; give one message object, or its fields by position or by name.
+
+        Raises PublisherStopped after stop().
+        """
         with self._lock:
             if self._publisher is None:
                 raise PublisherStopped(f"{self.name}: this publisher was stopped. Advertise the topic again.")
@@ -50,12 +54,12 @@ class Publisher:
 
     @property
     def advertised(self) -> bool:
-        """Whether it can publish."""
+        """Whether this publisher can publish, because it was not stopped."""
         return self._publisher is not None
 
     @property
     def deliveries(self) -> tuple[Delivery, ...]:
-        """What was sent to each subscriber that is connected, what waits, and what was dropped."""
+        """For each connected subscriber: how many messages were sent, are waiting, and were dropped."""
         return self._deliveries[-1].current()
 
     @property
@@ -76,14 +80,14 @@ class Publisher:
         if not wait_until(lambda: len(self.deliveries) >= count, timeout, 0.005):
             raise TooFewSubscribers(
                 f"{self.name}: {len(self.deliveries)} of {count} subscribers connected within {timeout:g} s. "
-                f"Does somebody subscribe to it, and to {self.type}? See `rostopic info {self.name}`."
+                f"Check its subscribers and their type ({self.type}) with `rostopic info {self.name}`."
             )
 
     def stop(self, *, unregister: bool = True) -> None:
-        """Stop publishing, and unregister the topic; the counts stay. A second stop changes nothing.
+        """Stop publishing and unregister the topic; the counts are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent where rospy would wait for ever; even then nothing more is
-        published.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
+        The publisher is stopped even if this error is raised.
         """
         with self._lock:
             publisher, self._publisher = self._publisher, None
@@ -92,7 +96,7 @@ class Publisher:
             publisher.unregister()
 
     def renew(self) -> None:
-        """Advertise again after a restart of rospy, unless it was stopped."""
+        """Advertise the topic again after a restart of rospy, unless this publisher was stopped."""
         if self._publisher is not None:
             self._advertise()
 

@@ -1,12 +1,12 @@
-"""Starting rospy in a notebook's kernel: a second time in one process, and without the kernel's logging.
+"""Start rospy in a notebook's kernel, also a second time, and without changes to the kernel's logging.
 
-rospy is made to end once: after signal_shutdown(), an interrupted rospy.spin(), or another node with the
-same name, it stays shut down, and init_node() does nothing and reports nothing. In a notebook that costs the
-student everything that the kernel holds. So what rospy keeps about having ended is put back to how it was
-before the first init_node().
+rospy can end only once: signal_shutdown(), an interrupted rospy.spin(), or another node with the same name
+shuts it down. After that, init_node() does nothing and reports no error. In a notebook, the student would
+have to restart the kernel and would lose all variables. This module therefore sets rospy's variables to
+their values from before the first init_node().
 
-init_node() also closes and removes the root logger's handlers, sends every library's messages to the node's
-log file, and prints from any thread into whichever cell is running.
+init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to
+the node's log file. It prints messages of all threads below the cell that is running at that moment.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from rospy import client, core
 from rospy.impl import rosout, tcpros_base
 from rospy.impl.registration import get_service_manager, get_topic_manager
 
-ARGUMENTS = "_init_node_args"  # where rospy keeps the arguments of the first call
+ARGUMENTS = "_init_node_args"  # rospy's variable for the arguments of the first call
 BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (core, "_shutdown_flag", False),
     (core, "_in_shutdown", False),
@@ -31,17 +31,17 @@ BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (tcpros_base, "_tcpros_server", None),
     (rosout, "_rosout_pub", None),
 )
-LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # those that belong to ROS
+LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # the loggers that belong to ROS
 
 
 def can_begin_again() -> bool:
-    """Return whether this rospy is built as begin_again() expects."""
+    """Return whether this release of rospy has all the variables that begin_again() sets."""
     known = all(hasattr(module, name) for module, name, _ in BEGINNING)
     return known and hasattr(get_topic_manager(), "closed")
 
 
 def begin_again() -> None:
-    """Make rospy ready for init_node(), with no registrations; the old node has to be shut down."""
+    """Make rospy ready for init_node(), without registrations; the old node must be shut down before."""
     assert rospy.core.is_shutdown()
     for module, name, value in BEGINNING:
         setattr(module, name, value)
@@ -54,9 +54,9 @@ def begin_again() -> None:
 
 
 def allow_init_node() -> None:
-    """Let each further rospy.init_node() change nothing, as in a cell that is also a program of its own.
+    """Make every later rospy.init_node() do nothing: a cell may contain a whole program with its own call.
 
-    rospy compares the arguments with those of the first call, and raises ROSException if they differ.
+    rospy compares the arguments with the arguments of the first call, and raises ROSException if they differ.
     """
     setattr(client, ARGUMENTS, _AnyArguments())
 
@@ -73,7 +73,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """Give the root logger its handlers back after the block, and ROS's loggers a file of their own."""
+    """Restore the root logger's handlers after the block; only ROS's loggers use the new handlers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:
@@ -87,7 +87,7 @@ def logging_kept() -> Iterator[None]:
 
 
 def _separate(logger: logging.Logger, files: list[logging.Handler]) -> None:
-    """Make a logger of ROS write to its file, and print only what comes from the main thread, the cell's."""
+    """Make a logger of ROS write to its file, and print only messages of the main thread."""
     for handler in logger.handlers:
         if type(handler).__name__ == "RosStreamHandler":
             handler.addFilter(_from_main_thread)

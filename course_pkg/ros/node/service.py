@@ -1,4 +1,4 @@
-"""A service of this kernel's node, which a cell may define again and again."""
+"""A service of this kernel's node; a cell may define it again each time it runs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CAPACITY = 1000  # calls
 
 @dataclass(frozen=True)
 class HandledCall:
-    """One call as its server saw it: `time` in s since the epoch, a response or an error message."""
+    """One call that the server handled: `time` in s since the epoch, and a response or an error message."""
 
     time: float
     request: Message
@@ -37,7 +37,7 @@ class HandledCall:
 
 
 class Service:
-    """A service of this kernel. `calls` holds the last 1000; `output` is what the handler printed."""
+    """A service of this kernel. `calls` holds the last 1000 calls; `output` is the handler's printed text."""
 
     def __init__(self, name: str, cls: ServiceClass, handler: Handler, output: HandlerOutput) -> None:
         self.handler = handler
@@ -54,33 +54,33 @@ class Service:
 
     @property
     def type(self) -> str:
-        """The name of its type."""
+        """The name of the service's type."""
         return str(self._impl.service_class._type)
 
     @property
     def uri(self) -> str:
-        """Where it is served, rosrpc://HOST:PORT."""
+        """The address of the service, rosrpc://HOST:PORT."""
         return str(self._impl.uri)
 
     @property
     def errors(self) -> list[HandledCall]:
-        """The stored calls that ended in an error, with tracebacks."""
+        """The stored calls that ended with an error; each has a traceback."""
         return [call for call in self.calls if call.error]
 
     @property
     def output(self) -> str:
-        """The end of what the handler has printed."""
+        """The last 65,536 characters that the handler has printed."""
         return self._printed.text
 
     @property
     def stopped(self) -> bool:
-        """Whether another service, or none, has this name now."""
+        """Whether this service is no longer served: it was stopped, or another service has its name."""
         return get_service_manager().get_service(self.name) is not self._impl
 
     def start(self, master: MasterClient) -> None:
-        """Take the name over from another service of this process, and register it.
+        """Register this service, in place of another service of this process with the same name.
 
-        It is registered from here and not by rospy, which would try for ever when the master is gone.
+        This method registers the service itself, because rospy would try for ever if the master has ended.
         """
         manager = get_service_manager()
         with manager.lock:
@@ -98,7 +98,7 @@ class Service:
             self._replace(before)
 
     def stop(self, *, unregister: bool = True) -> None:
-        """End the service and unregister it; a second stop changes nothing."""
+        """Stop the service and unregister it; a second stop changes nothing."""
         self._active = False
         manager = get_service_manager()
         with manager.lock:
@@ -109,7 +109,7 @@ class Service:
             MasterClient(master_uri()).unregister_service(rospy.get_name(), self.name, self.uri)
 
     def renew(self, master: MasterClient) -> None:
-        """Serve again after a restart of rospy, unless it was stopped."""
+        """Serve again after a restart of rospy, unless this service was stopped."""
         if self._active:
             cls = self._impl.service_class
             self._impl = ServiceImpl(self.name, cls, self._answer, error_handler=self._failed)
@@ -125,20 +125,20 @@ class Service:
         return f"<{self.name} of type {self.type}, {'stopped' if self.stopped else 'served'}>"
 
     def _replace(self, before: ServiceImpl) -> None:
-        """Answer the clients that keep a connection to the predecessor as this service answers.
+        """Let this service also answer the clients that are still connected to the earlier service.
 
-        The predecessor's address is made invalid: its own shutdown() would unregister what is registered
-        there, and that is this service.
+        The earlier service gets an invalid address: its shutdown() unregisters the service at its address,
+        and both services have the same address.
         """
         before.uri = "rosrpc://replaced:0"
         same = before.service_class._md5sum == self._impl.service_class._md5sum
         before.handler = self._answer if same else self._replaced
 
     def _replaced(self, _request: Message) -> Message:
-        raise rospy.ServiceException(f"{self.name} is of type {self.type} now: connect to it again")
+        raise rospy.ServiceException(f"{self.name} is of type {self.type} now: connect to the service again")
 
     def _answer(self, request: Message) -> Message:
-        """Return the handler's response, or raise what rospy turns into an error message."""
+        """Return the handler's response, or raise an exception that rospy sends as an error message."""
         started = time.time()
         try:
             with self._output.into(self._printed):
@@ -150,7 +150,8 @@ class Service:
             self._store(started, request, f"error processing request: {error}")
             raise
         except BaseException as error:
-            # rospy sends no answer for any of these, and the client would wait for ever.
+            # After such an exception (SystemExit, for example) rospy sends no answer: the client would wait
+            # for ever. A ServiceException makes rospy send an error message.
             message = f"handler ended with {type(error).__name__}: {error}"
             self._store(started, request, f"service cannot process request: {message}")
             raise rospy.ServiceException(message) from error
@@ -161,10 +162,10 @@ class Service:
         self.calls.append(HandledCall(started, request, None, message, traceback.format_exc()))
 
     def _failed(self, error: Exception, *_: object) -> None:
-        """Log an error that rospy reports; one that the handler raised is stored already."""
+        """Log an error that rospy reports; an error that the handler raised is already stored."""
         logging.getLogger("rospy.course").error("%s: %s", self.name, error, exc_info=error)
         last = self.calls[-1] if self.calls else None
         if last is not None and last.response is not None:
-            # The response was of the right type and could not be packed: a field holds a wrong value.
+            # The response has the right type, but rospy could not pack it: a field has a wrong value.
             message, trace = f"error processing request: {error}", "".join(traceback.format_exception(error))
             self.calls[-1] = HandledCall(last.time, last.request, None, message, trace)

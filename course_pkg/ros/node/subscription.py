@@ -1,4 +1,4 @@
-"""The messages of a topic, stored, so that a cell can wait for them instead of printing from a callback."""
+"""A subscription that stores its messages: a cell can wait for them and needs no callback to print them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,10 @@ Callback = Callable[[Message], object]
 
 
 class Subscription:
-    """A subscription; `messages` holds the last 1000, oldest first, `errors` those that `callback` raised."""
+    """A subscription: `messages` holds the last 1000 messages, the oldest first.
+
+    `errors` holds the last 1000 exceptions that `callback` raised.
+    """
 
     def __init__(self, topic: str, cls: MessageClass, callback: Callback | None = None) -> None:
         self.messages: deque[Message] = deque(maxlen=CAPACITY)
@@ -39,13 +42,13 @@ class Subscription:
         self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._receive)
 
     def wait(self, count: int = 1, timeout: float = 5.0) -> list[Message]:
-        """Return the first `count` of `messages`, as soon as there are so many.
+        """Wait until `count` messages are stored, and return the first `count` of them.
 
-        Raises NothingHeard when there are fewer after `timeout` s.
+        Raises NothingHeard when fewer messages are stored after `timeout` s.
         """
         deadline = time.monotonic() + timeout
         with self._arrived:
-            # In slices: a lock that waits without limit cannot be interrupted on every platform.
+            # Each wait is short, because on some platforms a signal cannot interrupt a long wait for a lock.
             while len(self.messages) < count and (rest := deadline - time.monotonic()) > 0:
                 self._arrived.wait(min(rest, 0.5))
             if len(self.messages) < count:
@@ -53,10 +56,10 @@ class Subscription:
             return list(self.messages)[:count]
 
     def stop(self, *, unregister: bool = True) -> None:
-        """Unsubscribe; the stored messages stay. A second stop changes nothing.
+        """Unsubscribe; the stored messages are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent where rospy would wait for ever; even then nothing more is
-        received.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
+        No more messages are stored even if this error is raised.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None
@@ -65,7 +68,7 @@ class Subscription:
             subscriber.unregister()
 
     def renew(self) -> None:
-        """Subscribe again after a restart of rospy, unless it was stopped."""
+        """Subscribe again after a restart of rospy, unless this subscription was stopped."""
         if self._subscriber is not None:
             self._subscriber = rospy.Subscriber(self.name, self._cls, self._receive)
 
@@ -90,13 +93,13 @@ class Subscription:
         if self._callback is not None:
             try:
                 self._callback(message)
-            except Exception as error:  # noqa: BLE001 -- stored for a cell to show: rospy would print it anywhere
+            except Exception as error:  # noqa: BLE001 -- stored, because rospy would print it below any cell
                 self.errors.append(error)
 
     def _too_few(self, count: int, timeout: float) -> str:
         publishers = self._subscriber.get_num_connections() if self._subscriber else 0
         why = f"{publishers} publishers are connected" if publishers else "no publisher is connected"
         return (
-            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and {why}. Is "
-            f"somebody publishing there, and {self.type}? See `rostopic info {self.name}`."
+            f"{self.name}: {len(self.messages)} of {count} messages within {timeout:g} s, and {why}. "
+            f"Check its publishers and their type ({self.type}) with `rostopic info {self.name}`."
         )

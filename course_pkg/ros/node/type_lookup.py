@@ -1,4 +1,4 @@
-"""The generated classes that rospy needs, from what a caller gave: a class, a type of `types`, or a name."""
+"""Find the generated class that rospy needs; a caller gives a class, a type of `types`, or a name."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MessageKind = Union[type, "MessageClass", "MessageType", str]
 def service_class(kind: ServiceKind) -> ServiceClass:
     """Return the service class for a class, a ServiceType or a name such as "std_srvs/Trigger".
 
-    Raises UnknownType for a name that is not known here, and NotAServiceType for anything else.
+    Raises UnknownType for an unknown name, and NotAServiceType for an object that is not a service type.
     """
     if isinstance(kind, str):
         from course_pkg.types import service_type
@@ -34,7 +34,7 @@ def service_class(kind: ServiceKind) -> ServiceClass:
 def message_class(kind: MessageKind) -> MessageClass:
     """Return the message class for a class, a MessageType or a name such as "std_msgs/UInt32".
 
-    Raises UnknownType for a name that is not known here, and NotAMessageType for anything else.
+    Raises UnknownType for an unknown name, and NotAMessageType for an object that is not a message type.
     """
     if isinstance(kind, str):
         from course_pkg.types import message_type
@@ -42,7 +42,8 @@ def message_class(kind: MessageKind) -> MessageClass:
         kind = message_type(kind)
     cls = getattr(kind, "cls", kind)
     if not _is_message(cls):
-        raise NotAMessageType(f"{_name(cls)} is not a message type. Give a class like std_msgs.msg.UInt32.")
+        text = "is not a message type. Give a class such as std_msgs.msg.UInt32."
+        raise NotAMessageType(f"{_name(cls)} {text}")
     return cls
 
 
@@ -61,8 +62,8 @@ def _not_a_service(cls: object) -> str:
             whole = name.removesuffix(half)
             return f"{name} is the {half.lower()} of a service type. Give the type itself: {whole}."
     if isinstance(cls, genpy.Message) or hasattr(cls, "_slot_types"):
-        return f"{name} is a message type, for topics. A service needs one like std_srvs.srv.Trigger."
-    return f"{name} is not a service type. Give a class like std_srvs.srv.Trigger, from a package's srv."
+        return f"{name} is a message type, for topics. Give a service type, such as std_srvs.srv.Trigger."
+    return f"{name} is not a service type. Give a class such as std_srvs.srv.Trigger."
 
 
 def _name(cls: object) -> str:

@@ -1,4 +1,4 @@
-"""One thread that acts when deadlines pass: the deadline of a call costs microseconds and no other thread."""
+"""One thread watches the deadlines of all calls, so a call needs no extra thread for its deadline."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ import threading
 import time
 from collections.abc import Callable
 
-LINGER = 5.0  # s between checks whether any action is still armed
+LINGER = 5.0  # s between checks if any action is still armed
 REPEAT = 0.02  # s until an action is repeated
 
 
 class Watchdog:
-    """Calls an action once its deadline has passed, and again every 20 ms, until it is disarmed.
+    """Runs an action after its deadline has passed, and again every 20 ms, until the action is disarmed.
 
-    It is repeated because a socket cannot be shut down before it is created. The thread runs while an action
-    is armed, and some seconds longer, since calls often follow each other.
+    The action is repeated because a socket cannot be shut down before it is created. The thread runs while
+    an action is armed. It runs some seconds longer because the next call often follows soon.
     """
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class Watchdog:
         self._thread: threading.Thread | None = None
 
     def arm(self, deadline: float, action: Callable[[], None]) -> int:
-        """Call `action` from `deadline` (of time.monotonic()) on; return the number that disarm() takes."""
+        """Run `action` after `deadline` (s of time.monotonic()); return the number that disarm() needs."""
         number = next(self._numbers)
         self._armed[number] = (deadline, action)
         if self._thread is None or deadline < self._wake:
@@ -35,7 +35,7 @@ class Watchdog:
         return number
 
     def disarm(self, number: int) -> None:
-        """Do not call the action any more; one that is being called now may still finish."""
+        """Stop running the action; if it is running at this moment, it still finishes."""
         self._armed.pop(number, None)
 
     def _wake_thread(self) -> None:
@@ -52,17 +52,16 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                self._wake = (
-                    math.inf
-                )  # an action armed from here on may be missed below, so arm() wakes this thread
+                # The next lines may miss an action that is armed now; with inf, arm() wakes this thread.
+                self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
                 self._changed.wait(max(self._wake - time.monotonic(), 0))
 
     def _may_end(self) -> bool:
-        """Return whether this thread may end; from then on arm() starts another one."""
+        """Return whether this thread may end; if it may, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
-            if self._armed:  # by a thread that still saw this one
+            if self._armed:  # Another thread armed an action while this thread was still registered.
                 self._thread = threading.current_thread()
             return self._thread is None

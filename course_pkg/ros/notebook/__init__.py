@@ -1,1 +1,1 @@
-"""What plain rospy needs in a notebook: cells that run again, programs of the terminal, readable errors."""
+"""Make rospy usable in a notebook: cells can run again, cells start programs, and errors are short."""

@@ -1,7 +1,7 @@
-"""The runs of a notebook's cells, and what each run created, so that a cell can run again.
+"""The runs of a notebook's cells and the objects that each run created, so that a cell can run again.
 
-A front end that shows a notebook sends the cell's id with each execution. nbclient sends none and runs each
-cell once, so every execution without an id counts as a cell of its own.
+A front end sends the cell's id with each execution. nbclient sends no id, but runs each cell only once. Each
+execution without an id therefore counts as a separate cell.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
 
-CALLBACK = "rospy."  # the modules that call handlers and callbacks
+CALLBACK = "rospy."  # modules whose names begin with this call handlers and callbacks
 
 Close = Callable[[], None]
 CloseAll = Callable[[list[Close]], None]
@@ -21,16 +21,16 @@ CloseAll = Callable[[list[Close]], None]
 
 @dataclass
 class CellRun:
-    """One run of a cell, or one check; `source` names the file that the code of the cell belongs to."""
+    """One run of a cell, or one check; `source` is IPython's file name for the code of the cell."""
 
     source: str = ""
-    temporary: bool = False  # a check: what it creates ends with it
-    error: str = ""  # the class of the exception that ended it
-    created: dict[Hashable, Close] = field(default_factory=dict)  # by what identifies it, oldest first
-    threads: frozenset[int] = frozenset()  # those that ran when it began
+    temporary: bool = False  # True for a check: its objects end with it
+    error: str = ""  # the class of the exception that ended the run
+    created: dict[Hashable, Close] = field(default_factory=dict)  # by object, the oldest first
+    threads: frozenset[int] = frozenset()  # the threads that were running when the run began
 
     def owns_this_thread(self) -> bool:
-        """Return whether this thread works for the run, and not for a handler or an earlier cell."""
+        """Return whether this thread belongs to the run, not to a handler or to an earlier cell."""
         thread = threading.current_thread()
         if thread is threading.main_thread():
             return True
@@ -38,18 +38,18 @@ class CellRun:
 
 
 class Cells:
-    """The last run of each cell of this kernel's notebook. `close_all` ends what a run has created."""
+    """The last run of each cell of this kernel's notebook. `close_all` ends the objects of a run."""
 
     def __init__(self, close_all: CloseAll) -> None:
         self._close_all = close_all
         self._runs: dict[str, CellRun] = {}
-        self._cells: dict[str, str] = {}  # by the file that the code of a run belongs to
+        self._cells: dict[str, str] = {}  # a cell's id, by the `source` of its runs
         self._current: CellRun | None = None
-        self._depth = 0  # cells that run within the current one, as by %%capture
+        self._depth = 0  # the number of cells that run inside the current cell, for example with %%capture
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, after ending what its last run has created."""
+        """Begin a run of `cell`, and end the objects that its last run created."""
         if self._current is not None:
             self._depth += 1
             return
@@ -61,7 +61,7 @@ class Cells:
                 self._close_all(list(previous.created.values()))
 
     def end(self, error: BaseException | None = None) -> None:
-        """End the current run, which `error` has ended if it is given."""
+        """End the current run; `error` is the exception that ended it, or None."""
         if self._depth:
             self._depth -= 1
         elif self._current is not None:
@@ -70,18 +70,18 @@ class Cells:
 
     @property
     def run(self) -> CellRun | None:
-        """The run that creates what this thread creates now, if any."""
+        """The run to which this thread's new objects belong, or None."""
         run = self._current
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """Note that the current run, if there is one, has created `thing`, which `close` ends."""
+        """Record that the current run, if any, created `thing`; `close` is the function that ends it."""
         if run := self.run:
             run.created[thing] = close
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Let what is created in the block belong to no cell."""
+        """Objects that the block creates belong to no cell, so a new run of the cell does not end them."""
         self._paused += 1
         try:
             yield
@@ -90,7 +90,7 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """End what is created in the block after it. It takes no service's place."""
+        """End all objects that the block creates, after the block; they do not replace services of cells."""
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current
         try:
@@ -100,7 +100,7 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell that the file `source` belongs to, if its code is another now."""
+        """Return the last run of the cell with the earlier code `source`, or None if its code is the same."""
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None
 
@@ -110,7 +110,7 @@ def _thread_ids() -> frozenset[int]:
 
 
 def _within_callback(frame: FrameType | None) -> bool:
-    """Return whether rospy has called the function of `frame`, or one that has called it."""
+    """Return whether rospy called the function of `frame`, directly or through other functions."""
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))
         if module.startswith(CALLBACK) and frame.f_code.co_name != "__init__":

@@ -1,8 +1,8 @@
-"""What rospy and actionlib create in a cell, noted for `Cells`, and how each of these things is ended.
+"""Record the objects of rospy and actionlib that a cell creates, in `Cells`, and end these objects.
 
-rospy offers no list of its Publisher and Subscriber objects, only of the topics behind them. So the methods
-that create these objects are replaced by ones that also note them; a rospy with other methods is left
-unchanged.
+rospy has no list of its Publisher and Subscriber objects, only of their topics. This module therefore
+replaces the methods that create these objects by methods that also record them. If a method of rospy differs
+from the expected one, it is not replaced.
 """
 
 from __future__ import annotations
@@ -29,17 +29,20 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.rospy_registrations import registration_manager
 from course_pkg.ros.trace.hooks import Hook, Method
 
-GOAL_TIMEOUT = 2.0  # s for a goal to end after it was told to
-# What rospy raises for a topic that is closed already, or when the node has been shut down; and ours.
+GOAL_TIMEOUT = 2.0  # s for a goal to end after it was cancelled
+# The errors if a topic is already closed, the node has been shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address of a service that is not served any more. With its own, shutdown() would unregister whichever
-# service of this process has its name by then.
+# The address of a service that has ended. With its old address, its shutdown() would unregister a newer
+# service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
-LOOK = 0.5  # s between looks whether an action server has been ended
+LOOK = 0.5  # s between polls if an action server has ended
 
 
 def note_creations(cells: Cells) -> None:
-    """Have `cells` note what this process creates by rospy and actionlib; a second call changes nothing."""
+    """Start to record in `cells` what this process creates with rospy and actionlib.
+
+    A second call changes nothing.
+    """
     simple = ("self", "name", "ActionSpec", "execute_cb", "auto_start")
     action = ("self", "ns", "ActionSpec", "goal_cb", "cancel_cb", "auto_start")
     hooks = (
@@ -60,7 +63,7 @@ def note_creations(cells: Cells) -> None:
 
 
 def close_all(closes: list[Close]) -> None:
-    """End what a run has created: action servers first, since they publish results; then the newest first."""
+    """End the objects of a run, the newest first; but action servers end first, to publish their results."""
     if not closes:
         return
     servers = [close for close in closes if _ends_goals(close)]
@@ -77,7 +80,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """Keep rospy from unregistering while the master does not answer: its attempt has no time limit."""
+    """Prevent rospy from unregistering if the master does not answer, because rospy sets no time limit."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -93,7 +96,7 @@ def _unregistering_in_bounded_time() -> Iterator[None]:
 
 
 def _noting(cells: Cells, close: Callable[[Any], None]) -> Callable[[Method], Method]:
-    """Return a replacement of an `__init__` by one that notes what it creates."""
+    """Return a function that replaces an `__init__`; the new `__init__` also records the object."""
 
     def replace(method: Method) -> Method:
         def __init__(self: Any, *args: Any, **kwds: Any) -> None:  # noqa: ANN401, N807 -- of rospy's classes
@@ -137,9 +140,10 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Shut down the service of another cell, and return True; False if it has to go on, because of a check.
+    """Shut down the service of another cell and return True; return False if that service must continue.
 
-    A check may create a second object of a class that serves in its `__init__`. The first one still answers.
+    It must continue during a check. A check may create a second object of a student's class, and the class
+    may create a service in its `__init__`. The service of the first object must still answer.
     """
     ours = _Identity(before) in run.created
     if run.temporary and not ours:
@@ -153,7 +157,7 @@ def _make_room(run: CellRun, before: ServiceImpl) -> bool:
 
 
 def _close_service(service: ServiceImpl) -> None:
-    """Shut a service down; a client that is still connected is told so, and does not get the old answers."""
+    """Shut a service down; a client that is still connected then gets error messages."""
     if get_service_manager().get_service(service.resolved_name) is service:
         service.shutdown("its cell runs again")
     service.uri = UNREGISTERED
@@ -177,7 +181,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 
 
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
-    """End an action server; a running goal is cancelled, and may outlive this call if it does not end."""
+    """End an action server and cancel a running goal; the goal may run longer if it ignores this."""
     with server.terminate_mutex:
         server.need_to_terminate = True
     server.preempt_request = True
@@ -188,7 +192,7 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 
 
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
-    """End the thread of an action server with the main thread: Python would wait for it for ever."""
+    """End an action server's thread when the main thread ends, because Python would wait for it for ever."""
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:
         main.join(LOOK)
@@ -197,7 +201,7 @@ def _end_with_process(server: actionlib.SimpleActionServer) -> None:
 
 
 class _Identity:
-    """Makes an object a key of a dict by its identity, even if its class defines equality."""
+    """A dict key for an object: two keys are equal only if both contain the identical object."""
 
     def __init__(self, thing: object) -> None:
         self.thing = thing

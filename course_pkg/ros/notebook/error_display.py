@@ -1,4 +1,4 @@
-"""How a notebook shows errors: those of its cells, and those of handlers, callbacks and other threads."""
+"""Show the errors of cells, handlers, callbacks and other threads in a notebook."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ if TYPE_CHECKING:
 
     from IPython.core.interactiveshell import InteractiveShell
 
-METHOD = "structured_traceback"  # of IPython's object that formats errors
-DEFAULT_MODE = "Context"  # of %xmode; the student has chosen any other one
-CALLS = 2  # that are shown for a SyntaxError in a file that is imported
-TRACEBACK = "Traceback (most recent call last)"  # in what rospy logs about an exception
+METHOD = "structured_traceback"  # the method of IPython's object that formats errors
+DEFAULT_MODE = "Context"  # the default of %xmode; another mode is the student's choice
+CALLS = 2  # the number of shown calls for a SyntaxError in an imported file
+TRACEBACK = "Traceback (most recent call last)"  # a log message of rospy about an exception contains this
 LOGGER = "rosout"
 
 
 class ErrorDisplay:
-    """Shows each error of `shell` in at most 12 lines; `%tb` shows all of it."""
+    """Shows each error of `shell` in at most 12 lines; `%tb` shows the whole traceback."""
 
     def __init__(self, shell: InteractiveShell) -> None:
         self._shell = shell
-        self._source = ""  # the file that the code of the current cell belongs to
+        self._source = ""  # IPython's file name for the code of the current cell
         self._all = False
         self._full: Callable[..., list[str]] = getattr(shell.InteractiveTB, METHOD)
         self._tb: Callable[[str], None] = shell.find_line_magic("tb")
@@ -39,12 +39,12 @@ class ErrorDisplay:
         shell.magics_manager.register_function(self._show_all, "line", "tb")
 
     def begin_cell(self, source: str) -> None:
-        """Name the cell whose code belongs to the file `source` the current one, from now on."""
+        """Make the cell with IPython's file name `source` the current cell."""
         self._source = source
         self._threads.forget()
 
     def follow_threads(self) -> None:
-        """Show the errors of handlers, callbacks and timers, too; rospy has to be started."""
+        """Also show the errors of handlers, callbacks and timers; call this after the start of rospy."""
         self._threads.install()
 
     def _formatted(
@@ -52,7 +52,7 @@ class ErrorDisplay:
         etype: type[BaseException] | None,
         evalue: BaseException | None,
         etb: TracebackType | None = None,
-        *args: Any,  # noqa: ANN401 -- as IPython calls it
+        *args: Any,  # noqa: ANN401 -- IPython's arguments
         **kwds: Any,  # noqa: ANN401
     ) -> list[str]:
         chosen = self._all or self._shell.InteractiveTB.mode != DEFAULT_MODE
@@ -68,7 +68,7 @@ class ErrorDisplay:
         *args: Any,  # noqa: ANN401
         **kwds: Any,  # noqa: ANN401
     ) -> list[str]:
-        """Return a SyntaxError as IPython shows it, but without the frames that led to an import."""
+        """Return a SyntaxError as IPython formats it, but without the frames of the import system."""
         shown = [call for call in calls if self._all or is_students(call.filename)]
         return self._full_syntax(etype, evalue, shown[-CALLS:], *args, **kwds)
 
@@ -81,11 +81,11 @@ class ErrorDisplay:
             self._all = False
 
     def _place(self, filename: str) -> str:
-        """Return how the student finds the code of `filename`: its cell, or the name of the file."""
+        """Return a name for `filename` that the student knows: the cell, or the name of the file."""
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
-        if name == f"In[{self._shell.execution_count}]":  # nbval has the kernel count nothing
+        if name == f"In[{self._shell.execution_count}]":  # nbval does not count cells
             return "An earlier cell"
         return f"{kind} {name}".strip()
 
@@ -99,14 +99,14 @@ class ThreadErrors(logging.Handler):
         self._shown: set[str] = set()
 
     def install(self) -> None:
-        """Begin to show them; a second call changes nothing."""
+        """Start to show these exceptions; a second call changes nothing."""
         logger = logging.getLogger(LOGGER)
         if self not in logger.handlers:
             logger.addHandler(self)
         threading.excepthook = self._thread_ended
 
     def forget(self) -> None:
-        """Show each error again."""
+        """Forget which errors were shown, so that each error is shown again."""
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -120,7 +120,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show an error once below each cell: a callback may raise it many times a second."""
+        """Show an error only once below each cell, because a callback may raise it many times per second."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

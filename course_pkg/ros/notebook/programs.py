@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 ROSRUN = "usage: %rosrun PACKAGE PROGRAM [ARGUMENTS]"
 ROSLAUNCH = "usage: %roslaunch PACKAGE FILE [NAME:=VALUE ...], or %roslaunch PATH [NAME:=VALUE ...]"
 SUFFIX = ".launch"
-CORE = "--core"  # a master without a launch file, as roscore starts it
+CORE = "--core"  # starts a master without a launch file, as roscore does
 
 Keep = Callable[[NodeProcess], None]
 
 
 class Program:
-    """A program that runs beside the notebook. It ends when its cell runs again, and with the kernel."""
+    """A program that runs in the background. It ends when its cell runs again, or when the kernel ends."""
 
     def __init__(self, words: str, process: NodeProcess) -> None:
         self._words = words
@@ -34,24 +34,24 @@ class Program:
 
     @property
     def output(self) -> str:
-        """What the program has printed so far, to stdout and to stderr."""
+        """The program's output so far, from stdout and stderr."""
         return self._process.output()
 
     @property
     def running(self) -> bool:
-        """Whether the program runs."""
+        """Whether the program is running."""
         return self._process.running
 
     @property
     def status(self) -> int | None:
-        """The exit status, negative for a signal, or None while the program runs."""
+        """The exit status, negative for a signal, or None while the program is running."""
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait until the program ends, or until it prints `line` or serves `service`, if one is given.
+        """Wait until the program has printed `line` or serves `service`; without both, wait for its end.
 
-        Returns the exit status, None while the program runs. Raises NodeFailed, with the end of the output,
-        when `timeout` s have passed, or when the program ends without having done what is awaited.
+        Returns the exit status, or None while the program is running. Raises NodeFailed, with the end of the
+        output, after `timeout` s, or if the program ends without the line or the service.
         """
         if line:
             self._process.wait_for_output(line, timeout)
@@ -62,7 +62,7 @@ class Program:
         return self.status
 
     def stop(self) -> None:
-        """End the program as Ctrl-C does, by force if it does not end; a second stop changes nothing."""
+        """End the program with SIGINT (Ctrl-C), or with SIGKILL if needed; a second stop changes nothing."""
         self._process.stop()
 
     def __repr__(self) -> str:
@@ -71,7 +71,7 @@ class Program:
 
 
 class ProgramMagics:
-    """Gives `shell` the two magics. `keep` gets each process that they start."""
+    """Adds the two magics to `shell`; they call `keep` with each process that they start."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells, keep: Keep) -> None:
         self._cells = cells
@@ -80,14 +80,14 @@ class ProgramMagics:
         shell.magics_manager.register_function(self._roslaunch, "line", "roslaunch")
 
     def _rosrun(self, line: str) -> Program:
-        """Start a program of a package, as rosrun does in a terminal, and return its handle."""
+        """Start a program of a package, as rosrun does in a terminal, and return its Program object."""
         words = _words(line)
         if len(words) < 2:
             raise _usage(ROSRUN)
         return self._started("rosrun", words, partial(NodeProcess.rosrun, *words))
 
     def _roslaunch(self, line: str) -> Program:
-        """Start a launch file, or a master, as roslaunch does in a terminal, and return the handle."""
+        """Start a launch file or a master, as roslaunch does in a terminal; return its Program object."""
         words = _words(line)
         if CORE not in words:
             _require_launchable(words)
@@ -102,7 +102,7 @@ class ProgramMagics:
 
 
 def _words(line: str) -> list[str]:
-    """Return the parts of a command, without a `&` at the end: no magic waits for the program anyway."""
+    """Return the parts of a command, without `&` at the end: a magic never waits for its program."""
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words
 
@@ -114,7 +114,7 @@ def _usage(text: str) -> Exception:
 
 
 def _require_launchable(words: list[str]) -> None:
-    """Raise UsageError or UnknownExecutable if the words name no launch file that exists."""
+    """Raise UsageError or UnknownExecutable if no launch file exists for these arguments."""
     if not words or (len(words) < 2 and not words[0].endswith(SUFFIX)):
         raise _usage(ROSLAUNCH)
     if words[0].endswith(SUFFIX):
@@ -129,7 +129,7 @@ def _require_file(path: Path) -> None:
 
 
 def _require_launch_file(package: str, name: str) -> None:
-    """Raise UnknownExecutable, which names similar files, if roslaunch would not find the file."""
+    """Raise UnknownExecutable, with similar names in its message, if roslaunch would not find the file."""
     folder = package_folder(package)
     places = [folder, folder / "launch"]
     if any((place / name).is_file() for place in places) or any(folder.rglob(name)):

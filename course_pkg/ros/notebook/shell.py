@@ -1,4 +1,4 @@
-"""The connection to IPython: it tells when a cell begins and ends, and shows errors."""
+"""The connection to IPython: it reports the start and end of each cell, and shows errors."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 def current_shell() -> InteractiveShell | None:
-    """Return the IPython shell that this process is the kernel of, or None in a plain program."""
+    """Return this kernel's IPython shell, or None if this process is not a kernel."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
 
 
 class NotebookShell:
-    """Follows the cells of `shell`, and tells `cells` of each run."""
+    """Follows the cells of `shell`, and reports each run to `cells`."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells) -> None:
         self._shell = shell
@@ -28,11 +28,11 @@ class NotebookShell:
         self.errors = ErrorDisplay(shell)
         shell.events.register("pre_run_cell", self._begin)
         shell.events.register("post_run_cell", self._end)
-        if request := _execute_request(shell):  # join() is called in a cell that has begun already
+        if request := _execute_request(shell):  # the cell that calls join() has already begun
             self._begin_run(request["metadata"].get("cellId"), request["content"]["code"])
 
     def add_programs(self, keep: Keep) -> None:
-        """Give the notebook %rosrun and %roslaunch; `keep` gets each process that they start."""
+        """Add %rosrun and %roslaunch to the notebook; they call `keep` with each process that they start."""
         ProgramMagics(self._shell, self._cells, keep)
 
     def _begin(self, info: ExecutionInfo) -> None:
@@ -48,12 +48,12 @@ class NotebookShell:
         self._cells.end(error)
 
     def _source(self, code: str) -> str:
-        """Return the name of the file to which IPython says that the code of a cell belongs."""
+        """Return IPython's file name for the code of a cell."""
         return str(self._shell.compile.get_code_name(code, code, self._shell.execution_count))
 
 
 def _execute_request(shell: InteractiveShell) -> dict[str, Any] | None:
-    """Return the message by which the front end has asked to run the current cell, if there is one."""
+    """Return the front end's request to run the current cell, or None if there is no request."""
     kernel = getattr(shell, "kernel", None)
     parent = kernel.get_parent() if kernel is not None else {}
     asked = parent.get("header", {}).get("msg_type") == "execute_request"

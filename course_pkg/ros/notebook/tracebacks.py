@@ -12,20 +12,20 @@ from types import TracebackType
 
 import course_pkg
 
-LINES = 12  # of a whole traceback
-WIDTH = 100  # characters of a line; front ends break longer ones
-MESSAGE_LINES = 6  # at most, so that there is room for two calls
+LINES = 12  # the largest length of a traceback
+WIDTH = 100  # characters; front ends wrap longer lines
+MESSAGE_LINES = 6  # the largest length of a message, which leaves space for two calls
 MORE = " … (%tb shows the rest)"
-INSTALLED = ("site-packages", "dist-packages")  # the folders of libraries, those of ROS included
+INSTALLED = ("site-packages", "dist-packages")  # the folders of installed libraries, also of ROS
 HEADER = "Traceback (most recent call last; %tb shows all of it):"
 HANDLER_HEADER = "Traceback of a handler or callback (most recent call last):"
 MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\('(\w+)', '(.*)'\)")
 
-PlaceOf = Callable[[str], str]  # how a message names a file
+PlaceOf = Callable[[str], str]  # returns the text that names a file in a message
 
 
 def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: str = HEADER) -> list[str]:
-    """Return the lines that show `error`: the calls in the student's code, shortened if they are many."""
+    """Return the lines that show `error`: its message and the student's own calls, at most 12 lines."""
     before = [f"  {line}" for line in _before(error, place_of)]
     message = _message(error)
     calls = [_call(frame, place_of) for frame in students_frames(error.__traceback__)]
@@ -36,12 +36,12 @@ def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: st
 
 
 def students_frames(trace: TracebackType | None) -> Iterator[traceback.FrameSummary]:
-    """Yield the frames of student's code, the outermost first."""
+    """Yield the frames in the student's code, the outermost first."""
     return (frame for frame in traceback.extract_tb(trace) if is_students(frame.filename))
 
 
 def is_students(filename: str) -> bool:
-    """Return whether a file holds the student's code: it belongs to no library and not to the course."""
+    """Return whether a file contains the student's code, not the code of a library or of the course."""
     if filename.startswith("<frozen"):
         return False
     path = Path(filename)
@@ -55,7 +55,7 @@ def _standard_library() -> set[str]:
 
 
 def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
-    """Return a frame as two lines: where it is, and the line of code."""
+    """Return a frame as two lines: its place, and its line of code."""
     inside = "" if frame.name == "<module>" else f", in {frame.name}"
     code = MAGIC.sub(r"%\1 \2", frame.line or "")
     place = f"  {place_of(frame.filename)}, line {frame.lineno}{inside}"
@@ -63,7 +63,7 @@ def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
 
 
 def _shortened(calls: list[list[str]], room: int) -> list[str]:
-    """Return the lines of all calls, or of the first and the last ones if not all fit into `room` lines."""
+    """Return the lines of all calls, or only of the first and last calls if `room` lines are not enough."""
     if sum(map(len, calls)) <= room:
         return [line for call in calls for line in call]
     last = max((room - 3) // 2, 1)
@@ -72,7 +72,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """Return the line about the exception that the student's code was handling, if there was one."""
+    """Return a line about the earlier exception that the student's code was handling, if there was one."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:
@@ -83,7 +83,7 @@ def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
 
 
 def _message(error: BaseException) -> list[str]:
-    """Return the class and the message of an error, cut so that it fills at most MESSAGE_LINES lines."""
+    """Return the class and the message of an error, shortened to at most MESSAGE_LINES lines."""
     try:
         text = str(error)
     except Exception:  # noqa: BLE001 -- a student's __str__ may raise anything
@@ -99,5 +99,5 @@ def _message(error: BaseException) -> list[str]:
 
 
 def _rows(lines: list[str]) -> int:
-    """Return how many rows a front end needs for `lines`."""
+    """Return the number of rows that a front end needs for `lines`."""
     return sum(-(-len(line) // WIDTH) or 1 for line in lines)

@@ -1,1 +1,1 @@
-"""Processes: start, supervise and end them, so that nothing is left behind."""
+"""Start, supervise and end processes; no process or file remains after the end."""

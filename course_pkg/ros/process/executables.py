@@ -1,4 +1,4 @@
-"""The path of a node's program, found as rosrun finds it, but without the 0.1 s that rosrun takes."""
+"""Find the path of a node's program with rosrun's rules, without the 0.1 s that rosrun needs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from course_pkg.errors import UnknownExecutable
 
 
 def find_executable(package: str, name: str) -> Path:
-    """Return the path of a package's program; raises UnknownExecutable, which names others."""
+    """Return the path of a package's program.
+
+    Raises UnknownExecutable if there is no such program; its message suggests other programs.
+    """
     found: dict[str, Path] = {}
     for path in _programs(package):
         if path.name == name:
@@ -23,18 +26,18 @@ def find_executable(package: str, name: str) -> Path:
 
 
 def package_folder(package: str) -> Path:
-    """Return the folder of a package; raises UnknownExecutable."""
+    """Return the folder of a package; raises UnknownExecutable if there is no such package."""
     try:
         return Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound as error:
         raise UnknownExecutable(
-            f"There is no package {package!r} on ROS_PACKAGE_PATH. Is the name right, and has its workspace "
-            f"been built and sourced? `rospack find {package}` asks the same."
+            f"There is no package {package!r} on ROS_PACKAGE_PATH. Check the name, then build the package's "
+            "workspace and source it."
         ) from error
 
 
 def _programs(package: str) -> Iterator[Path]:
-    """Yield the executable files of a package: built or installed ones first, then those in its source."""
+    """Yield the executable files of a package: first built or installed files, then files in its source."""
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
         yield from _executables(Path(prefix) / "lib" / package)
     source = package_folder(package)
@@ -55,5 +58,5 @@ def _missing(package: str, name: str, others: list[str]) -> str:
     if others:
         alike = difflib.get_close_matches(name, others, n=1)
         message += f" Did you mean {alike[0]!r}?" if alike else f" It has: {', '.join(others)}."
-    needed = "A script also needs its run bit (chmod +x) and a first line like #!/usr/bin/env python3."
+    needed = "A script also needs chmod +x and a first line such as #!/usr/bin/env python3."
     return f"{message} {needed}"

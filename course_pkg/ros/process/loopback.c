@@ -1,9 +1,9 @@
-/* Preloaded into the programs of a graph on this computer: nodes in C++ listen on 127.0.0.1 only.
+/* A library that makes C++ nodes listen only on 127.0.0.1; it is loaded with LD_PRELOAD.
  *
- * If ROS_HOSTNAME is localhost, rospy and the rest of roscpp bind to 127.0.0.1. The XML-RPC server of roscpp
- * still binds to 0.0.0.0, so another computer could reach the node. This library replaces the one function
- * that does so, XmlRpc::XmlRpcSocket::bind(int, int), and nothing in programs that do not use it. The name
- * below is the one that C++ compilers give this function.
+ * If ROS_HOSTNAME is localhost, rospy and most parts of roscpp bind to 127.0.0.1. But roscpp's XML-RPC server
+ * still binds to 0.0.0.0, so another computer could connect to the node. This library replaces only the
+ * function XmlRpc::XmlRpcSocket::bind(int, int), which binds that server. Programs without this function do
+ * not change. NAME is the mangled name of the function, which C++ compilers create.
  */
 #define _GNU_SOURCE
 #include <arpa/inet.h>

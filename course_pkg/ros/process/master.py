@@ -1,4 +1,4 @@
-"""A private ROS master that ends with this process, and waiting for a master."""
+"""A private ROS master that ends with this process, and a function that waits for a master."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.waiting import wait_until
 
-READY = 15.0  # s; it takes 0.15 s, and many times that on a machine that is busy
+READY = 15.0  # s; the start takes 0.15 s, but much longer on a busy machine
 ATTEMPTS = 5
-ENDED = -1  # in the place of a process id
-OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # with these variables ROS binds to other addresses
+ENDED = -1  # used instead of a process id
+OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # these variables make ROS bind to other addresses
 
 
 class PrivateMaster:
     """A master on 127.0.0.1 that ends with this process, even if this process is killed.
 
-    `port` is a free one unless it is given; a given one that is taken is a PortBusy.
+    Without `port`, the master uses a free port. start() raises PortBusy if the given port is in use.
     """
 
     def __init__(self, port: int | None = None) -> None:
@@ -37,19 +37,20 @@ class PrivateMaster:
 
     @property
     def uri(self) -> str:
-        """The address, for ROS_MASTER_URI."""
+        """The master's address, the value for ROS_MASTER_URI."""
         return f"http://localhost:{self.port}"
 
     @property
     def pid(self) -> int:
         """The process id of the master."""
         if self._process is None:
-            raise GraphError("This private master is not running: start() it, or use it in a with statement.")
+            text = "This private master is not running. Call start(), or use it in a with statement."
+            raise GraphError(text)
         return self._process.pid
 
     @property
     def running(self) -> bool:
-        """Whether its process lives."""
+        """Whether the master's process is running."""
         return self._process is not None and self._process.returncode is None
 
     def __enter__(self) -> PrivateMaster:
@@ -61,17 +62,21 @@ class PrivateMaster:
         self.stop()
 
     def start(self) -> PrivateMaster:
-        """Start it and wait until it answers; if another program takes the port meanwhile, try again."""
+        """Start the master, wait until it answers, and return this object.
+
+        Raises PortBusy if the given port is in use, SetupError if rosmaster is missing, and GraphError if the
+        master does not answer. If another program takes a free port first, start() tries other ports.
+        """
         for _ in range(1 if self._port_wanted else ATTEMPTS):
             self.port = _free_port(self._port_wanted)
             if self._try():
                 return self
         if self._port_wanted:
             raise _busy(self._port_wanted)
-        raise GraphError(f"{ATTEMPTS} times another program took the port before the master. Try again.")
+        raise GraphError(f"Other programs took {ATTEMPTS} ports before the master could. Try again.")
 
     def stop(self) -> None:
-        """End it and remove what it wrote; a second stop changes nothing."""
+        """End the master and remove its log files; a second stop changes nothing."""
         process, self._process = self._process, None
         if process is not None:
             process.end(grace=1.0)
@@ -80,7 +85,7 @@ class PrivateMaster:
         self.logs, own = _log_folder()
         program = shutil.which("rosmaster")
         if program is None:
-            raise SetupError("rosmaster is not on PATH. Run `./course doctor`: it says what is missing.")
+            raise SetupError("rosmaster is not on PATH. Run `./course doctor` to list what is missing.")
         command = [program, "--core", "-p", str(self.port), f"__log:={self.logs / f'master-{self.port}.log'}"]
         environment = {**local_environment(), "ROS_LOG_DIR": str(self.logs)}
         self._process = SupervisedProcess(command, env=environment, remove=self.logs if own else None)
@@ -93,19 +98,19 @@ class PrivateMaster:
         return ready
 
     def _wait(self, process: SupervisedProcess) -> bool:
-        """Return whether the program that answers on the port is ours."""
+        """Return whether the program that answers on the port is this master."""
         client = MasterClient(self.uri, timeout=1.0)
         pid = wait_until(lambda: _pid(client) or (process.returncode is not None and ENDED), READY, 0.005)
         if not pid:
-            raise GraphError(f"rosmaster was started and did not answer at {self.uri} within {READY:g} s.")
+            raise GraphError(f"rosmaster was started, but did not answer at {self.uri} within {READY:g} s.")
         return pid == process.pid
 
 
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
-    """Return as soon as the master of ROS_MASTER_URI answers; unlike init_node(), it can be ended by Ctrl-C.
+    """Return as soon as the master at ROS_MASTER_URI answers; Ctrl-C ends the wait, as init_node() cannot.
 
-    It looks every `interval` s, and calls `warn` once if there is no master. Raises MalformedMasterUri and
-    NotAMaster at once, since waiting does not help there.
+    It polls every `interval` s, and calls `warn` once if no master answers. It raises MalformedMasterUri and
+    NotAMaster at once, because waiting does not help there.
     """
     client, warned = MasterClient(master_uri()), False
     while True:
@@ -113,7 +118,7 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
             client.pid()
         except (MasterUnreachable, MasterSilent):
             if not warned:
-                warn(f"No ROS master answers at {client.uri}. Waiting for one; Ctrl-C ends this.")
+                warn(f"No ROS master answers at {client.uri}. Waiting for a master; Ctrl-C ends the wait.")
             warned = True
             time.sleep(interval)
         else:
@@ -121,7 +126,7 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
 
 
 def _pid(client: MasterClient) -> int:
-    """Return the master's process id, or 0 where no master answers."""
+    """Return the master's process id, or 0 if no master answers."""
     with suppress(GraphError):
         return client.pid()
     return 0
@@ -139,19 +144,19 @@ def _free_port(asked: int | None) -> int:
 
 def _busy(port: int | None) -> PortBusy:
     return PortBusy(
-        f"Port {port} of 127.0.0.1 is taken by another program. Choose another, or leave it out to get a "
-        f"free one; if that program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
+        f"Port {port} of 127.0.0.1 is used by another program. Choose another port, or give none to get a "
+        f"free port; if the program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
     )
 
 
 def _log_folder() -> tuple[Path, bool]:
-    """Return where the master's log goes, and whether that folder is to be removed with the master."""
+    """Return the folder of the master's log, and whether stop() has to remove this folder."""
     if given := os.environ.get("ROS_LOG_DIR"):
         return Path(given), False
     return Path(tempfile.mkdtemp(prefix="course-master-")), True
 
 
 def local_environment() -> dict[str, str]:
-    """Return this process's environment, changed so that all programs of ROS bind to 127.0.0.1."""
+    """Return this process's environment, with changes that make all ROS programs bind to 127.0.0.1."""
     kept = {name: value for name, value in os.environ.items() if name not in OTHER_ADDRESSES}
     return {**kept, "ROS_HOSTNAME": "localhost"}

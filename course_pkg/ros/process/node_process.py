@@ -1,4 +1,4 @@
-"""Nodes that run as processes of their own and end with this one."""
+"""Nodes that run as separate processes and end when this process ends."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 TAIL = 2000  # characters of output in an error message
-INTERVAL = 0.05  # s between polls; each costs milliseconds, also for the master
+INTERVAL = 0.05  # s between polls; each poll takes milliseconds, here and in the master
 GRACE = 3.0  # s for a node to end after SIGINT; rospy takes 0.6 s
 
 
 class NodeProcess:
-    """A command that runs one or more nodes; it ends with this process, at the latest.
+    """A command that runs one or more nodes; it ends when this process ends, or earlier.
 
-    What it prints goes to a file of its own, which vanishes with this object: see output().
+    Its output goes to a temporary file, which is deleted with this object; see output().
     """
 
     def __init__(self, command: Sequence[str], *, label: str = "") -> None:
         self.command = tuple(command)
         self.label = label or os.path.basename(command[0])
-        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as this object
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- this object needs it all the time
         weakref.finalize(self, self._output.close)
         environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
         self._process = SupervisedProcess(self.command, output=self._output, env=environment)
@@ -41,39 +41,39 @@ class NodeProcess:
 
     @classmethod
     def rosrun(cls, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
-        """Run a package's node, as rosrun does; `name` renames it. Raises UnknownExecutable."""
+        """Run a package's node, as rosrun does; `name` renames the node. Raises UnknownExecutable."""
         program = find_executable(package, executable)
         renamed = [f"__name:={name}"] if name else []
         return cls([str(program), *map(str, args), *renamed], label=name or f"{package}/{executable}")
 
     @classmethod
     def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file, `args` as name:=value; all its nodes end with it."""
+        """Run a launch file with `args` such as name:=value; all its nodes end with the process."""
         return cls(["roslaunch", package, file, *args], label=f"{package}/{file}")
 
     @property
     def returncode(self) -> int | None:
-        """The exit status, negative for a signal, or None while it runs."""
+        """The exit status, negative for a signal, or None while the process is running."""
         return self._process.returncode
 
     @property
     def running(self) -> bool:
-        """Whether it runs."""
+        """Whether the process is running."""
         return self.returncode is None
 
     def listening_ports(self) -> frozenset[int]:
-        """Return the TCP ports on which it and its descendants listen."""
+        """Return the TCP ports on which the process and its descendants listen."""
         return self._process.listening_ports()
 
     def output(self) -> str:
-        """Return what it has printed so far, both to stdout and to stderr."""
+        """Return all output of the process so far, from both stdout and stderr."""
         file = self._output.fileno()
         return os.pread(file, os.fstat(file).st_size, 0).decode("utf-8", "replace")
 
     def wait_for_service(self, name: str, timeout: float = 30.0) -> None:
-        """Return as soon as this process serves `name` and answers there.
+        """Return as soon as this process serves `name` and accepts connections there.
 
-        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        Raises NodeFailed, with the end of the output, if the process ends before, or after `timeout` s.
         """
         full, master = "/" + name.lstrip("/"), MasterClient(master_uri())
         self._wait_until(
@@ -81,39 +81,39 @@ class NodeProcess:
         )
 
     def wait_for_output(self, text: str, timeout: float = 30.0) -> None:
-        """Return as soon as it has printed `text`.
+        """Return as soon as the process has printed `text`.
 
-        Raises NodeFailed, with the end of its output, when it ends first or `timeout` s have passed.
+        Raises NodeFailed, with the end of the output, if the process ends before, or after `timeout` s.
         """
         self._wait_until(
             lambda: text in self.output(), timeout, f"never printed {text!r}", f"has not printed {text!r}"
         )
 
     def wait(self, timeout: float = 10.0) -> int:
-        """Return the exit status once it has ended by itself; raises NodeFailed after `timeout` s."""
+        """Wait for the end of the process and return its exit status; raises NodeFailed after `timeout` s."""
         self._process.wait(timeout)
         status = self.returncode
         if status is None:
-            raise self._failed(f"still runs after {timeout:g} s")
+            raise self._failed(f"is still running after {timeout:g} s")
         return status
 
     def interrupt(self) -> None:
-        """Interrupt it, as Ctrl-C does, and do not wait."""
+        """Interrupt the process, as Ctrl-C does, and return at once."""
         self._process.signal(signal.SIGCONT)
         self._process.signal(signal.SIGINT)
 
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
-        """End it, by force after `grace` s, and return when it and its registrations are gone."""
+        """End the process, with SIGKILL after `grace` s, and remove its registrations from the master."""
         if not self.running:
             return
         registered = registered_at(self._process.listening_ports()) if unregister else []
         self._process.end(grace)
-        if registered:  # one that was killed could not withdraw them itself
+        if registered:  # A node that was killed could not unregister itself.
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)
 
     def kill(self) -> None:
-        """Kill it by SIGKILL, which it cannot notice: what it registered stays at the master, stale."""
+        """End the process with SIGKILL: it cannot unregister, so stale registrations stay at the master."""
         self._process.signal(signal.SIGKILL)
         self._process.wait(GRACE)
 
@@ -129,7 +129,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process answers, and not another one that is still registered for the name."""
+        """Return whether this process serves `name`; another process may still be registered for the name."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False
@@ -139,14 +139,14 @@ class NodeProcess:
 
     def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
         def settled() -> str:
-            ended = not self.running  # before the condition, which the last thing that it does may fulfil
+            ended = not self.running  # Checked first: the last output before the end may meet the condition.
             return "met" if condition() else "ended" if ended else ""
 
         outcome = wait_until(settled, timeout, INTERVAL)
         if outcome == "ended":
             raise self._failed(f"ended with exit status {self.returncode}, and {never}")
         if outcome != "met":
-            raise self._failed(f"runs, and {not_yet} after {timeout:g} s")
+            raise self._failed(f"is running, but {not_yet} after {timeout:g} s")
 
     def _failed(self, what: str) -> NodeFailed:
         tail = self.output()[-TAIL:].strip()

@@ -1,4 +1,4 @@
-"""A separate graph, for trying out what would harm the other nodes of a shared one."""
+"""A separate graph, for experiments that would harm the other nodes of a shared graph."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ INTERVAL = 0.02  # s between polls
 
 
 class PrivateGraph:
-    """A master of its own and the programs that are started on it; no other node connects to it.
+    """A private master and the programs of this graph; no other node connects to this master.
 
-    All of it ends with close(), with the block of a `with` statement, or with this object.
+    The master and the programs end with close(), with the block of a `with` statement, or with this object.
     """
 
     def __init__(self) -> None:
@@ -30,28 +30,28 @@ class PrivateGraph:
 
     @property
     def uri(self) -> str:
-        """The address of its master, for ROS_MASTER_URI."""
+        """The address of the graph's master, the value for ROS_MASTER_URI."""
         return self._master.uri
 
     def run(self, package: str, executable: str, *args: str) -> NodeProcess:
-        """Run a package's node there, and return when its master knows it; every call starts another one.
+        """Run a package's node on this graph in a new process, and return when the node is registered.
 
-        Raises UnknownExecutable, and NodeFailed when it is not on the graph after 15 s.
+        Raises UnknownExecutable, and NodeFailed if the node is not on the graph after 15 s.
         """
         process = self.start(str(find_executable(package, executable)), *args)
         ready = wait_until(lambda: self._knows(process) or not process.running, READY, INTERVAL)
         if ready and process.running:
             return process
         raise NodeFailed(
-            f"{package}/{executable} is not on this private graph after {READY:g} s, or it has ended. What "
-            f"it printed: {process.output() or 'nothing'}",
+            f"{package}/{executable} has ended, or is not on this private graph after {READY:g} s. "
+            f"Its output: {process.output() or 'none'}",
             process.output(),
             process.returncode,
         )
 
     def start(self, *command: str) -> NodeProcess:
-        """Start any command there, such as ("rostopic", "echo", "/pulse"), and return at once."""
-        # `env` replaces itself by the command: the process stays the same.
+        """Start a command on this graph, such as ("rostopic", "echo", "/pulse"), and return at once."""
+        # `env` replaces itself with the command, so the command keeps this process id.
         line = ["env", f"ROS_MASTER_URI={self.uri}", "ROS_HOSTNAME=localhost", *map(str, command)]
         self._processes.append(NodeProcess(line, label=command[0].rpartition("/")[2]))
         return self._processes[-1]
@@ -78,7 +78,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a node of the process is registered; its port shows that it is this one."""
+        """Return whether a node of this process is registered; the process listens on the node's port."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())
@@ -89,7 +89,7 @@ class PrivateGraph:
 
 
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
-    """End the programs side by side, then the master; what they have registered ends with it."""
+    """End all programs at the same time, and then the master, which has all their registrations."""
     for process in processes:
         process.interrupt()
     while processes:

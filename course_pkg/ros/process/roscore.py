@@ -1,4 +1,4 @@
-"""What `roscore` starts: a master, its parameters, and the node /rosout."""
+"""Start the same as `roscore`: a master, its parameters, and the node /rosout."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
-ROSOUT = "/rosout"  # the node and its topic
-READY = 15.0  # s; it takes 0.05 s, and many times that on a machine that is busy
+ROSOUT = "/rosout"  # the name of the node, and also of its topic
+READY = 15.0  # s; the start takes 0.05 s, but much longer on a busy machine
 INTERVAL = 0.005  # s between polls
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
 
 
 class Roscore(PrivateMaster):
-    """A private master as `roscore` starts it, for a graph that a student looks at.
+    """A private master with the same node and parameters as `roscore`, for a graph that a student inspects.
 
-    Beside the master it runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. A
-    graph that only a program looks at needs a PrivateMaster alone, which starts sooner and is one process.
+    It also runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. If only a
+    program uses the graph, use a PrivateMaster: it starts faster and is only one process.
     """
 
     def __init__(self, port: int | None = None) -> None:
@@ -34,8 +34,8 @@ class Roscore(PrivateMaster):
     def start(self) -> Roscore:
         """Start the master and /rosout, and wait until both are registered.
 
-        Raises what PrivateMaster.start() raises, SetupError where the package rosout is missing, and
-        NodeFailed when /rosout does not start.
+        Raises the errors of PrivateMaster.start(), SetupError if the package rosout is missing, and
+        NodeFailed if /rosout does not start.
         """
         super().start()
         try:
@@ -59,7 +59,7 @@ class Roscore(PrivateMaster):
             client.set_param(name, value)
         program = prefix / "lib" / "rosout" / "rosout"
         if not program.is_file():
-            raise SetupError(f"There is no {program}. Run `./course doctor`: it says what is missing.")
+            raise SetupError(f"There is no {program}. Run `./course doctor` to list what is missing.")
         environment = {**local_environment(), "ROS_MASTER_URI": self.uri, "ROS_LOG_DIR": str(self.logs)}
         rosout = self._rosout = SupervisedProcess([str(program), "__name:=rosout"], env=environment)
 
@@ -69,16 +69,17 @@ class Roscore(PrivateMaster):
 
         if wait_until(settled, READY, INTERVAL) != "met":
             raise NodeFailed(
-                f"The node {ROSOUT} was started and is not on the graph after {READY:g} s, or it has ended.",
+                f"The node {ROSOUT} has ended, or is not on the graph after {READY:g} s. Start it again.",
                 "",
                 rosout.returncode,
             )
 
 
 def find_or_start_master() -> Roscore | MasterClient:
-    """Return the master that ROS_MASTER_URI names, once it has answered, or a new private one.
+    """Return the master at ROS_MASTER_URI if the variable is set, or start a private master and return it.
 
-    The private one's address is put into ROS_MASTER_URI, for rospy and for the processes started from here.
+    The private master's address is stored in ROS_MASTER_URI, for rospy and for new child processes. Raises
+    a GraphError if the master at ROS_MASTER_URI does not answer.
     """
     if given := os.environ.get("ROS_MASTER_URI"):
         client = MasterClient(given)
@@ -97,7 +98,7 @@ def _prefix() -> Path:
 
 
 def _parameters(prefix: Path) -> dict[str, str]:
-    """Return the parameters as roscore sets them: the first two are the output of `rosversion`."""
+    """Return the parameters that roscore sets; the first two are the output of `rosversion`."""
     package = prefix / "share" / "roslaunch" / "package.xml"
     version = VERSION.search(package.read_text("utf-8")) if package.is_file() else None
     return {
@@ -108,5 +109,5 @@ def _parameters(prefix: Path) -> dict[str, str]:
 
 
 def _receives(client: MasterClient) -> bool:
-    """Return whether /rosout subscribes to the log messages, which it does after all else."""
+    """Return whether /rosout subscribes to the log messages, which is the last step of its start."""
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

@@ -1,7 +1,7 @@
-"""Starting a command so that the command and its descendants end with their owner.
+"""Start a command that ends, with all its descendants, when its owner process ends.
 
-The command runs below `supervisor.py`, a small process that watches the owner and outlives it
-for as long as it takes to clean up. That holds also when the owner is killed by SIGKILL.
+The command is a child of `supervisor.py`, a small process that watches the owner. After the owner's end, the
+supervisor cleans up and ends. This also works if SIGKILL ended the owner.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ PROGRAM = Path(__file__).with_name("supervisor.py")
 
 
 class SupervisedProcess:
-    """A command and its descendants, which end with this process at the latest.
+    """A command and its descendants; all of them end when this process ends, or earlier.
 
-    Whatever the command leaves in the background when it ends is ended, too: asked first, and killed after
-    2 s. `command` may be empty: then only the clean-up is done when this process is gone. The command runs in
-    the folder `cwd`. The clean-up:
-    `remove` is a folder to delete, `withdraw` a (master's URI, node's name, node's URI) whose registrations
-    to withdraw. `inherit` are descriptors that the command gets. A command in the `foreground` has the
-    standard input and the terminal of this process, whose Ctrl-C reaches it, and prints there if there is no
-    `output`. Raises GraphError where the command cannot be started.
+    When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
+    in the folder `cwd` and inherits the descriptors `inherit`. At the end, the supervisor deletes the folder
+    `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI). If
+    `command` is empty, the supervisor only does this clean-up after this process has ended.
+
+    A command in the `foreground` uses the standard input and the terminal of this process: it receives
+    Ctrl-C, and prints there if `output` is None. Raises GraphError if the command cannot be started.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                start_new_session=not foreground,  # an interrupt of the kernel goes to its process group
+                start_new_session=not foreground,  # else an interrupt of the kernel would reach the command
             )
         finally:
             os.close(writer)
@@ -65,18 +65,18 @@ class SupervisedProcess:
 
     @property
     def returncode(self) -> int | None:
-        """The exit status of the command, negative for a signal, or None while any of its processes lives."""
+        """The command's exit status, negative for a signal; None while any of its processes is running."""
         status = self._process.poll()
         return 128 - status if status is not None and status > 128 else status
 
     def signal(self, number: int) -> None:
-        """Send a signal to the command; one that is gone already is no error."""
+        """Send a signal to the command; if the command has already ended, nothing happens."""
         if self.returncode is None:
             with suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
     def wait(self, timeout: float) -> bool:
-        """Return whether all processes of the command are gone, at the latest after `timeout` s."""
+        """Wait up to `timeout` s; return whether all processes of the command have ended."""
         try:
             self._process.wait(timeout)
         except subprocess.TimeoutExpired:
@@ -88,9 +88,9 @@ class SupervisedProcess:
         return listening_ports(self.pid)
 
     def end(self, grace: float = 2.0) -> None:
-        """End the command and all its descendants: asked first, and killed after `grace` s.
+        """End the command and all its descendants with SIGINT, and kill them after `grace` s.
 
-        In a forked child it does nothing: they are the parent's.
+        In a forked child this does nothing, because the command belongs to the parent.
         """
         if os.getpid() != self._owner:
             return
@@ -104,10 +104,10 @@ class SupervisedProcess:
 
 def listening_ports(pid: int) -> frozenset[int]:
     """Return the TCP ports on which this process and its descendants listen."""
-    import psutil  # here: it takes 15 ms, and most programs never ask
+    import psutil  # imported here because it takes 15 ms, and most programs never need it
 
     ports: set[int] = set()
-    with suppress(psutil.Error):  # it has ended meanwhile
+    with suppress(psutil.Error):  # the process may have ended in the meantime
         process = psutil.Process(pid)
         for each in [process, *process.children(recursive=True)]:
             with suppress(psutil.Error):
@@ -120,7 +120,7 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # Isolated and without site: it starts in 20 ms, and nothing on the student's path can break it.
+    # -I and -S: the supervisor starts in 20 ms, and modules on the student's import path cannot break it.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 
@@ -133,5 +133,5 @@ def _started(reader: int, command: Sequence[str], process: subprocess.Popen[byte
         return process.pid
     if not answer.isdigit():
         process.wait()
-        raise GraphError(f"{command[0]} could not be started: {answer or 'no reason was given'}.")
+        raise GraphError(f"{command[0]} could not be started: {answer or 'the reason is unknown'}.")
     return int(answer)

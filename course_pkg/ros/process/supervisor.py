@@ -1,8 +1,8 @@
-"""The process between an owner and a command: it ends the command when the owner is gone.
+"""The process between an owner and a command: it ends the command after the owner has ended.
 
-Run as a script by `supervised.py`, on the bare interpreter: it starts in 20 ms because it imports little, and
-nothing of the course or its libraries until there is something to clean up. So it reads /proc itself: psutil
-alone takes longer to import than all of this to start.
+`supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in
+20 ms because it imports the course and its libraries only for the clean-up. It reads /proc itself, because
+the import of psutil takes longer than the whole start of this script.
 usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
 """
 
@@ -17,17 +17,17 @@ import time
 from contextlib import suppress
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
-FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)  # what a terminal sends to all of its group
+FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)  # a terminal sends these to a process group
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# What this program, or Python itself, does not leave as a command expects to find it.
+# This program or Python itself changes the handlers of these signals; a command expects the default handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
-GRACE = 2.0  # s between asking descendants to end and killing them
+GRACE = 2.0  # s between SIGTERM and SIGKILL for the descendants
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-INTERVAL = 200  # ms between looks at the parent where the system has no pidfd
+INTERVAL = 200  # ms between polls of the parent's process id on a system without pidfd
 
 
 class Supervisor:
-    """One command, or none, below one owner."""
+    """Supervises one command, or no command, for one owner process."""
 
     def __init__(self, owner: int, report: int, command: list[str], *, foreground: bool = False) -> None:
         self.owner = owner
@@ -46,14 +46,14 @@ class Supervisor:
         for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
             signal.signal(number, self._handle)
         for number in FROM_TERMINAL if foreground else ():
-            signal.signal(number, signal.SIG_IGN)  # the terminal has sent it to the command as well
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # the owner may hold some back
+            signal.signal(number, signal.SIG_IGN)  # the command also receives this signal from the terminal
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # the owner may have blocked some signals
         os.set_inheritable(report, False)
         self.child = self._start(command, report) if command else None
         os.close(report)
 
     def run(self) -> int:
-        """Return the command's exit status once it has ended, or 0 once the owner has."""
+        """Wait for the end of the command or of the owner; return the command's exit status, or 0."""
         while self.owner_lives() and self.status is None and not self.urgent:
             self._wait(None if self._pidfd is not None else INTERVAL)
             self._reap()
@@ -63,11 +63,11 @@ class Supervisor:
         return self.status or 0
 
     def owner_lives(self) -> bool:
-        """Return whether the owner, which is the parent of this process, still lives."""
+        """Return whether the owner, which is the parent of this process, is still running."""
         return os.getppid() == self.owner
 
     def _start(self, command: list[str], report: int) -> int:
-        failed, fail = os.pipe()  # closes by itself when the command is running
+        failed, fail = os.pipe()  # the system closes it when the command is running
         child = os.fork()
         if child == 0:
             _become(command, fail)
@@ -89,7 +89,7 @@ class Supervisor:
             os.read(self._signalled, 512)
 
     def _reap(self) -> bool:
-        """Collect the children that have ended, and return whether any is left."""
+        """Collect the children that have ended, and return whether any child is still running."""
         while True:
             try:
                 pid, status = os.waitpid(-1, os.WNOHANG)
@@ -101,9 +101,10 @@ class Supervisor:
                 self.status = status
 
     def _end_descendants(self) -> frozenset[int]:
-        """Ask all descendants to end, and kill those that do not; orphans become children of this process.
+        """End all descendants with SIGTERM, and kill them with SIGKILL if they do not end in time.
 
-        Return the ports on which those listened that were killed.
+        Orphaned descendants become children of this process. Return the listening ports of the killed
+        processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -129,7 +130,7 @@ def _pidfd(pid: int) -> int | None:
 
 
 def _prctl(option: int, value: int) -> None:
-    """Set an option of this process on Linux; elsewhere this program only looks at its parent."""
+    """Set an option of this process on Linux; on other systems, this program can only poll its parent."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
@@ -140,7 +141,7 @@ def _become(command: list[str], fail: int) -> None:
         for number in CHANGED:
             signal.signal(number, signal.SIG_DFL)
         signal.set_wakeup_fd(-1)
-        os.execvp(command[0], command)  # noqa: S606 -- no shell is what is wanted
+        os.execvp(command[0], command)  # noqa: S606 -- the command needs no shell
     except OSError as error:
         os.write(fail, (error.strerror or str(error)).encode())
     finally:
@@ -155,13 +156,13 @@ def _signal_all(numbers: tuple[int, ...], child: int | None) -> None:
 
 
 def descendants(root: int) -> list[int]:
-    """Return the processes below `root`, parents before their children; empty where there is no /proc."""
+    """Return the descendants of the process `root`, parents before children; empty without /proc."""
     children: dict[int, list[int]] = {}
     for entry in os.listdir("/proc") if os.path.isdir("/proc") else []:
         if entry.isdigit():
             try:
                 with open(f"/proc/{entry}/stat", "rb") as stat:
-                    parent = int(stat.read().rpartition(b")")[2].split()[1])  # the name may hold brackets
+                    parent = int(stat.read().rpartition(b")")[2].split()[1])  # the name may contain brackets
             except OSError:
                 continue
             children.setdefault(parent, []).append(int(entry))
@@ -174,7 +175,7 @@ def descendants(root: int) -> list[int]:
 
 
 def _import_libraries() -> None:
-    """Have the course and its libraries found by `import`, as the bare interpreter does not."""
+    """Add the course and its libraries to the import path, which this interpreter starts without."""
     import site
 
     site.main()
@@ -182,7 +183,7 @@ def _import_libraries() -> None:
 
 
 def _listening_ports() -> frozenset[int]:
-    with suppress(ImportError):  # the checkout is gone
+    with suppress(ImportError):  # the course's folder may have been deleted
         _import_libraries()
         from course_pkg.ros.process.supervised import listening_ports
 
@@ -191,7 +192,7 @@ def _listening_ports() -> frozenset[int]:
 
 
 def _withdraw_registered(ports: frozenset[int]) -> None:
-    """Withdraw what was registered at these ports by nodes that were killed."""
+    """Unregister the killed nodes that listened on these ports."""
     with suppress(ImportError):
         from course_pkg.errors import GraphError
         from course_pkg.ros.protocol.master_api import MasterClient, master_uri
@@ -202,7 +203,7 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 
 
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
-    """Withdraw what the owner's node has registered, and delete the folder; "" stands for none."""
+    """Unregister the owner's node, and delete the folder; "" means no master or no folder."""
     if master_uri:
         with suppress(ImportError):
             sys.path.insert(0, COURSE)
@@ -210,7 +211,7 @@ def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
             from course_pkg.ros.protocol.master_api import MasterClient
             from course_pkg.ros.protocol.registrations import withdraw_node
 
-            with suppress(GraphError):  # the master is gone, too
+            with suppress(GraphError):  # the master may also have ended
                 withdraw_node(MasterClient(master_uri), node, node_uri)
     if folder:
         import shutil
@@ -219,7 +220,7 @@ def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
 
 
 def main(argv: list[str]) -> int:
-    """Run the command until it or the owner ends, then clean up."""
+    """Run the command until the command or the owner ends, and clean up; return the exit status."""
     owner, report, foreground, *cleaning = argv[1:8]
     supervisor = Supervisor(int(owner), int(report), argv[8:], foreground=bool(foreground))
     status = supervisor.run()

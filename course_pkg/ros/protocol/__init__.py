@@ -1,1 +1,1 @@
-"""The protocols of ROS 1: the bounded client of the master, registrations, probes and service proxies."""
+"""The protocols of ROS 1: a client of the master with time limits, registrations, and probes of nodes."""

@@ -1,4 +1,4 @@
-"""JSON objects over a stream socket, both ways: one object a line, in UTF-8, bounded in size and in time."""
+"""Send and receive JSON objects on a stream socket, one per line in UTF-8, with limits of size and time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 from course_pkg.waiting import Deadline
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
-LIMIT = 1 << 26  # bytes of a line, unless a channel has a limit of its own
+LIMIT = 1 << 26  # bytes of a line, the default for channels
 CHUNK = 65536  # bytes read or written at once
 
 
@@ -25,7 +25,7 @@ class JsonChannel:
         self._socket = sock
         self._limit = limit
         self._received = bytearray()
-        self._searched = 0  # bytes of _received that hold no end of a line
+        self._searched = 0  # bytes at the start of _received without an end of line
         self._sending = threading.Lock()
 
     def fileno(self) -> int:
@@ -33,10 +33,10 @@ class JsonChannel:
         return self._socket.fileno()
 
     def send(self, message: Mapping[str, object], timeout: float | None = None) -> None:
-        """Send one object, and wait at most `timeout` s for the other end to read what it was sent before.
+        """Send one object; wait up to `timeout` s while the buffer is full of data that was not yet read.
 
-        Raises ChannelBroken for a message that is too long, ChannelClosed when the other end is gone, and
-        ChannelTimeout; after a timeout, part of the line may have been sent, so close the channel.
+        Raises ChannelBroken if the message is too long, ChannelClosed if the other end is closed, and
+        ChannelTimeout. After a timeout, close the channel, because a part of the line may have been sent.
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:
@@ -46,7 +46,7 @@ class JsonChannel:
             while line:
                 try:
                     sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
-                except BlockingIOError:  # only now: poll waits until most of a Unix socket's buffer is free
+                except BlockingIOError:  # Poll only now: it waits until most of a socket's buffer is free.
                     self._wait_for(select.POLLOUT, deadline)
                     continue
                 except OSError as error:
@@ -54,10 +54,10 @@ class JsonChannel:
                 line = line[sent:]
 
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
-        """Return the next object, waiting at most `timeout` s for the whole line.
+        """Wait up to `timeout` s for a whole line, and return its object.
 
-        Raises ChannelTimeout, ChannelClosed when the other end is gone, and ChannelBroken for a line that is
-        too long or that is not a JSON object.
+        Raises ChannelTimeout, ChannelClosed if the other end is closed, and ChannelBroken if the line is too
+        long or is not a JSON object.
         """
         deadline = Deadline(timeout)
         while (end := self._received.find(b"\n", self._searched)) < 0:
@@ -72,8 +72,8 @@ class JsonChannel:
         return _parsed(line)
 
     def close(self) -> None:
-        """Close this end. The other end notices it, and so does a thread that receives here."""
-        with suppress(OSError):  # the other end has closed it already
+        """Close this end; receive() at the other end, and in other threads, then raises ChannelClosed."""
+        with suppress(OSError):  # the other end may already have closed the connection
             self._socket.shutdown(socket.SHUT_RDWR)
         self._socket.close()
 

@@ -1,4 +1,4 @@
-"""The master, asked in bounded time: http://wiki.ros.org/ROS/Master_API."""
+"""A client of the master's API, with time limits: http://wiki.ros.org/ROS/Master_API."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from dataclasses import dataclass
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, NotAMaster
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, items
 
-Addresses = dict[str, str]  # of nodes or services, by name
+Addresses = dict[str, str]  # the addresses of nodes or services, by name
 REMAP = "__master:="  # http://wiki.ros.org/Remapping%20Arguments
 Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> the nodes that have it
 
 
 def master_uri() -> str:
-    """Return where rospy looks for the master: the URI of the argument __master:=, or ROS_MASTER_URI."""
+    """Return the address at which rospy expects the master, from __master:= or from ROS_MASTER_URI."""
     named = [argument.removeprefix(REMAP) for argument in sys.argv if argument.startswith(REMAP)]
     return next(iter(named), "") or os.environ.get("ROS_MASTER_URI") or "http://localhost:11311"
 
 
 @dataclass(frozen=True)
 class SystemState:
-    """The nodes that publish each topic, subscribe to it, and serve each service, as the master has them."""
+    """The master's lists: for each topic its publishers and subscribers, for each service its servers."""
 
     publishers: Registered
     subscribers: Registered
@@ -31,7 +31,7 @@ class SystemState:
 
     @property
     def nodes(self) -> tuple[str, ...]:
-        """The names of all nodes that have registered anything, sorted."""
+        """The names of all nodes with at least one registration, sorted."""
         kinds = (self.publishers, self.subscribers, self.services)
         return tuple(sorted({node for kind in kinds for nodes in kind.values() for node in nodes}))
 
@@ -39,8 +39,8 @@ class SystemState:
 class MasterClient(XmlRpcClient):
     """Calls the master at `uri`; each call takes at most `timeout` s. Threads may share it.
 
-    Every method may raise MasterUnreachable, MasterSilent and NotAMaster, and GraphError where the master
-    refuses the call. Raises MalformedMasterUri.
+    Every method may raise MasterUnreachable, MasterSilent and NotAMaster, and GraphError if the master
+    refuses the call. The constructor raises MalformedMasterUri if `uri` is invalid.
     """
 
     def __init__(self, uri: str, timeout: float = 2.0, caller: str = "/course") -> None:
@@ -48,41 +48,40 @@ class MasterClient(XmlRpcClient):
         self.caller = caller
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Return what the master answers within `timeout` s."""
+        """Return the master's answer; it has to come within `timeout` s."""
         try:
             return super().ask(method, *args, timeout=timeout)
         except TimeoutError as error:
             raise MasterSilent(
-                f"The program at {self.uri} takes connections and did not answer within "
-                f"{self.limit(timeout):g} s. If it is the master, it hangs or is stopped (SIGSTOP): let it "
-                "go on, or end it and start anew."
+                f"The program at {self.uri} accepts connections, but did not answer within "
+                f"{self.limit(timeout):g} s. If it is the master, continue it (kill -CONT), or restart it."
             ) from error
         except OSError as error:
             raise MasterUnreachable(
-                f"No ROS master at {self.uri} ({error.strerror or error}). A notebook's own master comes "
-                "back when the set-up cell with join() is run again; a shared one has to be started again: "
-                f"`roscore -p {self.address[1]}`. If the master is elsewhere, correct ROS_MASTER_URI."
+                f"No ROS master at {self.uri} ({error.strerror or error}). Run the set-up cell with join() "
+                f"again, start a shared master with `roscore -p {self.address[1]}`, or correct "
+                "ROS_MASTER_URI."
             ) from error
         except NO_ANSWER as error:
             raise NotAMaster(
-                f"What answers at {self.uri} is not a ROS master ({type(error).__name__}: {error}). Correct "
-                "ROS_MASTER_URI, or unset it to have a master of your own."
+                f"The program at {self.uri} is not a ROS master ({type(error).__name__}: {error}). Correct "
+                "ROS_MASTER_URI, or unset it to get your own master."
             ) from error
 
     def pid(self, timeout: float | None = None) -> int:
-        """Return the master's process id: the cheapest way to ask whether it is there."""
+        """Return the master's process id; this is the fastest check that the master answers."""
         return int(str(self._value("getPid", timeout=timeout)))
 
     def lookup_service(self, name: str, timeout: float | None = None) -> str | None:
-        """Return the rosrpc:// address of a service by its full name, or None when no node serves it."""
+        """Return the rosrpc:// address of the service with this full name, or None if no node serves it."""
         return self._found("lookupService", name, timeout=timeout)
 
     def lookup_node(self, name: str, timeout: float | None = None) -> str | None:
-        """Return the http:// address of a node, or None when the master does not know it."""
+        """Return the http:// address of a node, or None if the master does not know the node."""
         return self._found("lookupNode", name, timeout=timeout)
 
     def lookup_all(self, nodes: Iterable[str], services: Iterable[str]) -> tuple[Addresses, Addresses]:
-        """Return the addresses of nodes and of services in one request; what is unknown is left out."""
+        """Return the addresses of nodes and of services, with one request; unknown names are omitted."""
         asked = [("lookupNode", name) for name in nodes] + [("lookupService", name) for name in services]
         answers = self.multicall([(method, self.caller, name) for method, name in asked])
         found: dict[str, Addresses] = {"lookupNode": {}, "lookupService": {}}
@@ -92,9 +91,9 @@ class MasterClient(XmlRpcClient):
         return found["lookupNode"], found["lookupService"]
 
     def multicall(self, calls: Sequence[tuple[str, ...]]) -> list[RpcValue]:
-        """Make several calls in one request; return the value of each, or None where it was refused.
+        """Make several calls in one request; return the value of each call, or None for a refused call.
 
-        Each is (method, node that calls, arguments …).
+        Each call is (method, name of the calling node, arguments …).
         """
         if not calls:
             return []
@@ -103,28 +102,28 @@ class MasterClient(XmlRpcClient):
         return [_value_of(items(each)[0]) if isinstance(each, list) else None for each in answers]
 
     def system_state(self) -> SystemState:
-        """Return what is registered."""
+        """Return all registrations."""
         return SystemState(*map(_registered, items(self._value("getSystemState"))))
 
     def topic_types(self) -> dict[str, str]:
-        """Return the type of every topic that has had a publisher or a subscriber of a definite type."""
+        """Return the types of all topics; a topic is missing if no node has registered a type for it."""
         return {topic: str(kind) for topic, kind in map(_pair, items(self._value("getTopicTypes")))}
 
     def get_param(self, name: str, default: RpcValue = None) -> RpcValue:
-        """Return a parameter, or `default` when it is not set."""
+        """Return the value of a parameter, or `default` if the parameter is not set."""
         code, _, value = items(self.ask("getParam", self.caller, name))
         return value if code == 1 else default
 
     def set_param(self, name: str, value: str, timeout: float | None = None) -> bool:
-        """Set a parameter; return whether the master took it."""
+        """Set a parameter; return whether the master accepted it."""
         return items(self.ask("setParam", self.caller, name, value, timeout=timeout))[0] == 1
 
     def delete_param(self, name: str, timeout: float | None = None) -> bool:
-        """Delete a parameter; return whether it was there."""
+        """Delete a parameter; return whether the parameter existed."""
         return items(self.ask("deleteParam", self.caller, name, timeout=timeout))[0] == 1
 
     def register_service(self, node: str, name: str, uri: str, node_uri: str) -> None:
-        """Register `node` as the server of `name` at `uri`, in the place of any other server."""
+        """Register `node` as the server of `name` at `uri`; this replaces any other server."""
         self._value("registerService", name, uri, node_uri, caller=node)
 
     def register_publisher(self, node: str, topic: str, kind: str, node_uri: str) -> None:
@@ -137,11 +136,11 @@ class MasterClient(XmlRpcClient):
         return [str(uri) for uri in publishers]
 
     def unregister_service(self, node: str, name: str, uri: str) -> bool:
-        """Withdraw a service, if it is registered at just this address; return whether it was."""
+        """Unregister a service if it is registered with this address; return whether it was."""
         return bool(self._value("unregisterService", name, uri, caller=node))
 
     def unregister_publisher(self, node: str, topic: str, node_uri: str) -> bool:
-        """Withdraw a publisher, if it is registered for just this node; return whether it was."""
+        """Unregister a publisher if it is registered for this node; return whether it was."""
         return bool(self._value("unregisterPublisher", topic, node_uri, caller=node))
 
     def _found(self, method: str, name: str, timeout: float | None) -> str | None:

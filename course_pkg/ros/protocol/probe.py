@@ -1,4 +1,4 @@
-"""Asking many sockets one thing each, all at the same time, in bounded time and on one thread."""
+"""Send one request each to many addresses at the same time, with a time limit and on one thread."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from rosgraph.network import (
 
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, decode, encode, items, port_of
 
-END = b"</methodResponse>"  # of an XML-RPC answer
+END = b"</methodResponse>"  # the end of an XML-RPC answer
 HTTP_HEAD = "POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {}\r\n\r\n"
 
 
 class Reach(Enum):
-    """How far a probe came."""
+    """The result of a probe."""
 
     ANSWERED = "answered"
-    REFUSED = "refused"  # no process listens there: the node is dead
-    SILENT = "silent"  # a process listens and does not answer: it is stopped, or busy
-    LOST = "lost"  # no route to the host, or it closed the connection before its answer was complete
+    REFUSED = "refused"  # no process listens at the address, so the node has ended
+    SILENT = "silent"  # a process listens but does not answer: it is stopped, or busy
+    LOST = "lost"  # the host cannot be reached, or the connection was closed before the answer was complete
 
 
 @dataclass
 class Probe:
-    """One request to one address; `complete` tells whether the bytes so far are the whole answer."""
+    """One request to one address; `complete` returns whether the received bytes are the whole answer."""
 
     address: tuple[str, int]
     request: bytes
@@ -43,12 +43,12 @@ class Probe:
 
     @property
     def answered(self) -> bool:
-        """Whether a whole answer came."""
+        """Whether a whole answer was received."""
         return self.reach is Reach.ANSWERED
 
 
 def ask_all(probes: Sequence[Probe], timeout: float) -> None:
-    """Set the answer and the reach of all probes; return when all are settled, or after `timeout` s."""
+    """Set the answer and the reach of all probes; return when all have a result, or after `timeout` s."""
     deadline = time.monotonic() + timeout
     resolved = {host: _resolved(host) for host in {probe.address[0] for probe in probes}}
     with selectors.DefaultSelector() as selector:
@@ -64,13 +64,13 @@ def ask_all(probes: Sequence[Probe], timeout: float) -> None:
 
 
 def service_probe(name: str, uri: str) -> Probe:
-    """Return a probe that asks a server for the type of a service, as rospy.wait_for_service() does."""
+    """Return a probe that requests a service's type from its server, as rospy.wait_for_service() does."""
     header = {"probe": "1", "md5sum": "*", "callerid": "/course", "service": name}
     return Probe(_address(uri), encode_header(header), _whole_header)
 
 
 def node_probe(uri: str) -> Probe:
-    """Return a probe that shows whether a node answers; getPid of the slave API."""
+    """Return a probe that checks if a node answers; it calls getPid of the slave API."""
     return rpc_probe(uri, "getPid")
 
 
@@ -82,7 +82,7 @@ def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
 
 
 def rpc_answer(probe: Probe) -> RpcValue:
-    """Return the value that a node has answered, or None where it has not, or does not have the method."""
+    """Return the value in a node's answer; None without an answer, or if the node has no such method."""
     if not probe.answered:
         return None
     try:
@@ -99,7 +99,7 @@ def encode_header(fields: dict[str, str]) -> bytes:
 
 
 def header_fields(answer: bytes) -> dict[str, str]:
-    """Return the fields of the connection header at the start of `answer`; none where there is no header."""
+    """Return the fields of the connection header at the start of `answer`; empty without a header."""
     try:
         fields: dict[str, str] = decode_ros_handshake_header(answer)
     except (ROSHandshakeException, struct.error, UnicodeDecodeError):

@@ -1,7 +1,8 @@
-"""What nodes have registered at the master, and withdrawing it for nodes that cannot do it themselves.
+"""List the registrations at the master, and remove those of nodes that cannot unregister themselves.
 
-Like `rosnode cleanup`, but in bounded time, without asking the user, and only for dead nodes: its address
-refuses connections. A node that is stopped accepts them, and keeps its registrations.
+This is similar to `rosnode cleanup`, but it has a time limit and does not ask the user. It removes only the
+registrations of nodes that have ended: their addresses refuse connections. A stopped node still accepts
+connections, so it keeps its registrations.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ METHODS = {
 
 @dataclass(frozen=True, order=True)
 class Registration:
-    """One entry of the master; `kind` is "publisher", "subscriber" or "service", `uri` the address there."""
+    """One registration; `kind` is "publisher", "subscriber" or "service", and `uri` is its address."""
 
     node: str
     kind: str
@@ -33,9 +34,9 @@ class Registration:
 
 
 def registrations(master: MasterClient, nodes: Collection[str] | None = None) -> list[Registration]:
-    """Return what all nodes, or these, have registered, sorted; two requests to the master.
+    """Return the registrations of all nodes, or of `nodes`, sorted; this makes two requests to the master.
 
-    Raises GraphError, as every call to the master may; so do the other functions of this module.
+    All functions of this module raise GraphError if a request to the master fails.
     """
     state = master.system_state()
     entries = [entry for entry in _entries(state) if nodes is None or entry[0] in nodes]
@@ -50,9 +51,9 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 
 
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
-    """Withdraw these entries in one request, and return those that were there.
+    """Unregister these entries with one request, and return the entries that were registered.
 
-    The master compares the address: an entry that belongs to another process by now stays.
+    The master compares the address, so it keeps an entry that now belongs to another process.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])
@@ -60,10 +61,10 @@ def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Regi
 
 
 def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Registration]:
-    """Withdraw all that the node with this address has registered, and nothing of a successor by its name.
+    """Unregister the node if it still has this address; keep the entries of a newer node with its name.
 
-    The master forgets the entries of a name as soon as another address registers under it
-    (rosmaster/registrations.py), so that the address of the name tells to which process they belong.
+    If a second process registers with the same node name, the master deletes the entries of the first process
+    (rosmaster/registrations.py). All entries of a name therefore belong to the process with its address.
     """
     if master.lookup_node(node) != node_uri:
         return []
@@ -71,18 +72,18 @@ def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Regist
 
 
 def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
-    """Withdraw all that nodes whose names begin with `prefix` have registered, whether they live or not."""
+    """Unregister all nodes whose names begin with `prefix`, also nodes that are still running."""
     nodes = [node for node in master.system_state().nodes if node.startswith(prefix)]
     return withdraw(master, registrations(master, nodes)) if nodes else []
 
 
 def registered_at(ports: Collection[int]) -> list[Registration]:
-    """Return what ROS_MASTER_URI's master has registered at these ports; nothing where no master answers.
+    """Return the registrations with these ports at the master of ROS_MASTER_URI; empty without a master.
 
-    A process listens on the ports of its registrations: look at them while it lives.
+    A process listens on the ports of its registrations. Read its ports while it is running.
     """
     if ports:
-        with suppress(GraphError):  # no node is left to be registered with
+        with suppress(GraphError):  # without a master, there are no registrations
             return [
                 entry for entry in registrations(MasterClient(master_uri())) if port_of(entry.uri) in ports
             ]
@@ -92,13 +93,13 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
 def remove_stale(
     uri: str | None = None, timeout: float = 2.0, nodes: Collection[str] | None = None
 ) -> list[Registration]:
-    """Withdraw the entries of dead nodes, all or those of `nodes`, and return what was withdrawn."""
+    """Unregister all ended nodes, or only those in `nodes`, and return the removed registrations."""
     master = MasterClient(uri or master_uri(), timeout)
     return withdraw(master, _stale(master, nodes, min(timeout, TIMEOUT)))
 
 
 def _stale(master: MasterClient, nodes: Collection[str] | None, timeout: float) -> list[Registration]:
-    # Not at the top: the supervisor reads this module without the libraries of ROS.
+    # Imported here because the supervisor imports this module without the libraries of ROS.
     from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe, service_probe
 
     entries = registrations(master, nodes)

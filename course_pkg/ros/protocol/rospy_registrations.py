@@ -1,4 +1,4 @@
-"""What rospy in this process has registered, from rospy's own lists: the master may have forgotten it."""
+"""The registrations of this process, from rospy's own lists; a restarted master does not know them."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from course_pkg.ros.protocol.master_api import MasterClient
 
 
 def node_known(master: MasterClient) -> bool:
-    """Return whether the master knows this process's node, at its address."""
+    """Return whether the master knows this process's node, with its current address."""
     return master.lookup_node(rospy.get_name()) == str(rospy.get_node_uri())
 
 
 def register_all(master: MasterClient) -> None:
-    """Register again all that rospy has in its lists: a master that was restarted knows none of it."""
+    """Register everything in rospy's lists again, because a restarted master has lost it."""
     node, uri = rospy.get_name(), rospy.get_node_uri()
     if (manager := registration_manager()) is not None:
-        manager.master_uri = manager.handler.masterUri = master.uri  # it may be another than before
+        manager.master_uri = manager.handler.masterUri = master.uri  # it may be a new master
     for service, service_uri in get_service_manager().get_services():
         master.register_service(node, service, service_uri, uri)
     for topic, kind in get_topic_manager().get_publications():
@@ -34,6 +34,6 @@ def register_all(master: MasterClient) -> None:
 
 
 def registration_manager() -> RegManager | None:
-    """Return the object by which rospy registers, or None where rospy is built differently."""
+    """Return rospy's object for registrations, or None if this rospy has no such object."""
     managers = (each for each in get_registration_listeners().listeners if isinstance(each, RegManager))
     return next(managers, None)

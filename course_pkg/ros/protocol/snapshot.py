@@ -12,12 +12,12 @@ from course_pkg.ros.protocol.probe import Probe, Reach, ask_all, header_fields, 
 if TYPE_CHECKING:
     from course_pkg.types import Plain
 
-TIMEOUT = 0.5  # s for a node to answer; on one machine it takes a few milliseconds
+TIMEOUT = 0.5  # s for a node to answer; on the same machine, an answer takes a few milliseconds
 
 
 @dataclass(frozen=True, order=True)
 class NodeSeen:
-    """A registered node; `reach` is "answered", "refused" (gone), "silent" (stopped or busy) or "lost"."""
+    """A registered node; `reach` is "answered", "refused" (ended), "silent" (stopped or busy) or "lost"."""
 
     name: str
     uri: str
@@ -25,13 +25,13 @@ class NodeSeen:
 
     @property
     def reachable(self) -> bool:
-        """Whether it answers."""
+        """Whether the node answers."""
         return self.reach == Reach.ANSWERED.value
 
 
 @dataclass(frozen=True, order=True)
 class TopicSeen:
-    """A topic; `type` is "" as long as no node has registered it with a type."""
+    """A topic; `type` is "" if no node has registered a type for the topic."""
 
     name: str
     type: str
@@ -41,7 +41,7 @@ class TopicSeen:
 
 @dataclass(frozen=True, order=True)
 class ServiceSeen:
-    """A service; `type` is "" when its server does not answer, `node` is its server."""
+    """A service; `node` is its server, and `type` is "" if the server does not answer."""
 
     name: str
     type: str
@@ -51,7 +51,7 @@ class ServiceSeen:
 
     @property
     def reachable(self) -> bool:
-        """Whether its server answers."""
+        """Whether the server answers."""
         return self.reach == Reach.ANSWERED.value
 
 
@@ -65,23 +65,23 @@ class Snapshot:
     services: tuple[ServiceSeen, ...]
 
     def service(self, name: str) -> ServiceSeen | None:
-        """Return the service of this name, or None."""
+        """Return the service with this name, or None."""
         return next((service for service in self.services if service.name == name), None)
 
     def node(self, name: str) -> NodeSeen | None:
-        """Return the node of this name, or None."""
+        """Return the node with this name, or None."""
         return next((node for node in self.nodes if node.name == name), None)
 
     def as_dict(self) -> dict[str, Plain]:
-        """Return it as plain data, for JSON."""
+        """Return the snapshot as plain data, for JSON."""
         return asdict(self)
 
 
 def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
-    """Return the graph of the master at `uri`, by default that of ROS_MASTER_URI.
+    """Return the graph of the master at `uri`; the default is the master at ROS_MASTER_URI.
 
-    Each request to the master takes at most `timeout` s, asking all nodes at most 0.5 s more.
-    Raises MasterUnreachable, MasterSilent, MalformedMasterUri, NotAMaster.
+    Each request to the master takes at most `timeout` s. The probes of all services take at most 0.5 s, and
+    so do the probes of all nodes. Raises MasterUnreachable, MasterSilent, MalformedMasterUri, NotAMaster.
     """
     master = MasterClient(uri or master_uri(), timeout)
     state, types = master.system_state(), master.topic_types()
@@ -100,7 +100,7 @@ def _service(name: str, state: SystemState, uris: dict[str, str], probe: Probe) 
 
 
 def _nodes(uris: dict[str, str], services: Iterable[ServiceSeen], timeout: float) -> tuple[NodeSeen, ...]:
-    """Return all nodes; one that has answered for a service is not asked again."""
+    """Return all nodes; a node that has answered for a service needs no second probe."""
     answered = {service.node for service in services if service.reachable}
     probes = {name: node_probe(uri) for name, uri in uris.items() if name not in answered}
     ask_all(list(probes.values()), timeout)

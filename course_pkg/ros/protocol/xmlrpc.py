@@ -1,4 +1,4 @@
-"""XML-RPC in bounded time, for the master and for nodes; nothing but the standard library.
+"""XML-RPC with time limits, for the master and for nodes; uses only the standard library.
 
 ROS's APIs answer each call with [code, message, value]: http://wiki.ros.org/ROS/Master_Slave_APIs.
 """
@@ -23,14 +23,16 @@ if TYPE_CHECKING:
 
 RpcValue = Union[bool, int, float, str, bytes, None, "list[RpcValue]", "dict[str, RpcValue]"]
 
-STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)  # of a kept connection
-NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)  # bytes, but not XML-RPC
+# The errors of an idle connection that the server has closed.
+STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)
+# The errors that an answer raises if it is not valid XML-RPC, or if it is a fault.
+NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
 class XmlRpcClient:
-    """Calls the methods of one XML-RPC server at `uri`, each in at most `timeout` s. Threads may share it.
+    """Calls the methods of the XML-RPC server at `uri`; each call takes at most `timeout` s.
 
-    Raises MalformedMasterUri.
+    Threads may share a client. The constructor raises MalformedMasterUri if `uri` is invalid.
     """
 
     def __init__(self, uri: str, timeout: float = 2.0) -> None:
@@ -41,28 +43,28 @@ class XmlRpcClient:
         weakref.finalize(self, _close, self._idle)
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Return what `method` answers within `timeout` s, or the client's own timeout if that is shorter.
+        """Return the answer of `method`, within `timeout` s or the client's own timeout if it is shorter.
 
-        Raises TimeoutError, another OSError where no program accepts the connection, and one of NO_ANSWER
-        where the answer is not XML-RPC, or is a fault.
+        Raises TimeoutError, another OSError if no program accepts the connection, and one of NO_ANSWER if the
+        answer is not valid XML-RPC, or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
         return decode(self._exchange(encode(method, *args), deadline))
 
     def limit(self, timeout: float | None) -> float:
-        """Return for how many s a call with this timeout may take."""
+        """Return the longest time in s that a call with this timeout may take."""
         return self.timeout if timeout is None else min(timeout, self.timeout)
 
     def close(self) -> None:
-        """Close the connections that were kept for the next call."""
+        """Close the idle connections."""
         _close(self._idle)
 
     def _exchange(self, body: bytes, deadline: float) -> bytes:
-        """Send a request over a kept connection, or over a new one when none is left that still works."""
+        """Send a request on an idle connection, or on a new connection if no idle connection works."""
         while self._idle:
             connection = self._idle.pop()
             if connection.pid != os.getpid():
-                continue  # inherited by a fork: the parent is using it
+                continue  # This process is a fork, and its parent still uses the connection.
             try:
                 return self._over(connection, body, deadline)
             except STALE:
@@ -86,41 +88,41 @@ def encode(method: str, *args: RpcValue) -> bytes:
 
 
 def decode(body: bytes) -> RpcValue:
-    """Return the value in the body of an answer. Raises one of NO_ANSWER."""
-    value: RpcValue = loads(body)[0][0]  # type: ignore[assignment]  # typeshed knows its values, too, as a union
+    """Return the value in the body of an answer; raises one of NO_ANSWER if the body is invalid."""
+    value: RpcValue = loads(body)[0][0]  # type: ignore[assignment]  # typeshed has another union of types
     return value
 
 
 def items(value: RpcValue) -> list[RpcValue]:
-    """Return `value` as the list that it is. Raises TypeError for anything else."""
+    """Return `value` if it is a list; raises TypeError otherwise."""
     if not isinstance(value, list):
         raise TypeError(f"a list was expected, not {type(value).__name__}")
     return value
 
 
 def number(value: RpcValue) -> float:
-    """Return `value` as the number that it is. Raises TypeError for anything else."""
+    """Return `value` if it is a number; raises TypeError otherwise."""
     if not isinstance(value, (int, float)):
         raise TypeError(f"a number was expected, not {type(value).__name__}")
     return value
 
 
 def address_of(uri: str) -> tuple[str, int]:
-    """Return host and port of a master's URI. Raises MalformedMasterUri."""
+    """Return host and port of a master's URI; raises MalformedMasterUri if the URI is invalid."""
     try:
         parts = urlsplit(uri)
         if parts.scheme == "http" and parts.hostname and parts.port:
             return parts.hostname, parts.port
     except ValueError:
-        pass  # a port that is no number, or a bracket that is not closed
+        pass  # The port is not a number, or a bracket is not closed.
     raise MalformedMasterUri(
-        f"ROS_MASTER_URI is {uri!r}, and has to be of the form http://HOST:PORT, such as "
-        "http://localhost:11311. Correct it, or unset it to have a master of your own."
+        f"ROS_MASTER_URI is {uri!r}, but has to be of the form http://HOST:PORT, such as "
+        "http://localhost:11311. Correct the variable, or unset it to get your own master."
     )
 
 
 def port_of(uri: str) -> int:
-    """Return the port of http://HOST:PORT/ or rosrpc://HOST:PORT, or 0 where there is none."""
+    """Return the port of http://HOST:PORT/ or rosrpc://HOST:PORT, or 0 without a port."""
     digits = uri.rstrip("/").rpartition(":")[2]
     return int(digits) if digits.isdigit() else 0
 
@@ -131,7 +133,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection with one deadline for a whole exchange, even if each byte comes in time."""
+    """An HTTP connection whose deadline applies to a request and its whole answer, not to each byte."""
 
     sock: _DeadlineSocket | None
 
@@ -148,7 +150,7 @@ class _Connection(HTTPConnection):
         self.sock = _DeadlineSocket(fileno=plain.detach())
 
     def exchange(self, body: bytes, deadline: float) -> bytes:
-        """Send a request and return the body of the answer."""
+        """Send a request and return the body of the answer; raises TimeoutError at the deadline."""
         self._deadline = deadline
         if self.sock is None:
             self.connect()
@@ -163,7 +165,7 @@ class _Connection(HTTPConnection):
 
 
 class _DeadlineSocket(socket.socket):
-    """A socket whose every operation ends at `deadline`, a time of time.monotonic()."""
+    """A socket whose operations all end at `deadline`, a time of time.monotonic()."""
 
     deadline = 0.0
 

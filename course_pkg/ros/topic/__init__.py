@@ -1,5 +1,5 @@
-"""A separate node that publishes and subscribes on one topic, for a panel: a process with a channel.
+"""A separate node for a panel, which publishes and subscribes on one topic: a process with a channel.
 
-It is a process because rospy has one publisher and one subscriber of a topic for each process: in the kernel,
-a panel's latch, queue and type would be those of the student's own publisher and subscriber as well.
+It is a separate process because rospy has only one publisher and one subscriber of a topic in each process.
+In the kernel, the panel and the student would share them, with the same latch, queue size and type.
 """

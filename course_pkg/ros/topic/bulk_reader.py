@@ -1,8 +1,9 @@
-"""Many topics read on one thread, many messages at a time, for a panel that draws them.
+"""Read many topics on one thread, many messages at a time, for a panel that draws them.
 
-A rospy subscriber wakes for each message, which at hundreds a second costs a kernel more than the drawing.
-The reader uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS) and reads every 50 ms what has come. It is not
-registered as a subscriber, so that the graph is the same as without the panel.
+A subscriber of rospy wakes up for each message. With hundreds of messages per second, this takes more
+computing time than the drawing. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and
+reads all new messages every 50 ms. It does not register as a subscriber, because a panel should not change
+the graph.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from course_pkg.ros.protocol.xmlrpc import number
 INTERVAL = 0.05  # s between two reads
 SEARCH = 1.0  # s between two requests to the master
 TIMEOUT = 0.5  # s for a node to answer
-LONGEST = 1 << 20  # bytes of a message that are waited for
+LONGEST = 1 << 20  # bytes; the reader closes the connection if a message is longer
 CHUNK = 1 << 16  # bytes
 CALLER = "/course"
 
@@ -31,10 +32,11 @@ Received = Callable[[str, list[bytes]], None]
 
 
 class BulkReader:
-    """Reads every topic of the given types, from start() to stop().
+    """Reads all topics of the given types, from start() to stop().
 
-    `received` is called with a topic and its new messages, serialised and in order; `missing` with a topic
-    that has no publisher any more; `done` after each read. All three run on the reader's thread.
+    The reader calls `received` with a topic and its new messages (serialised, in order). It calls `missing`
+    with a topic that no longer has a publisher, and `done` after each read. All three run on the reader's
+    thread.
     """
 
     def __init__(
@@ -51,14 +53,14 @@ class BulkReader:
         self._stop: threading.Event | None = None
 
     def start(self) -> None:
-        """Begin to read; a second start changes nothing."""
+        """Start to read; a second start changes nothing."""
         if self._stop is None:
             self._stop = threading.Event()
             thread = threading.Thread(target=self._read, args=(self._stop,), daemon=True, name="bulk-reader")
             thread.start()
 
     def stop(self) -> None:
-        """End before the next read, and do not wait for it."""
+        """Stop before the next read; return without waiting for the thread."""
         if self._stop is not None:
             self._stop.set()
             self._stop = None
@@ -79,7 +81,7 @@ class BulkReader:
                 stream.close()
 
     def _drain(self, streams: Streams) -> bool:
-        """Pass on what has come; return whether every stream goes on."""
+        """Pass on all new messages; return whether all streams are still open."""
         ended = []
         for place, stream in streams.items():
             messages, goes_on = stream.read()
@@ -91,10 +93,10 @@ class BulkReader:
         return not ended
 
     def _search(self, streams: Streams) -> None:
-        """Connect to new publishers, and close the connections to those that the master no longer has."""
+        """Connect to new publishers, and disconnect from publishers that are no longer registered."""
         try:
             places = self._places()
-        except GraphError:  # there is no master: the open streams go on
+        except GraphError:  # Without a master, the reader continues with its open streams.
             return
         self._forget(streams, [place for place in streams if place not in places])
         new = sorted(places - streams.keys())
@@ -103,7 +105,7 @@ class BulkReader:
         for place, probe in zip(new, probes, strict=True):
             answer = rpc_answer(probe)
             if isinstance(answer, list) and answer[:1] == ["TCPROS"]:
-                with suppress(OSError):  # gone meanwhile: the next search finds out
+                with suppress(OSError):  # The publisher may have ended; the next search detects this.
                     streams[place] = _Stream(place[0], (str(answer[1]), int(number(answer[2]))))
 
     def _places(self) -> set[Place]:
@@ -132,7 +134,7 @@ class _Stream:
         self._header_read = False
 
     def read(self) -> tuple[list[bytes], bool]:
-        """Return the messages that have come since the last time, and whether more can come."""
+        """Return the new messages since the last call, and whether the stream is still open."""
         goes_on = True
         try:
             while part := self._sock.recv(CHUNK):
@@ -147,11 +149,11 @@ class _Stream:
         return self._blocks(), goes_on and len(self._rest) < LONGEST
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self._sock.close()
 
     def _blocks(self) -> list[bytes]:
-        """Take the complete blocks from what was read; the first is the publisher's header."""
+        """Remove the complete blocks from the received bytes; return them without the first, the header."""
         blocks, at = [], 0
         while len(self._rest) >= at + 4:
             (length,) = struct.unpack_from("<I", self._rest, at)

@@ -1,7 +1,7 @@
-"""The nodes that publish and subscribe to a topic now, and the type that each of them uses.
+"""The current publishers and subscribers of a topic, with the type that each of these nodes uses.
 
-The master knows one type of a topic, that of the first node. Each node knows its own: getPublications and
-getSubscriptions, http://wiki.ros.org/ROS/Slave_API.
+The master knows only one type of a topic, the type of the first node. Each node answers with its own type:
+getPublications and getSubscriptions, http://wiki.ros.org/ROS/Slave_API.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from course_pkg.ros.protocol.xmlrpc import RpcValue
 from course_pkg.ros.topic.reports import Connections, Peer
 
 TIMEOUT = 0.5  # s for the nodes to answer
-ANY = "*"  # the type of a subscriber that takes every type, such as `rostopic echo`
+ANY = "*"  # the type of a subscriber that accepts all types, such as `rostopic echo`
 
 
 def find_connections(master: MasterClient, topic: str) -> Connections:
-    """Return the nodes on the topic, without sources. Raises GraphError, as every call to the master may."""
+    """Return the nodes on the topic, without sources; raises GraphError if a request to the master fails."""
     state = master.system_state()
     kind = master.topic_types().get(topic, "")
     publishers, subscribers = state.publishers.get(topic, ()), state.subscribers.get(topic, ())
@@ -36,7 +36,7 @@ def find_connections(master: MasterClient, topic: str) -> Connections:
 
 
 def _type_of(topic: str, answer: RpcValue) -> str:
-    """Return the type of a topic among [[topic, type]*]."""
+    """Return the type of a topic in the list [[topic, type]*], or "" if the list has no such topic."""
     rows = answer if isinstance(answer, list) else []
     return next(
         (str(row[1]) for row in rows if isinstance(row, list) and row[:1] == [topic] and len(row) > 1), ""

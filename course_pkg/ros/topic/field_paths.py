@@ -12,26 +12,26 @@ import genpy
 from course_pkg.ros.node.type_lookup import Message
 from course_pkg.types import Field, Kind, MessageType
 
-ELEMENTS = 8  # of an array, at most, whose paths are listed
-MOST = 200  # numbers of a message; arrays of arrays may hold thousands
+ELEMENTS = 8  # only the first elements of an array are listed
+MOST = 200  # only the first numbers of a message are listed; arrays of arrays may contain thousands
 
 _NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # the most probable measurement first
-# Parts of messages that describe a measurement, and are none: who measured when, and the sensor's limits.
+# Parts of messages that are not measurements: the time and frame of a measurement, and the sensor's limits.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 
 
 def numbers(message: MessageType) -> list[str]:
-    """Return the paths of all numbers in a message; of an array, those of its first elements."""
+    """Return the paths of all numbers in a message; of an array, only the first elements."""
     return [path for path, _ in _first_numbers(message)]
 
 
 def measurement(message: MessageType) -> str:
-    """Return the path of the first number that carries a measurement, "" for a message without numbers.
+    """Return the path of the number that is most probably the measurement, or "" without any number.
 
-    The first float counts that is in no std_msgs/Header and is no setting of the sensor, such as `range_min`;
-    then the first integer of that kind, then the first bool. A message that has none of them, such as a
-    header, gives its first number.
+    Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
+    the other fields, the function selects the first float, else the first integer, else the first bool. If
+    there are no other fields, it returns the message's first number.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]
@@ -39,9 +39,9 @@ def measurement(message: MessageType) -> str:
 
 
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
-    """Return a function that reads the number at a path from a message's bytes; NaN where there is none.
+    """Return a function that reads the number at a path from a message's bytes, or NaN if it is missing.
 
-    Raises ValueError for a path that the type does not have.
+    Raises ValueError if the type does not have this path.
     """
     if path not in numbers(message):
         raise ValueError(f"{message.name} has no number {path!r}")
@@ -64,7 +64,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield path and kind of the first MOST numbers, and of none in a message of the type `without`."""
+    """Yield path and kind of the first MOST numbers; skip fields of the message type `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

@@ -1,14 +1,15 @@
-"""A topic process, with its channel: `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
+"""The program of a topic process: `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
 
-It receives commands, each with its name as "do":
+It receives commands through its channel. The name of a command is in the field "do", and these are the other
+fields:
 
-    type      name, text           the type of the topic; text is "" for one that is built
+    type      name, text           the type of the topic; text is "" if the type is built
     publish   texts, latch, queue, count
     repeat    texts, latch, queue, rate
     stop, withdraw
-    plot      path                 record the values of this number; "" for none
+    plot      path                 record the values of this number; "" for no number
 
-and sends a Report at most ten times a second. It ends when the channel is closed.
+It sends a Report at most ten times per second. It ends when the channel is closed.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from course_pkg.ros.topic.subscription import ReceivedMessage, TopicSubscription
 from course_pkg.types import MessageType, StringTree, compile_message, message_type
 
 REPORT_INTERVAL = 0.1  # s between two reports
-SELDOM = 3  # parts that take long to compute or to send are in every third report
+SELDOM = 3  # every third report also contains the parts that take long to compute or to send
 GRAPH_INTERVAL = 1.0  # s between two requests to the master
 
 
@@ -57,10 +58,10 @@ class TopicNode:
         self._reports = 0
         self._trouble = ""
         self._connections: Connections = {}
-        self._registering = threading.Lock()  # so that nothing is registered after leave()
+        self._registering = threading.Lock()  # prevents a registration after leave()
 
     def run(self) -> None:
-        """Follow commands until the channel is closed."""
+        """Execute commands until the channel is closed."""
         with suppress(ChannelClosed):
             self._join()
             for work, pause in ((self._report, REPORT_INTERVAL), (self._look, GRAPH_INTERVAL)):
@@ -71,13 +72,13 @@ class TopicNode:
                 self._follow(command)
 
     def leave(self) -> None:
-        """Unregister."""
+        """Unregister the node."""
         with self._registering:
             if rospy.core.is_initialized():
                 rospy.signal_shutdown("the panel is no longer shown")
 
     def _join(self) -> None:
-        """Become a node; rospy would wait for a master and report nothing."""
+        """Become a node; until there is a master, report the error, because rospy would only wait."""
         while True:
             try:
                 self._master.pid()
@@ -117,14 +118,14 @@ class TopicNode:
             try:
                 work()
             except ChannelClosed:
-                return  # the main thread notices it, too
+                return  # The main thread also gets this error, and ends the process.
             time.sleep(pause)
 
     def _look(self) -> None:
-        """Find the nodes on the topic, and register again at a master that was restarted."""
+        """Find the nodes on the topic, and register again if the master was restarted."""
         try:
             with self._registering:
-                # The master does not know a node that has left, either, and it must not come back.
+                # After leave(), the master does not know the node, but the node must not register again.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
             self._connections = find_connections(self._master, self._topic)
@@ -184,7 +185,7 @@ class TopicNode:
         return strings
 
     def _sender_kind(self, name: str) -> MessageType | None:
-        """Return the type that a publisher sends, as long as the topic's type has not been set."""
+        """Return the type that a publisher sends, or None if this machine does not have the type."""
         try:
             return message_type(name)
         except CourseError:
@@ -194,11 +195,11 @@ class TopicNode:
 def main(argv: list[str]) -> None:
     """Run a topic node until its channel is closed, then unregister."""
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)  # the end of the owner closes the channel, and that is enough
+        signal.signal(number, signal.SIG_IGN)  # the process ends when its channel is closed
     node = TopicNode(JsonChannel(socket.socket(fileno=int(argv[1]))), argv[2])
     node.run()
     node.leave()
-    os._exit(0)  # rospy's threads need not be waited for
+    os._exit(0)  # ends without waiting for rospy's threads
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The publishing half of a topic process: it publishes once, in a burst, or at a rate."""
+"""The publishing part of a topic process: it publishes once, in a burst, or at a rate."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from course_pkg.ros.topic.reports import DeliveryReport, PublisherReport
 from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
-BURST = 1000  # messages at most
-CATCH_UP = 0.25  # s; ticks that are late by less are made up for, those that are later are skipped
+BURST = 1000  # the largest number of messages
+CATCH_UP = 0.25  # s; a tick that is later than this is skipped, and any other late tick follows at once
 
 
 class Timer:
-    """Calls `tick` `rate` times a second on a separate thread, until stop().
+    """Calls `tick` `rate` times per second on a separate thread, until stop().
 
-    The time of each tick is counted from the start, so that a late one does not delay those after it. Ticks
-    that are late by more than `CATCH_UP` s are left out, and counted in `skipped`. An exception ends the
-    timer, and is passed to `failed`.
+    The time of each tick is computed from the start time, so a late tick does not delay the next ticks. Ticks
+    that are more than `CATCH_UP` s late are skipped, and counted in `skipped`. If `tick` raises an exception,
+    the timer calls `failed` with it and ends.
     """
 
     def __init__(self, rate: float, tick: Callable[[], None], failed: Callable[[Exception], None]) -> None:
@@ -37,7 +37,7 @@ class Timer:
         self._thread.start()
 
     def stop(self) -> None:
-        """Return when no further tick will come."""
+        """Stop the timer; after the return, there are no more ticks."""
         self._stop.set()
         if threading.current_thread() is not self._thread:
             self._thread.join()
@@ -50,14 +50,14 @@ class Timer:
                 missed = max(0, int((time.monotonic() - start - CATCH_UP) * self.rate) - number)
                 self.skipped += missed
                 number += missed + 1
-        except Exception as error:  # noqa: BLE001 -- a thread must report why it ends
+        except Exception as error:  # noqa: BLE001 -- the thread has to report every error
             self._failed(error)
 
 
 class Commands:
-    """Publishes on `topic` as it is told; the first message creates the publisher.
+    """Publishes on `topic` by command; the first message creates the publisher.
 
-    A message with another latch, queue size or type than the one before makes a new publisher.
+    A message with a different latch, queue size or type creates a new publisher.
     """
 
     def __init__(self, topic: str) -> None:
@@ -71,10 +71,10 @@ class Commands:
         self._reached: int | None = None
 
     def publish(self, texts: dict[str, StringTree], *, latch: bool, queue: int, count: int = 1) -> None:
-        """Publish the message with these values, `count` times without a pause.
+        """Publish the message with these values `count` times, without a pause.
 
-        Raises PublisherStopped as long as the type is not known, FieldError, and GraphError where there is no
-        master; so does repeat().
+        Like repeat(), it raises PublisherStopped if the type is not known yet, FieldError if a value is
+        wrong, and GraphError without a master.
         """
         message = self._message(texts)
         self._advertise(latch, queue)
@@ -82,7 +82,7 @@ class Commands:
             self._publish(message)
 
     def repeat(self, texts: dict[str, StringTree], *, latch: bool, queue: int, rate: float) -> None:
-        """Publish the message `rate` times a second, until told to stop or to repeat another message."""
+        """Publish the message `rate` times per second, until stop() or another repetition begins."""
         message = self._message(texts)
         self.stop()
         self._advertise(latch, queue)
@@ -90,19 +90,19 @@ class Commands:
         self._timer = Timer(rate, lambda: self._publish(message), self._failed)
 
     def stop(self) -> None:
-        """Stop repeating; the publisher stays."""
+        """Stop repeating; the publisher stays registered."""
         timer, self._timer = self._timer, None
         if timer is not None:
             timer.stop()
 
     def withdraw(self) -> None:
-        """End the publisher; its counts stay until there is another."""
+        """Stop the publisher; its counts are kept until a new publisher exists."""
         self.stop()
         if self._publisher is not None:
             self._publisher.stop()
 
     def state(self) -> PublisherReport:
-        """Return what is published now, and what was published so far."""
+        """Return the current state of the publisher and of the timer, with all counts."""
         timer, publisher = self._timer, self._publisher
         state: PublisherReport = {
             "problem": self.problem,
@@ -129,7 +129,7 @@ class Commands:
 
     def _message(self, texts: dict[str, StringTree]) -> genpy.Message:
         if self.kind is None:
-            raise PublisherStopped(f"{self._topic}: the type of the topic is not known yet.")
+            raise PublisherStopped(f"{self._topic}: the topic has no type yet. Choose a type first.")
         blank = self.kind.format(self.kind.default())
         assert isinstance(blank, dict)
         return self.kind.to_message(self.kind.parse({**blank, **texts}))

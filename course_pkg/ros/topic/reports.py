@@ -1,4 +1,4 @@
-"""What a topic process reports, as JSON data: no ROS is needed to read it."""
+"""The reports of a topic process, as JSON data: a program can read them without ROS."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ class Peer(TypedDict):
 
 
 class Source(Peer):
-    """A publisher that is connected to the topic process, with the type that it has sent in its header."""
+    """A publisher that is connected to the topic process, with the type and MD5 sum from its header."""
 
     md5: str
 
 
 class Connections(TypedDict, total=False):
-    """The type that the master knows ("" for none), the nodes on the topic, and the connected publishers."""
+    """The type at the master ("" for no type), the nodes on the topic, and the connected publishers."""
 
     type: str
     publishers: list[Peer]
@@ -31,7 +31,7 @@ class Connections(TypedDict, total=False):
 
 
 class Figures(TypedDict, total=False):
-    """The rate (1/s), the jitter and the longest gap (s) of `gaps` gaps between messages."""
+    """The rate (1/s), the jitter (s) and the longest gap (s), measured over `gaps` gaps between messages."""
 
     rate: float
     jitter: float
@@ -49,9 +49,10 @@ class DeliveryReport(TypedDict):
 
 
 class PublisherReport(TypedDict, total=False):
-    """What is published: `rate` in 1/s (0: none), `statistics` as measured; the last part is Publisher's.
+    """The state of the publisher. `rate` is the wanted rate in 1/s, or 0 without a timer.
 
-    `reached` is the number of subscribers that the latest message went to.
+    `statistics` is the measured rate. `reached` is the number of subscribers to which the latest message was
+    sent. The other counts are those of the class Publisher.
     """
 
     problem: str
@@ -70,7 +71,7 @@ class PublisherReport(TypedDict, total=False):
 
 
 class MessageReport(TypedDict):
-    """A message that came `ago` s before the report; `texts` is None if its values cannot be shown."""
+    """A message that arrived `ago` s before the report; `texts` is None if its values cannot be shown."""
 
     number: int
     ago: float
@@ -82,7 +83,7 @@ class MessageReport(TypedDict):
 
 
 class Curve(TypedDict):
-    """The recent values of a number: points as [s from the start, value], and how many values came."""
+    """The recent values of a number as points [s since the start, value], and the number of all values."""
 
     points: list[list[float]]
     count: int
@@ -92,8 +93,8 @@ class Curve(TypedDict):
 class Report(TypedDict, total=False):
     """The parts of a report that have changed.
 
-    `trouble` is why the process cannot see the graph, "" when it can. `node` is its own name on the graph.
-    `count` received messages have come, with the rate `statistics`; `messages` are the new ones.
+    `trouble` is the error if the process cannot reach the master, else "". `node` is the name of its node.
+    `count` is the number of received messages, `statistics` their rate, and `messages` the new messages.
     """
 
     trouble: str

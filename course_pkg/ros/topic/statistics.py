@@ -1,4 +1,4 @@
-"""Figures of a topic in little space: how often its messages come, and the recent values of a field."""
+"""Statistics of a topic with bounded memory: the rate of its messages, and the recent values of a field."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from itertools import pairwise
 
 from course_pkg.ros.topic.reports import Figures
 
-WINDOW = 3.0  # s over which a rate is measured
-FEW = 5  # messages that are used even if they are older than the window
-MOST = 5000  # messages that are used at most
-SILENCE = 3.0  # times the mean gap, after which the messages have stopped
-SPAN = 20.0  # s of a series
-STEP = 0.1  # s
+WINDOW = 3.0  # s; a rate is measured over this time
+FEW = 5  # the last messages are used even if they are older than the window
+MOST = 5000  # the largest number of messages for one rate
+SILENCE = 3.0  # mean gaps; after this time without a message, the messages have stopped
+SPAN = 20.0  # s; the length of a series
+STEP = 0.1  # s; at most four values are stored for each step
 
 Point = tuple[float, float]
 
 
 class RateStatistics:
-    """The times of an event that happens repeatedly; threads may share it."""
+    """The times of a repeated event; threads may share this object."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -51,7 +51,7 @@ class RateStatistics:
 
 
 class DownsampledSeries:
-    """Values by time (s); of each step the first, smallest, largest and last are stored."""
+    """Values by time (s); each step of 0.1 s stores its first, smallest, largest and last value."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -60,7 +60,7 @@ class DownsampledSeries:
         self.left_out = 0
 
     def add(self, at: float, value: float) -> None:
-        """Add a value; one that is NaN or infinite is only counted."""
+        """Add a value; a value that is NaN or infinite is only counted."""
         with self._lock:
             self.count += 1
             if not math.isfinite(value):
@@ -73,7 +73,7 @@ class DownsampledSeries:
                 _merge((at, value), self._steps[-1][1])
 
     def points(self, now: float) -> list[Point]:
-        """Return what is stored of the last 20 s, oldest first."""
+        """Return the stored points of the last 20 s, the oldest first."""
         with self._lock:
             while self._steps and self._steps[0][0] < int((now - SPAN) / STEP):
                 self._steps.popleft()
@@ -81,7 +81,7 @@ class DownsampledSeries:
 
 
 def _merge(point: Point, stored: list[Point]) -> None:
-    """Put a point into [first, smallest, largest, last] of its step."""
+    """Update [first, smallest, largest, last] of a step with a new point."""
     if point[1] < stored[1][1]:
         stored[1] = point
     if point[1] > stored[2][1]:

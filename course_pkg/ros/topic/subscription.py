@@ -1,6 +1,6 @@
-"""A subscription to a topic of any type: counted and timed, the last messages stored as bytes.
+"""A subscription to a topic of any type: it counts and times messages, and stores the last ones as bytes.
 
-rospy deserialises a message only where its values are shown, so that a fast topic costs little.
+A message is deserialised only if a panel shows its values, because a fast topic would need too much time.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
 CAPACITY = 10  # messages
-LONGEST = 16_384  # bytes of a message that is stored
+LONGEST = 16_384  # bytes; a longer message is not stored
 
 Extract = Callable[[bytes], float]
 
 
 @dataclass(frozen=True)
 class ReceivedMessage:
-    """A message: `number` since the beginning, `at` (s of time.monotonic()), its publisher, and its bytes.
+    """A message: its `number` (from 1), the time `at` (s of time.monotonic()), its publisher, and its bytes.
 
-    `body` is empty for one that is too long to be stored; `size` is its length in bytes.
+    `size` is its length in bytes. `body` is empty if the message is too long to be stored.
     """
 
     number: int
@@ -40,7 +40,7 @@ class ReceivedMessage:
 
 
 class TopicSubscription:
-    """Receives the messages of `topic`."""
+    """Receives and counts the messages of `topic`, and stores the last ones."""
 
     def __init__(self, topic: str) -> None:
         self.count = 0
@@ -53,18 +53,18 @@ class TopicSubscription:
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, tcp_nodelay=True)
 
     def plot(self, md5: str, extract: Extract | None) -> None:
-        """Start a new series of what `extract` finds in messages of the type with this MD5 sum."""
+        """Start a new series of the numbers that `extract` reads from messages with this MD5 sum."""
         self._md5, self._extract, self.series = md5, extract, DownsampledSeries()
 
     def new_messages(self) -> list[ReceivedMessage]:
-        """Return the last messages since the previous call, at most 10, oldest first."""
+        """Return the last messages since the previous call, at most 10, the oldest first."""
         with self._lock:
             received = list(self._received)
             self._received.clear()
         return received
 
     def sources(self) -> list[Source]:
-        """Return the publishers that are connected."""
+        """Return the connected publishers."""
         connections = self._subscriber.impl.connections
         return [
             Source(node=str(each.callerid_pub), type=str(each.type), md5=str(each.md5sum))

@@ -1,4 +1,4 @@
-"""The owner's side of a topic process: it starts the process, sends commands, and receives reports."""
+"""The owner's end of a topic process: it starts the process, sends commands, and receives reports."""
 
 from __future__ import annotations
 
@@ -23,17 +23,18 @@ from course_pkg.types import Plain
 
 Report: TypeAlias = dict[str, Json]
 
-TAIL = 600  # characters of what it printed, in an error message
-GRACE = 6.0  # s to shut down: a slow machine may only just be importing rospy
-# A busy master may register what a killed node sent only after its death. So it is withdrawn repeatedly.
+TAIL = 600  # characters of the process's output that an error message shows
+GRACE = 6.0  # s to shut down; on a slow machine, the process may still be importing rospy
+# A busy master may register a node after the node was killed. The owner therefore unregisters it repeatedly.
 PAUSES = (0.0, 0.5, 2.0)  # s before each attempt
 
 
 class TopicProcess:
-    """A separate node on `topic`, which ends with end(), and with this process at the latest.
+    """A separate node on `topic`, which ends with end(), or when this process ends.
 
-    `reported` is called with each report, `lost` with a message when the node ends without end(). Both get
-    this object, too, and run on a thread. `main.py` lists the commands, `reports.py` the parts of a report.
+    `reported` is called with this object and each report. `lost` is called with this object and an error
+    message if the node ends without end(). Both run on another thread. `main.py` lists the commands, and
+    `reports.py` lists the parts of a report.
     """
 
     def __init__(
@@ -47,7 +48,7 @@ class TopicProcess:
         self._reported = reported
         self._lost = lost
         self._ended = threading.Event()
-        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as the process
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it is needed until the process ends
         ours, theirs = socket.socketpair()
         self._channel = JsonChannel(ours)
         with theirs:
@@ -59,12 +60,12 @@ class TopicProcess:
         threading.Thread(target=self._receive, daemon=True, name="topic-reports").start()
 
     def tell(self, do: str, **what: Plain) -> None:
-        """Send the command `do`; nothing happens when the process is gone."""
+        """Send the command `do`; if the process has ended, nothing happens."""
         with suppress(ChannelClosed):  # _receive() reports it
             self._channel.send({"do": do, **what})
 
     def end(self, *, wait: bool = False) -> None:
-        """Have it unregister and end; with `wait`, return when it has."""
+        """Make the process unregister and end; with `wait`, return after its end."""
         if not self._ended.is_set():
             self._ended.set()
             self._channel.close()
@@ -95,7 +96,7 @@ class TopicProcess:
         self._output.close()
 
     def _withdraw(self) -> None:
-        """Unregister in the place of a node that was killed."""
+        """Unregister a node that was killed."""
         with suppress(GraphError):
             remove_stale(self.master, nodes=frozenset({f"/topic_panel_{self.pid}"}))
 
@@ -106,7 +107,10 @@ class TopicProcess:
 
 
 def _environment() -> dict[str, str]:
-    """Return an environment in which it imports the course and the workspace, but no file of the notebook."""
+    """Return an environment in which Python imports from the course and the workspace, but not from here.
+
+    Otherwise, a file in the notebook's folder could replace a module of the course.
+    """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)
     path = [entry for entry in sys.path if entry and os.path.abspath(entry) != here] + [course]

@@ -1,1 +1,1 @@
-"""The recorder of a node, and what is made of its records: calls, messages, callbacks, bytes on the wire."""
+"""Record what nodes do (calls, messages, callbacks), and combine the records of several nodes."""

@@ -1,7 +1,8 @@
-"""What happens on the graph: how many messages each connection has carried, and who has called which service.
+"""The activity on the graph: how many messages each connection has carried, and which nodes called a service.
 
-This needs no subscriber. Every node counts what it sends, and answers the slave API's getBusStats and
-getBusInfo (http://wiki.ros.org/ROS/Slave_API); the course's nodes also count who calls their services.
+No subscriber is necessary for this. Every node counts the messages that it sends, and answers the slave API's
+methods getBusStats and getBusInfo (http://wiki.ros.org/ROS/Slave_API). The course's nodes also count the
+calls of their services by each caller.
 """
 
 from __future__ import annotations
@@ -21,15 +22,16 @@ TIMEOUT = 0.5  # s
 STATISTICS = "getBusStats"  # the third part of the answer is for services; rospy leaves it empty
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
-INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)  # what an answer of another form raises
+INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)  # errors from an answer of another form
 
 
 @dataclass(frozen=True)
 class ServiceCaller:
     """A node that has called a service since the server started.
 
-    `calls` counts the requests that reached the server, `last` is the time of the latest one (s since the
-    epoch), and `running` counts the requests that a handler works on: while it is not 0, the caller waits.
+    `calls` counts the requests that reached the server, and `last` is the time of the latest request (s since
+    the epoch). `running` counts the requests that a handler is working on. While it is not 0, the caller
+    waits.
     """
 
     node: str
@@ -53,8 +55,8 @@ class Traffic:
 class Activity:
     """All counts at one time.
 
-    `at` is a time of time.monotonic() (s). `silent` are the nodes that did not say what they send. `callers`
-    has the services whose servers count their callers, the latest caller first.
+    `at` is a time of time.monotonic() (s). `silent` are the nodes without a usable answer. `callers` has the
+    services whose servers count their callers, the latest caller first.
     """
 
     at: float
@@ -64,13 +66,13 @@ class Activity:
 
 
 class ActivityPoller:
-    """Polls the nodes of a graph. It asks only once for what does not change."""
+    """Polls the nodes of a graph. It requests the subscriber of each connection only once."""
 
     def __init__(self) -> None:
         self._peers: dict[str, dict[int, str]] = {}  # by the address of a node: connection -> subscriber
 
     def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:
-        """Ask all nodes of a snapshot that answer; takes at most `timeout` s, and twice that at first."""
+        """Return the counts of all reachable nodes; takes up to `timeout` s, or twice that the first time."""
         uris = {node.name: node.uri for node in snapshot.nodes if node.reachable}
         probes = {name: callers_probe(uri) for name, uri in uris.items()}
         ask_all(list(probes.values()), timeout)
@@ -85,13 +87,13 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # Counts are useless without the subscribers that the connections lead to.
+        # A count is useless if the subscriber at the end of its connection is unknown.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
 
     def _update_peers(self, connections: Mapping[str, Iterable[int]], timeout: float) -> None:
-        """Ask the nodes that have new connections for the subscribers; forget nodes that have ended."""
+        """Request the subscribers from nodes with new connections; forget nodes that have ended."""
         self._peers = {uri: self._peers.get(uri, {}) for uri in connections}
         new = [uri for uri, numbers in connections.items() if not self._peers[uri].keys() >= set(numbers)]
         probes = {uri: rpc_probe(uri, "getBusInfo") for uri in new}
@@ -100,12 +102,12 @@ class ActivityPoller:
 
 
 def callers_probe(uri: str) -> Probe:
-    """Return a probe that asks the node at `uri` for its statistics, for ask_all()."""
+    """Return a probe for ask_all(), which requests the statistics of the node at `uri`."""
     return rpc_probe(uri, STATISTICS)
 
 
 def answered_callers(probe: Probe) -> Callers:
-    """Return the callers in a node's answer, by service; nothing without an answer."""
+    """Return the callers in a node's answer, by service; empty without an answer."""
     stats = rpc_answer(probe)
     if not (isinstance(stats, list) and len(stats) == 3 and isinstance(stats[2], list)):
         return {}
@@ -126,10 +128,11 @@ class _Count:
 
 
 def _counts(probe: Probe) -> list[_Count] | None:
-    """Return what a node has sent over each connection, or None if it does not say.
+    """Return how many messages a node has sent on each connection, or None without a valid answer.
 
-    For a topic, rospy answers [name, bytes, connections], roscpp [name, connections]; for a connection, rospy
-    [id, bytes, messages, connected], roscpp [id, bytes, bytes of messages, messages, connected].
+    For a topic, rospy answers [name, bytes, connections], and roscpp [name, connections]. For a connection,
+    rospy answers [id, bytes, messages, connected], and roscpp [id, bytes, bytes of messages, messages,
+    connected].
     """
     if not probe.answered:
         return None
@@ -140,12 +143,12 @@ def _counts(probe: Probe) -> list[_Count] | None:
             for number, *_, messages, _ in connections
         ]
     except INVALID:
-        # rospy answers with a fault once a connection has carried 2 GiB: XML-RPC has no greater integers.
+        # After 2 GiB on a connection, rospy answers with a fault: its byte count is too large for XML-RPC.
         return None
 
 
 def _callers(probe: Probe) -> Callers:
-    """Return who has called a node's services; nothing if the answer has another form."""
+    """Return the callers of a node's services; empty if the answer has another form."""
     try:
         return answered_callers(probe)
     except INVALID:
@@ -153,7 +156,7 @@ def _callers(probe: Probe) -> Callers:
 
 
 def _subscribers(info: RpcValue) -> dict[int, str]:
-    """Return the subscribers of a node's outgoing connections; nothing if the answer has another form."""
+    """Return the subscribers of a node's outgoing connections; empty if the answer has another form."""
     try:
         rows = map(items, items(info))
         return {int(number(row[0])): str(row[1]) for row in rows if row[2] == "o"}
@@ -162,6 +165,6 @@ def _subscribers(info: RpcValue) -> dict[int, str]:
 
 
 def _statistics(probe: Probe) -> Any:  # noqa: ANN401 -- any node may answer with any value
-    """Return the value of an answer; roscpp answers getBusStats with the value only, without a status."""
+    """Return the value of an answer; roscpp's answer to getBusStats is the value without a status."""
     value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
     return value[2] if value[0] == 1 else value

@@ -1,4 +1,4 @@
-"""Collecting what the nodes on the graph have recorded, in bounded time."""
+"""Collect the records of the nodes on the graph, with a time limit."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ REASONS = {
     Reach.LOST: "it could not be reached, or it closed the connection",
     Reach.ANSWERED: "it keeps no record: it is not one of the course's Python nodes",
 }
-ELSEWHERE = "it goes by another clock, on another machine"
-ENDED = "it was gone when the recording ended, and its record with it"
+ELSEWHERE = "it runs on another machine, whose clock differs"
+ENDED = "it ended before the recording ended, and its record was lost"
 
 
 @dataclass
@@ -37,7 +37,7 @@ class _Collected:
 
 @contextmanager
 def recorded(node: str, uri: str, master: MasterClient) -> Iterator[Recording]:
-    """Record the block from the kernel's `node` at `uri`; the recording is filled when the block ends."""
+    """Record the block for the kernel's `node` at `uri`; the recording is filled when the block ends."""
     recording = Recording(node=node)
     with handovers(node, uri, master):
         start = time.monotonic()
@@ -78,7 +78,7 @@ def _add_answer(collected: _Collected, name: str, probe: Probe, asked: float, an
 
 
 def _in_time(record: ProcessRecord, since: float) -> bool:
-    """Return whether a record was handed over during the recording, by the clock of this machine."""
+    """Return whether a record was written during the recording, according to this machine's clock."""
     return since <= record["clock"] <= time.monotonic()
 
 
@@ -101,7 +101,7 @@ def _fill(recording: Recording, collected: _Collected, start: float, end: float)
 
 
 def _ended(recording: Recording, collected: _Collected) -> list[str]:
-    """Return the nodes that took part according to other nodes, and that had ended before the collection."""
+    """Return the nodes that appear in records of other nodes, but ended before the records were collected."""
     peers = {event.peer for event in recording.events if event.kind != PUBLISH}
     peers |= {peer for event in recording.events if event.kind == PUBLISH for peer in event.peer.split(", ")}
     known = {*recording.nodes, *collected.unrecorded, *LEFT_OUT, MASTER, "unknown", ""}
@@ -114,4 +114,4 @@ def _missing(records: Iterable[tuple[str, ProcessRecord]], start: float) -> Iter
             yield f"{name} does not record {unsupported}."
         if record["complete_from"] > start:
             late = record["complete_from"] - start
-            yield f"{name} did more than it keeps: what it did in the first {late:.3g} s is missing."
+            yield f"The memory of {name} was full: its records of the first {late:.3g} s are missing."

@@ -1,9 +1,9 @@
-"""How many messages of a publisher were sent, wait or were dropped, for each subscriber.
+"""Count the messages of a publisher that were sent, are waiting, or were dropped, for each subscriber.
 
-With a queue_size, rospy puts a message into a queue for each subscriber, and a thread writes the queue to the
-connection. A full queue drops its oldest message silently, so the queue is replaced by one that counts. A
-message counts as sent when it is written to the connection: a publisher cannot know what a slow subscriber
-drops after that.
+With a queue_size, rospy puts each message into a queue for each subscriber, and a thread writes the queue to
+the connection. A full queue drops its oldest message without an error message, so this module replaces the
+queue by a counting queue. A message counts as sent when it is written to the connection. The publisher cannot
+know if a slow subscriber drops it later.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rospy.impl.tcpros_pubsub import QueuedConnection
 
 @dataclass(frozen=True)
 class Delivery:
-    """How many messages for the node `peer` were sent, still wait, and were dropped from a full queue."""
+    """The number of messages for the node `peer` that were sent, are waiting, and were dropped."""
 
     peer: str
     sent: int
@@ -40,7 +40,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def update(self) -> None:
-        """Begin to count on new connections, and add the counts of closed connections to their sum."""
+        """Start to count on new connections, and add the counts of closed connections to a sum."""
         with self._lock:
             connected = list(self._impl.connections or ())
             for connection in connected:
@@ -55,12 +55,12 @@ class Deliveries(rospy.SubscribeListener):
             self._connections = connected
 
     def current(self) -> tuple[Delivery, ...]:
-        """Return the deliveries to the subscribers that are connected."""
+        """Return the deliveries to the connected subscribers."""
         return self._all()[:-1]
 
     @property
     def dropped(self) -> int:
-        """How many messages the queues have dropped, counted once for each subscriber that missed one."""
+        """How many messages were dropped from full queues, counted once for each subscriber."""
         return sum(each.dropped for each in self._all())
 
     @property
@@ -69,18 +69,18 @@ class Deliveries(rospy.SubscribeListener):
         return sum(each.sent for each in self._all())
 
     def peer_subscribe(self, _topic: str, _publish: object, _publish_to_one: object) -> None:
-        """Count for a subscriber that has just connected; rospy sends it a latched message after this."""
+        """Start to count for a new subscriber, before rospy sends a latched message to it."""
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:
-        """Return a delivery for each subscriber, and at the end one for all that have disconnected."""
+        """Return a delivery for each subscriber; the last item is the sum of all closed connections."""
         self.update()
         with self._lock:
             return (*map(_delivery, self._connections), self._disconnected)
 
 
 class _CountedQueue(list[bytes]):
-    """Messages that wait for one connection; rospy drops the oldest by `del queue[0]`."""
+    """A queue of messages for one connection; rospy drops the oldest message with `del queue[0]`."""
 
     def __init__(self, messages: list[bytes], connection: _CountedConnection) -> None:
         super().__init__(messages)
@@ -96,7 +96,7 @@ class _CountedQueue(list[bytes]):
 
 
 class _CountedConnection(QueuedConnection):
-    """A connection whose queue counts; rospy assigns an empty list to it after it has taken all messages."""
+    """A connection with a counting queue; rospy replaces `_queue` when it takes the messages from it."""
 
     queued = 0
     dropped = 0
@@ -112,7 +112,7 @@ class _CountedConnection(QueuedConnection):
 
 
 def _count(connection: TCPROSTransport | QueuedConnection) -> None:
-    """Replace the queue of a connection; without a queue_size it has no queue, and writes directly."""
+    """Replace the queue of a connection; a connection without a queue_size has no queue to replace."""
     if type(connection) is not QueuedConnection:
         return
     with connection._lock:

@@ -1,7 +1,7 @@
-"""The hand-over of a node's record when the node ends, so that a recording includes nodes that run briefly.
+"""A node sends its record to other nodes before it ends: a recording then includes nodes that run briefly.
 
-A node that makes a recording sets a parameter on the master for that time. A node that ends sends its record
-there, by the XML-RPC interface that every node has. A node that is killed cannot do this.
+A node that makes a recording stores its address in a parameter of the master during this time. A node that
+ends sends its record to this address by XML-RPC. A node that is killed cannot send its record.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ from course_pkg.ros.trace.recorder import recorder
 
 KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
-TIMEOUT = 0.5  # s for each call, so that a node's end is not delayed
-LONGEST = 600.0  # s before its end that a node hands over
-PREPARED = "prepared_for_handover_by_course"  # an attribute of a registration manager whose node hands over
+TIMEOUT = 0.5  # s for each call; a longer timeout would delay the end of a node
+LONGEST = 600.0  # s; a node sends its record of the last 600 s before its end
+PREPARED = "prepared_for_handover_by_course"  # an attribute of a manager whose node sends its record
 
 
 def hand_over_at_exit() -> None:
-    """Have this process's node hand its record over when it ends, and accept the records of other nodes."""
+    """Make this process's node send its record when it ends, and accept the records of other nodes."""
     setattr(ROSHandler, KEEP, _keep)
     manager = registration_manager()
     if manager is not None and not getattr(manager, PREPARED, False):
         setattr(manager, PREPARED, True)
-        # Without the master's address, the node has left the graph before, or its master does not answer.
+        # If the master's address is None, leave() has already sent the record, or the master did not answer.
         rospy.core.add_shutdown_hook(lambda _reason: hand_over() if manager.master_uri else None)
 
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """Have nodes that end during the block hand their records over to the node at `uri`."""
+    """During the block, nodes that end send their records to the node at `uri`."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1
@@ -57,7 +57,7 @@ def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
 
 
 def hand_over() -> None:
-    """Hand this node's record over to all nodes that make a recording."""
+    """Send this node's record to all nodes that are making a recording."""
     with suppress(GraphError):
         recorders = MasterClient(master_uri(), TIMEOUT).get_param(PARAMETER, {})
         found = recorders.values() if isinstance(recorders, dict) else ()
@@ -74,7 +74,7 @@ def _hand_over(uri: str) -> None:
 
 
 def _keep(_handler: ROSHandler, _caller_id: str, node: str, record: str) -> tuple[int, str, int]:
-    """Accept the record of a node that ends, while there is a recording that it may belong to."""
+    """Accept the record of a node that ends, if this process is making a recording."""
     if not recorder().recordings:
         return 0, "no recording is made here", 0
     recorder().handed_over.append((str(node), json.loads(record)))

@@ -1,4 +1,4 @@
-"""Replacing a method of rospy by one that also records what happens, where rospy offers no hook for it."""
+"""Replace a method of rospy by a method that also records what happens, because rospy has no hooks."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ Method = Callable[..., Any]  # rospy has no types
 class Hook:
     """A method of `owner` and the function that returns its replacement.
 
-    `uses` are the globals that the method has to look up. If the method of this rospy has other parameters or
-    does not use these globals, the hook does not fit.
+    `uses` are global names that the method's code must contain. The hook does not fit if the method has other
+    parameters, or if its code does not contain these names.
     """
 
     def __init__(
@@ -38,7 +38,7 @@ class Hook:
         self._uses = frozenset(uses)
 
     def fits(self) -> bool:
-        """Return whether the method is as expected."""
+        """Return whether the method has the expected parameters and uses the expected names."""
         method = getattr(self._owner, self._name, None)
         if not inspect.isfunction(method):
             return False
@@ -46,7 +46,7 @@ class Hook:
         return known and tuple(inspect.signature(method).parameters) == self._parameters
 
     def install(self) -> None:
-        """Replace the method; a second time changes nothing."""
+        """Replace the method; a second call changes nothing."""
         method = getattr(self._owner, self._name)
         if not hasattr(method, HOOKED):
             replacement = wraps(method)(self._replace(method))
@@ -57,9 +57,10 @@ class Hook:
 def install_all(
     hooks: Sequence[Hook], module: ModuleType, transport: type, required: Sequence[Hook] = ()
 ) -> bool:
-    """Install all hooks and have `module` create its connections as `transport`; return whether it worked.
+    """Install all `hooks`, and make `transport` the class of the module's connections; return the success.
 
-    If one of `hooks` does not fit, or one of `required`, which are only checked, nothing is changed.
+    The hooks in `required` are only checked. If any hook does not fit, the function changes nothing and
+    returns False.
     """
     current = getattr(module, TRANSPORT, None)
     known = isinstance(current, type) and issubclass(current, TCPROSTransport)

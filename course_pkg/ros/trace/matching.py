@@ -1,8 +1,8 @@
-"""Combining what several nodes have recorded: which request a handler works on, which message a callback got.
+"""Combine the records of several nodes: match each handler with its request, each callback with its message.
 
-Nothing is guessed. Both ends of a connection number the messages on it, so the same connection, name and
-number mean the same message. A later connection may use the same port again. If this leaves more than one
-possibility, or if the times contradict each other, the two sides are not matched.
+Nothing is guessed. Both ends of a connection number the messages on it. The same connection, name and number
+therefore mean the same message. But a later connection may use the same ports again. If more than one match
+is possible, or if the times contradict each other, the records of the two ends are not matched.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ TransferKey = tuple[str, str, int]  # service or topic, connection, number of th
 
 @dataclass(frozen=True)
 class NodeRecord:
-    """What one process has recorded. Two processes may have been the same node, one after the other."""
+    """The record of one process. Two processes may have run the same node, one after the other."""
 
     node: str
     process: int
@@ -36,7 +36,7 @@ class NodeRecord:
 
 
 class Span:
-    """A span of a process, before it becomes an event."""
+    """A span that a process has recorded; it later becomes an event."""
 
     def __init__(self, record: NodeRecord, data: SpanData) -> None:
         self.node = record.node
@@ -52,7 +52,7 @@ class Span:
 
 
 class Exchange:
-    """A call with its handler, or a message with its callbacks; or one of the two sides alone."""
+    """A call with its handler, or a message with its callbacks; an unmatched span has its own exchange."""
 
     def __init__(self, kind: str, first: Span) -> None:
         self.kind = kind
@@ -60,17 +60,17 @@ class Exchange:
         self.add(first)
 
     def add(self, span: Span) -> None:
-        """Add a span."""
+        """Add a span, and set its `exchange`."""
         self.spans.append(span)
         span.exchange = self
 
     def started(self, kind: str) -> float | None:
-        """Return when its first span of a kind began, or None."""
+        """Return the time when the first span of this kind began, or None without such a span."""
         return next((each.start for each in self.spans if each.kind == kind), None)
 
     @property
     def finished(self) -> float | None:
-        """Return when the caller knew how the call ended, or None."""
+        """Return the time when the caller received the response or an error, or None before that."""
         ends = (self.started(kind) for kind in (RESPONSE, ERROR))
         return next((end for end in ends if end is not None), None)
 
@@ -110,7 +110,7 @@ def _match_calls(spans: Sequence[Span]) -> None:
 
 
 def _within(handler: Span, call: Exchange) -> bool:
-    """Return whether the handler began between the beginning of the request and the end of the call."""
+    """Return whether the handler began after the start of the request and before the end of the call."""
     requested, finished = call.started(REQUEST), call.finished
     return (requested is None or requested <= handler.start) and (
         finished is None or handler.start <= finished
@@ -136,7 +136,7 @@ def _by_transfer(spans: Iterable[Span]) -> dict[TransferKey, list[Span]]:
 
 
 def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
-    """Return a key for each exchange, numbered by its beginning; an unmatched span is one exchange."""
+    """Return a key for each exchange, numbered in order of time; an unmatched span is its own exchange."""
     numbers = {"call": 0, "message": 0}
     keys: dict[Exchange, str] = {}
     for each in spans:
@@ -186,7 +186,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span; how it ended is not known before its end."""
+    """Return the note on a span; before the end of the span, its result is not known."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:
@@ -195,5 +195,5 @@ def _note(data: SpanData, ended: bool) -> str:
     if not expected:
         return NOBODY
     if sent < expected:
-        return f"sent to {sent} of {expected}: what is missing was dropped from a queue, or is still in it"
+        return f"sent to {sent} of {expected} subscribers; the other copies were dropped or are in a queue"
     return data["note"]

@@ -1,9 +1,9 @@
-"""The recorder of a process: what its node did lately, in a bounded ring, and who called its services.
+"""The recorder of a process: the latest actions of its node, and a count of the callers of its services.
 
-Times are those of time.monotonic(). On Linux that is CLOCK_MONOTONIC, one clock for all processes of a
-machine: https://docs.python.org/3/library/time.html#time.monotonic ("system-wide") and clock_gettime(2). So
-the times of several nodes can be compared. This module does not import rospy; `service_hooks` and
-`topic_hooks` report to it what happens there.
+Times are values of time.monotonic(). On Linux this is CLOCK_MONOTONIC, one clock for all processes of a
+machine, so the times of several nodes can be compared. Sources: clock_gettime(2) and
+https://docs.python.org/3/library/time.html#time.monotonic ("system-wide"). This module does not import rospy.
+The modules `service_hooks` and `topic_hooks` send their records to it.
 """
 
 from __future__ import annotations
@@ -30,26 +30,25 @@ from course_pkg.ros.trace.recording import (
 )
 
 SIZE = 20_000  # spans; about 6 MB when full
-HANDED_OVER = 50  # records of nodes that have ended
-LONGEST = 300  # characters of an error message
+HANDED_OVER = 50  # stored records of nodes that have ended
+LONGEST = 300  # characters; a longer error message is cut
 CALLERS = 100  # callers of a service; each run of a command-line tool is a caller with a new name
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that use the connection
 
-# A connection as both ends know it: the client's numeric address, the server's port.
+# A connection: the client's numeric address and the server's port. Both ends know these values.
 Connection = tuple[Sequence[str | int], int]
-# One message on a connection: the connection, the number of the message on it, the node at the other end.
+# A message on a connection: the connection, the number of the message, and the node at the other end.
 Transfer = tuple[Connection, int, str]
-CallerCount = tuple[
-    str, int, float, int
-]  # caller, calls, when last (s since the epoch), calls that are running
+# The caller, its number of calls, the time of the latest call (s since the epoch), and its running calls.
+CallerCount = tuple[str, int, float, int]
 
 
 class Span:
-    """One thing that happened: `end` is None while it lasts.
+    """One action of a node; `end` is None until the action has ended.
 
-    `transfers` are its messages on connections, `connections` is the number of connections that a published
-    message is for.
+    `transfers` are the action's messages on connections. `connections` is the number of connections to which
+    a published message should be sent.
     """
 
     __slots__ = ("connections", "end", "kind", "name", "note", "peer", "start", "thread", "transfers")
@@ -66,7 +65,7 @@ class Span:
         self.start = time.monotonic()
 
     def as_dicts(self) -> list[SpanData]:
-        """Return it as data for JSON."""
+        """Return the span as a list with one item of JSON data."""
         return [
             {
                 "kind": self.kind,
@@ -84,7 +83,7 @@ class Span:
 
 
 class CallPart:
-    """A part of a call; `end` is None while it lasts."""
+    """A part of a call; `end` is None until the part has ended."""
 
     __slots__ = ("end", "kind", "start")
 
@@ -95,9 +94,9 @@ class CallPart:
 
 
 class CallSpan:
-    """A call with all its parts, kept in one object because recording must not slow calls down.
+    """A call with all its parts, stored in one object because recording must not make calls slower.
 
-    `result` is RESPONSE or ERROR, and empty while the call lasts; `transfer` is its request.
+    `result` is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the request's message.
     """
 
     __slots__ = (
@@ -128,13 +127,13 @@ class CallSpan:
         self.start = time.monotonic()
 
     def begin(self, kind: str) -> CallPart:
-        """Record that a part begins, and return it; the caller sets its `end`."""
+        """Record that a part begins, and return the part; its `end` has to be set later."""
         part = CallPart(kind)
         self.parts.append(part)
         return part
 
     def finish(self, result: str, note: str = "", *, answered: bool = True) -> None:
-        """Record how the call ended, and when; `answered` tells whether an error came from the server."""
+        """Record the call's result now; `answered` is false for an error that the server did not send."""
         part = self.begin(result)
         part.end = part.start
         self.result = result
@@ -142,7 +141,7 @@ class CallSpan:
         self.note = note[:LONGEST]
 
     def as_dicts(self) -> list[SpanData]:
-        """Return its parts as data for JSON."""
+        """Return all parts as JSON data."""
         return [self._part_data(part) for part in list(self.parts)]
 
     def _part_data(self, part: CallPart) -> SpanData:
@@ -163,7 +162,7 @@ class CallSpan:
 
 
 class _Current(threading.local):
-    """What a thread does now: the call that it makes."""
+    """The call that a thread is making, or None."""
 
     call: CallSpan | None = None
 
@@ -208,35 +207,35 @@ class CallCounter:
             return [(name, each.calls, each.last, each.running) for name, each in reversed(callers.items())]
 
     def _forget_one(self, callers: dict[str, _Count]) -> None:
-        """Forget the caller whose last call is the oldest, of those that do not wait for a response."""
+        """Forget the caller whose last call is the oldest; skip waiting callers if not all are waiting."""
         idle = (name for name, each in callers.items() if not each.running)
         callers.pop(next(idle, next(iter(callers))))
 
 
 class Recorder:
-    """The spans of this process: the last 20,000 that have ended, and all that last.
+    """The spans of this process: the last 20,000 that have ended, and all that have not ended.
 
-    Threads may share it: each step is one atomic operation of a set or a deque.
+    Threads may share a recorder, because each step is one atomic operation of a set or a deque.
     """
 
     def __init__(self, size: int = SIZE) -> None:
         self.call_counter = CallCounter()
         self.unsupported: set[str] = set()  # descriptions of what this process cannot record
         self.current = _Current()
-        self.recordings = 0  # that are being made in this process
-        self.handed_over: deque[tuple[str, ProcessRecord]] = deque(maxlen=HANDED_OVER)  # by nodes that ended
+        self.recordings = 0  # how many recordings this process is making
+        self.handed_over: deque[tuple[str, ProcessRecord]] = deque(maxlen=HANDED_OVER)  # of ended nodes
         self.numbers = count(1)
         self._ended: deque[Span | CallSpan] = deque(maxlen=size)
         self._lasting: set[Span | CallSpan] = set()
 
     def begin(self, kind: str, name: str, peer: str, transfers: list[Transfer]) -> Span:
-        """Record that something begins."""
+        """Record that an action begins, and return its span."""
         span = Span(kind, name, peer, transfers, _thread())
         self._lasting.add(span)
         return span
 
     def begin_call(self, name: str) -> CallSpan:
-        """Record that this thread begins a call."""
+        """Record that this thread begins a call, and return the call's span."""
         call = CallSpan(name, next(self.numbers), _thread())
         self._lasting.add(call)
         self.current.call = call
@@ -248,11 +247,12 @@ class Recorder:
             span.end = time.monotonic()
             if note:
                 span.note = note[:LONGEST]
-            self._ended.append(span)  # first, so that a reader finds the span in both, and never in neither
+            # This order lets a reader find the span in both collections for a moment, but never in none.
+            self._ended.append(span)
             self._lasting.discard(span)
 
     def since(self, start: float) -> ProcessRecord:
-        """Return what lasted at `start` (of time.monotonic()) or began later."""
+        """Return the record of all actions that had not ended before `start` (s of time.monotonic())."""
         recent = [span for span in self._spans() if span.end is None or span.end >= start]
         return {
             "clock": time.monotonic(),
@@ -268,7 +268,7 @@ class Recorder:
                 return list(
                     {id(span): span for span in (*self._lasting.copy(), *self._ended.copy())}.values()
                 )
-            except RuntimeError:  # garbage collection ran another thread, which changed the set or the deque
+            except RuntimeError:  # Garbage collection let another thread run, which changed the collections.
                 continue
 
     def _complete_from(self) -> float:
@@ -282,11 +282,12 @@ def _transfer_data(transfer: Transfer) -> tuple[str, int, str]:
 
 
 def _thread() -> Thread:
-    thread = threading.current_thread()  # keep only its name, because a server makes a thread for each call
+    # The span stores only the name and the number: a server makes a new thread for each call.
+    thread = threading.current_thread()
     return thread.name, thread.ident or 0
 
 
 @cache
 def recorder() -> Recorder:
-    """Return this process's one recorder, which its hooks write to."""
+    """Return the only recorder of this process; all hooks write to it."""
     return Recorder()

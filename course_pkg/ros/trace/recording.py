@@ -1,4 +1,4 @@
-"""A recording of what nodes did, as plain data: no ROS is needed to read one."""
+"""A recording of what nodes did, as plain data: a program can read it without ROS."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ CONNECT = "connect"  # the caller connects to the server, and both exchange head
 REQUEST = "request"  # the caller sends the request
 WAIT = "wait"  # the caller is blocked until the response arrives
 RESPONSE = "response"  # the moment when the caller has the response
-ERROR = "error"  # the moment when the call fails; `note` is the error, `peer` the server if it sent the error
+ERROR = "error"  # the moment when the call fails; `note` is the error message, `peer` its sender, if any
 HANDLER = "handler"  # the server handles a request
 PUBLISH = "publish"  # a message is published
 CALLBACK = "callback"  # a subscriber's callback runs
@@ -20,9 +20,9 @@ GET_RECORD = "getCourseRecord"  # the method of a node's slave API that returns 
 NOBODY = "nobody was connected"  # the note of a message that had no subscriber
 
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
-BLOCKED = (LOOKUP, CONNECT, WAIT)  # in these parts, a node waits for another one
+BLOCKED = (LOOKUP, CONNECT, WAIT)  # the parts of a call in which a node waits for another node
 
-Thread = tuple[str, int]  # its name, and its identifier while it runs
+Thread = tuple[str, int]  # the name and the identifier of a thread; a later thread may reuse the identifier
 
 
 class SpanData(TypedDict):
@@ -41,10 +41,10 @@ class SpanData(TypedDict):
 
 
 class ProcessRecord(TypedDict):
-    """What a process has recorded, as JSON data.
+    """The record of a process, as JSON data.
 
-    `clock` is the time when it was written, `process` the process id. From `complete_from` on, nothing is
-    missing. `unsupported` lists what this process cannot record.
+    `clock` is the time when the record was written, and `process` is the process id. The record is complete
+    after the time `complete_from`. `unsupported` lists what this process cannot record.
     """
 
     clock: float
@@ -56,12 +56,12 @@ class ProcessRecord(TypedDict):
 
 @dataclass(frozen=True)
 class Event:
-    """One thing that a node did. `name` is the service or topic, `peer` the other node.
+    """One action of a node. `name` is the service or topic, and `peer` is the other node.
 
-    `start` and `end` are seconds from the start of the recording. `start` is negative for an event that began
-    before it, `end` is None for an event that had not ended when it ended. `key` is the same for the parts of
-    one call, and for a message and its callbacks. `note` describes how a call failed, or why a message did
-    not reach all subscribers.
+    `start` and `end` are in s since the start of the recording. `start` is negative if the event began before
+    the recording. `end` is None if the event had not ended when the recording ended. `key` is the same for
+    all parts of one call, and for a message and its callbacks. `note` describes how a call failed, or why a
+    message did not reach all subscribers.
     """
 
     kind: str
@@ -76,17 +76,17 @@ class Event:
 
     @property
     def open(self) -> bool:
-        """Whether it was still going on when the recording ended."""
+        """Whether the event had not ended when the recording ended."""
         return self.end is None
 
 
 @dataclass
 class Recording:
-    """What the nodes on the graph did during a block; empty until the block has ended.
+    """The events of all nodes on the graph during a block; empty until the block has ended.
 
-    `events` are sorted by their start, `nodes` are those that kept a record, and `unrecorded` gives the
-    reason for each node that kept none. `notes` are sentences about anything else that is missing.
-    `length` is in seconds, `node` is the kernel's node.
+    `events` are sorted by their start. `nodes` are the nodes with a record. `unrecorded` gives the reason for
+    each node without a record. `notes` are sentences about all other missing data. `length` is in s, and
+    `node` is the kernel's node.
     """
 
     node: str = ""
@@ -97,7 +97,10 @@ class Recording:
     length: float = 0.0
 
     def of(self, *kinds: str, name: str = "", node: str = "") -> tuple[Event, ...]:
-        """Return the events of these kinds, such as "wait", or of all kinds; of one name or node if given."""
+        """Return the events of these kinds, such as "wait"; without kinds, events of all kinds.
+
+        `name` and `node` select the events of one service or topic, and of one node.
+        """
         return tuple(
             event
             for event in self.events

@@ -1,8 +1,9 @@
-"""The hooks into rospy's service calls, at both ends, for the recorder.
+"""The recorder's hooks for service calls, in rospy's clients and servers.
 
-A call is identified by its connection, named by the TCP ports, and by its number on this connection. Both
-ends count in the same order, because TCP neither loses nor reorders data. rospy offers no hooks for this, so
-a few of its methods are replaced; a rospy with other methods is left unchanged.
+A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
+count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for this, so
+this module replaces a few methods of rospy. It changes nothing in a release of rospy in which these methods
+differ.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from course_pkg.ros.trace.hooks import TRANSPORT, Hook, install_all
 from course_pkg.ros.trace.recorder import CallPart, CallSpan, Connection, Span, recorder
 from course_pkg.ros.trace.recording import CONNECT, ERROR, HANDLER, LOOKUP, REQUEST, RESPONSE, WAIT
 
-UNSUPPORTED = "service calls: this rospy makes and answers them otherwise"
+UNSUPPORTED = "service calls: this rospy makes and answers them in another way"
 NO_ANSWER = "ended without an answer"
 
 P = ParamSpec("P")
@@ -32,7 +33,7 @@ R = TypeVar("R")
 
 
 def hook_services() -> bool:
-    """Have this process's calls and handlers recorded; return whether this rospy allows it."""
+    """Start to record this process's calls and handlers; return whether it is possible."""
     hooks = (
         Hook(ServiceProxy, "call", ("self", "args", "kwds"), _recording_call, uses=[TRANSPORT]),
         Hook(ServiceProxy, "_get_service_uri", ("self", "request"), _recording_lookup),
@@ -45,13 +46,13 @@ def hook_services() -> bool:
 
 
 def service_transport(protocol: TCPROSTransportProtocol, name: str) -> TCPROSTransport:
-    """Return a client's connection as rospy creates it; it is recorded if the hooks are installed."""
+    """Return a connection of a client, of rospy's current class; with the hooks, it is recorded."""
     made: TCPROSTransport = getattr(tcpros_service, TRANSPORT)(protocol, name)
     return made
 
 
 class RecordedCall:
-    """The block in which this thread makes a call."""
+    """Records the block of a `with` statement as a call of this thread."""
 
     __slots__ = ("_service", "_span")
 
@@ -71,7 +72,7 @@ class RecordedCall:
 
 
 class RecordedLookup:
-    """The block in which this thread asks the master for the address of the service that it calls."""
+    """Records the block of a `with` statement as the lookup of the service's address at the master."""
 
     __slots__ = ("_part",)
 
@@ -85,22 +86,22 @@ class RecordedLookup:
 
 
 class RecordedTransport(TCPROSTransport):
-    """One end of a service's connection, which records what passes."""
+    """One end of a service's connection; it records requests and responses."""
 
     serving = False
     connection: Connection | None = None
     exchanges = 0
-    handling: Span | None = None  # at the server, the request that the handler works on
+    handling: Span | None = None  # in a server: the span of the handler that is running
 
     def set_socket(self, sock: socket.socket, endpoint_id: str) -> None:
-        """Use a connection that was accepted; only servers call this."""
+        """Use a connection that the server has accepted; clients do not call this method."""
         TCPROSTransport.set_socket(self, sock, endpoint_id)
         self.serving = True
-        with suppress(OSError):  # the client may have disconnected already
+        with suppress(OSError):  # the client may already have closed the connection
             self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
-        """Connect and exchange headers, at the client."""
+        """Connect a client to a server, and exchange headers."""
         part = _begin_part(recorder().current.call, CONNECT)
         try:
             TCPROSTransport.connect(self, dest_addr, dest_port, endpoint_id, timeout)
@@ -109,7 +110,7 @@ class RecordedTransport(TCPROSTransport):
         self.connection = (self.local_endpoint, dest_port)
 
     def send_message(self, msg: genpy.Message, seq: int) -> None:
-        """Send a request at the client, or a response at the server."""
+        """Send a request (in a client) or a response (in a server)."""
         call = None if self.serving else recorder().current.call
         if call is None:
             TCPROSTransport.send_message(self, msg, seq)
@@ -125,7 +126,7 @@ class RecordedTransport(TCPROSTransport):
             part.end = time.monotonic()
 
     def receive_once(self) -> list[genpy.Message]:
-        """Wait for a request at the server, or for a response at the client."""
+        """Wait for a request (in a server) or a response (in a client)."""
         call = None if self.serving else recorder().current.call
         received: list[genpy.Message]
         if call is None:
@@ -144,7 +145,7 @@ class RecordedTransport(TCPROSTransport):
         return received
 
     def write_data(self, data: bytes) -> bool:
-        """Send bytes; at the server they are a response, and the handler has ended."""
+        """Send bytes; in a server, they are a response, so the handler has ended."""
         if self.handling is not None:
             recorder().end(self.handling, _error_message(data))
         return bool(TCPROSTransport.write_data(self, data))
@@ -186,17 +187,20 @@ def _recording_handler(
             return method(self, transport, request)
         finally:
             transport.handling = None
-            recorder().end(span, NO_ANSWER)  # changes nothing if an answer was sent, which ended the span
+            recorder().end(span, NO_ANSWER)  # changes nothing if an answer has already ended the span
             recorder().call_counter.end(self.resolved_name, caller)
 
     return _handle_request
 
 
 def _begin_part(call: CallSpan | None, kind: str) -> CallPart:
-    """Return a part that begins now; without a call, it is recorded nowhere."""
+    """Return a part that begins now; without a call, no record contains it."""
     return CallPart(kind) if call is None else call.begin(kind)
 
 
 def _error_message(data: bytes) -> str:
-    """Return a server's error message, after a byte 0 and its length; http://wiki.ros.org/ROS/TCPROS."""
+    """Return the error message in a server's answer: a byte 0, the length (4 bytes), and then the message.
+
+    Without the byte 0, return "". Source: http://wiki.ros.org/ROS/TCPROS
+    """
     return data[5:].decode("utf-8", "replace") if data[:1] == b"\0" else ""

@@ -1,9 +1,10 @@
-"""The hooks into rospy's messages, at both ends, for the recorder.
+"""The recorder's hooks for messages, in rospy's publishers and subscribers.
 
-A message is identified by its connection, named by the TCP ports, and by its number on this connection. A
-publisher's queue may drop messages before they are written, so the publisher counts what it writes. A
-subscriber may drop messages after they have arrived, so the subscriber counts what arrives. rospy offers no
-hooks for this, so a few of its methods are replaced; a rospy with other methods is left unchanged.
+A message is identified by its connection (the TCP ports) and by its number on this connection. A publisher's
+queue may drop messages before they are sent. The publisher therefore counts the messages that it sends. A
+subscriber may drop messages after they have arrived, so it counts the messages that arrive. rospy has no
+hooks for this, so this module replaces a few methods of rospy. It changes nothing in a release of rospy in
+which these methods differ.
 """
 
 from __future__ import annotations
@@ -27,9 +28,9 @@ from course_pkg.ros.trace.hooks import TRANSPORT, Hook, Method, install_all
 from course_pkg.ros.trace.recorder import Connection, Span, Transfer, recorder
 from course_pkg.ros.trace.recording import CALLBACK, PUBLISH
 
-UNSUPPORTED = "messages: this rospy publishes and receives them otherwise"
-LEFT_OUT = "/rosout"  # log messages are not what a recording is for, and each call may log
-ARRIVED = "arrived_by_course"  # an attribute of the protocol of a connection: how many messages have arrived
+UNSUPPORTED = "messages: this rospy publishes and receives them in another way"
+LEFT_OUT = "/rosout"  # Many calls write log messages, and these would fill a recording.
+ARRIVED = "arrived_by_course"  # an attribute of a connection's protocol: the number of arrived messages
 TO_ONE = "sent to one new subscriber alone"
 
 Args = TypeVar("Args")
@@ -37,7 +38,7 @@ R = TypeVar("R")
 
 
 def hook_topics() -> bool:
-    """Have what this process publishes and receives recorded; return whether this rospy allows it."""
+    """Start to record this process's published and received messages; return whether it is possible."""
     hooks = (
         Hook(TCPROSSub, "read_messages", ("self", "b", "msg_queue", "sock"), _counting_messages),
         Hook(
@@ -63,18 +64,18 @@ def hook_topics() -> bool:
 
 
 class TaggedBytes(bytes):
-    """The bytes of a message, with the span of its publication."""
+    """The bytes of a message; `span` records that the message was published."""
 
     span: Span
 
 
 class TaggingBuffer(BytesIO):
-    """A publisher's buffer, which tags its contents with the span of the message that is published."""
+    """A publisher's buffer; its contents carry the span of the message that is being published."""
 
     span: Span | None = None
 
     def getvalue(self) -> bytes:
-        """Return the contents."""
+        """Return the contents, as TaggedBytes if the message has a span."""
         if self.span is None:
             return super().getvalue()
         with self.getbuffer() as view:
@@ -84,26 +85,26 @@ class TaggingBuffer(BytesIO):
 
 
 class RecordedTopicTransport(TCPROSTransport):
-    """One end of a topic's connection, which counts the messages."""
+    """One end of a topic's connection; it counts the messages on the connection."""
 
     connection: Connection | None = None
     written = 0
 
     def set_socket(self, sock: socket.socket, endpoint_id: str) -> None:
-        """Use a connection that was accepted, at the publisher."""
+        """Use a connection that the publisher has accepted."""
         TCPROSTransport.set_socket(self, sock, endpoint_id)
-        with suppress(OSError):  # the subscriber may have disconnected already
+        with suppress(OSError):  # the subscriber may already have closed the connection
             self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
-        """Connect or reconnect, at the subscriber."""
+        """Connect a subscriber to a publisher, for the first time or again."""
         self.connection = None
         setattr(self.protocol, ARRIVED, 0)
         TCPROSTransport.connect(self, dest_addr, dest_port, endpoint_id, timeout)
         self.connection = (self.local_endpoint, dest_port)
 
     def write_data(self, data: bytes) -> bool:
-        """Send a message. The transfer is recorded first, before a subscriber can have the message."""
+        """Send a message. The transfer is recorded first, because a subscriber may receive it immediately."""
         if not isinstance(data, TaggedBytes) or self.connection is None:
             return bool(TCPROSTransport.write_data(self, data))
         self.written += 1
@@ -117,12 +118,12 @@ class RecordedTopicTransport(TCPROSTransport):
 
 
 class Batch:
-    """Messages that a subscriber is handing to its callbacks, with the number of each on its connection."""
+    """Messages that a subscriber passes to its callbacks, with their numbers on the connection."""
 
     __slots__ = ("_connection", "_first", "_index", "_msgs", "_peer")
 
     def __init__(self, msgs: list[genpy.Message], connection: RecordedTopicTransport) -> None:
-        protocol = connection.protocol  # None if the connection has been closed meanwhile
+        protocol = connection.protocol  # None if the connection was closed in the meantime
         self._peer = str(connection.callerid_pub)
         self._connection = connection.connection if protocol is not None else None
         self._first = getattr(protocol, ARRIVED, 0) - len(msgs) + 1 if protocol is not None else 0
@@ -130,23 +131,23 @@ class Batch:
         self._index = 0
 
     def transfers(self, msg: genpy.Message) -> list[Transfer]:
-        """Return the transfer of a message; callbacks get the messages in the order of the batch."""
+        """Return the transfer of a message; callbacks receive the messages in the order of the batch."""
         for index in range(self._index, len(self._msgs)):
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index
                 return [(self._connection, self._first + index, self._peer)]
-        return []  # a latched message of another topic, to which this callback subscribes
+        return []  # The callback also subscribes to a second topic, and the message is latched there.
 
 
 class _Current(threading.local):
-    """The messages that a thread hands to callbacks now."""
+    """The messages that a thread is passing to callbacks."""
 
     batch: Batch | None = None
 
 
 @cache
 def _current() -> _Current:
-    """Return this process's one _Current, which the hooks write to."""
+    """Return the only _Current of this process; all hooks write to it."""
     return _Current()
 
 
@@ -177,7 +178,7 @@ def _counting_messages(
     method: Callable[[TCPROSSub, BytesIO, list[genpy.Message], socket.socket], R],
 ) -> Callable[[TCPROSSub, BytesIO, list[genpy.Message], socket.socket], R]:
     def read_messages(self: TCPROSSub, b: BytesIO, msg_queue: list[genpy.Message], sock: socket.socket) -> R:
-        arrived = _whole_messages(b)  # the subscriber's queue may keep fewer
+        arrived = _whole_messages(b)  # counted before the subscriber's queue can drop messages
         result = method(self, b, msg_queue, sock)
         setattr(self, ARRIVED, getattr(self, ARRIVED, 0) + arrived)
         return result
@@ -207,7 +208,7 @@ def _recording_callback(
     ) -> R:
         if self.resolved_name == LEFT_OUT:
             return method(self, msg, cb, cb_args)
-        batch = _current().batch  # None for a latched message that a later callback gets
+        batch = _current().batch  # None if a new callback receives an older, latched message
         transfers = batch.transfers(msg) if batch is not None else []
         peer = transfers[0][2] if transfers else ""
         span = recorder().begin(CALLBACK, self.resolved_name, peer, transfers)
@@ -224,7 +225,7 @@ def _unchanged(method: Method) -> Method:
 
 
 def _whole_messages(b: BytesIO) -> int:
-    """Count the messages that have arrived in full: each is its length (4 bytes) and so many bytes."""
+    """Return the number of complete messages; each is its length (4 bytes) and then that many bytes."""
     count, offset, end = 0, 0, b.tell()
     with b.getbuffer() as view:
         while offset + 4 <= end:

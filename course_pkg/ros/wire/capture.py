@@ -1,7 +1,7 @@
 """The bytes of a real call, recorded between a client and a server.
 
-The lookup and the connection go through relays (relay.py), which forward every byte. The client is rospy's
-transport.
+The lookup and the connection go through relays (relay.py), which forward all bytes. rospy's transport is the
+client.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ TYPE_TIMEOUT = 2.0  # s for a server to answer with its type
 
 @dataclass
 class Wire:
-    """The recorded bytes: the lookup, if there was one, and connections.
+    """The recorded bytes of a call: the lookup at the master, if there was one, and the connections.
 
-    `response` or `error` is the result of the call. `skipped` is the number of connections that were too many
-    to keep.
+    `response` or `error` is the result of the call. `skipped` is the number of connections whose bytes were
+    not stored.
     """
 
     service: str
@@ -52,10 +52,11 @@ def record_call(
     fields: Mapping[str, Plain] | None = None,
     timeout: float = 5.0,
 ) -> Wire:
-    """Call a service as rospy does, over a new connection, and return the bytes.
+    """Call a service as rospy does, on a new connection, and return the recorded bytes.
 
-    Without `kind`, the type is that of the server. A call that fails is recorded, too, with its error
-    message. `timeout` is in seconds. Raises FieldError for wrong `fields`, UnknownType for an unknown type.
+    Without `kind`, the call uses the server's type. A failed call is also recorded, with its error message.
+    `timeout` is in s. Raises FieldError if a value in `fields` is wrong, and UnknownType if the type is
+    unknown.
     """
     full = str(rospy.resolve_name(name))
     found = service_type(kind) if kind is not None else _type_of_server(full)
@@ -63,7 +64,7 @@ def record_call(
     if found is None:
         with _master_relay() as relay:
             _look_up(full, relay, wire, timeout)
-        wire.error = f"service [{full}] unavailable" if not wire.uri else "the server does not say its type"
+        wire.error = f"service [{full}] unavailable" if not wire.uri else "the server did not report its type"
         return wire
     request = found.request.to_message({**found.request.default(), **(fields or {})})
     proxy = _Relayed(full, found, wire, headers, timeout)
@@ -77,7 +78,7 @@ def record_call(
 
 
 class _Relayed(BoundedProxy):
-    """A proxy for one call, whose look-up and connection go through relays."""
+    """A proxy for one call; its lookup and its connection go through relays."""
 
     def __init__(
         self,
@@ -101,7 +102,7 @@ class _Relayed(BoundedProxy):
         return f"rosrpc://localhost:{self._relay.port}"
 
     def end(self) -> None:
-        """Close the connections, and keep their bytes."""
+        """Close the connections, and store their bytes in the Wire."""
         self.close()
         if self._relay is not None:
             self._relay.wait()
@@ -114,7 +115,7 @@ def _master_relay() -> Relay:
 
 
 def _look_up(name: str, relay: Relay, wire: Wire, timeout: float) -> None:
-    """Ask the master for the service through a relay, as this node."""
+    """Look up the service at the master through a relay, with this node's name."""
     master = MasterClient(f"http://localhost:{relay.port}", caller=str(rospy.get_name()))
     try:
         wire.uri = master.lookup_service(name, timeout) or ""
@@ -125,7 +126,7 @@ def _look_up(name: str, relay: Relay, wire: Wire, timeout: float) -> None:
 
 
 def _type_of_server(name: str) -> ServiceType | None:
-    """Return the type with which the server of `name` answers, or None if none answers."""
+    """Return the type that the server of `name` reports, or None if no server answers."""
     uri = MasterClient(master_uri()).lookup_service(name)
     if uri is None:
         return None

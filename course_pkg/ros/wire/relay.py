@@ -1,6 +1,6 @@
-"""A relay for TCP connections that keeps the bytes, to show the bytes of a real call.
+"""A relay that forwards TCP connections and stores their bytes, to show the bytes of a real call.
 
-The relay is between a client and a server. It changes nothing and knows no protocol.
+The relay is between a client and a server. It does not change the bytes, and it does not interpret them.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from types import TracebackType
 
-MOST = 4 << 20  # bytes that are kept of each direction of a connection; more are only forwarded and counted
-CONNECTIONS = 50  # connections that are kept; more are only forwarded and counted
+MOST = 4 << 20  # bytes stored for each direction of a connection; more bytes are only forwarded and counted
+CONNECTIONS = 50  # stored connections; more connections are only forwarded and counted
 CONNECT_TIMEOUT = 5.0  # s
 CLOSE_TIMEOUT = 2.0  # s for open connections to end
-CHUNK = 65536  # bytes that are forwarded at a time
+CHUNK = 65536  # bytes; the largest amount that is forwarded at a time
 
 
 @dataclass(frozen=True)
@@ -35,16 +35,16 @@ class RelayedConnection:
 
     opened: float  # a time of time.monotonic()
     chunks: list[Chunk] = field(default_factory=list)
-    closed_by: str = ""  # "client" or "server", the first to close; empty while it is open
-    refused: str = ""  # why the server could not be reached
-    lost: int = 0  # bytes that were forwarded and not kept
+    closed_by: str = ""  # "client" or "server", whichever closed first; empty while the connection is open
+    refused: str = ""  # the reason if the server could not be reached
+    lost: int = 0  # the number of bytes that were forwarded but not stored
 
     def data(self, *, from_client: bool) -> bytes:
-        """Return all bytes of one direction that were kept."""
+        """Return all stored bytes of one direction."""
         return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
 
     def since(self, offset: int, *, from_client: bool) -> float:
-        """Return when the byte at `offset` of one direction arrived, in s since the connection was opened."""
+        """Return the arrival time of the byte at `offset` of one direction, in s since `opened`."""
         count = 0
         for chunk in self.chunks:
             if chunk.from_client is from_client:
@@ -59,7 +59,7 @@ class Relay:
 
     def __init__(self, host: str, port: int) -> None:
         self.target = (host, port)
-        self.skipped = 0  # connections that were forwarded and not kept
+        self.skipped = 0  # the number of connections that were forwarded but not stored
         self._connections: list[RelayedConnection] = []
         self._open: set[socket.socket] = set()
         self._threads: list[threading.Thread] = []
@@ -75,7 +75,7 @@ class Relay:
         return tuple(self._connections)
 
     def wait(self, timeout: float = CLOSE_TIMEOUT) -> None:
-        """Wait until the open connections have ended, at most `timeout` s."""
+        """Wait until the open connections have ended, or until `timeout` s have passed."""
         deadline = time.monotonic() + timeout
         for thread in self._threads[1:]:
             thread.join(max(deadline - time.monotonic(), 0))
@@ -85,7 +85,7 @@ class Relay:
         with self._lock:
             self._closed = True
             for sock in [self._listener, *self._open]:
-                with suppress(OSError):  # closed already
+                with suppress(OSError):  # the socket may already be closed
                     sock.shutdown(socket.SHUT_RDWR)
         self._listener.close()
         deadline = time.monotonic() + CLOSE_TIMEOUT
@@ -132,7 +132,7 @@ class Relay:
                     self._forward_both(client, server, connection)
 
     def _remember(self, *socks: socket.socket) -> bool:
-        """Note sockets that close() has to close; return False if it was called before."""
+        """Store sockets for close(); return False if close() was already called."""
         with self._lock:
             if not self._closed:
                 self._open.update(socks)
@@ -154,9 +154,9 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from one side, and the end of the stream."""
+    """Forward the bytes from `source` to `sink`, and then the end of the stream."""
     kept = 0
-    with suppress(OSError):  # a reset connection, or one closed by close(), ends like any other
+    with suppress(OSError):  # A reset, or a close() of the relay, also ends the connection normally.
         while data := source.recv(CHUNK):
             kept += len(data)
             if kept <= MOST:

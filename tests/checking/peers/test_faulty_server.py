@@ -78,7 +78,7 @@ def test_a_frozen_server_takes_connections_and_says_nothing(server: FaultyServer
     """A probe finds the server, as with a stopped process; a call gets no answer, and uses up the fault."""
     server.plan.append(Fault(Frozen()))
     rospy.wait_for_service("/f", timeout=2)
-    with pytest.raises(CallTimeout, match="takes connections and does not speak"):
+    with pytest.raises(CallTimeout, match="accepts connections, but sends nothing"):
         ask(1.0, timeout=0.2)
     assert (server.requests, len(server.arrivals)) == ([], 1)
     assert ask(2.0) == 4.0

@@ -1,4 +1,4 @@
-"""Each known error is explained: as an exception, as a message, and within a longer text."""
+"""Each known error is explained: as an exception, as an error message, and in a longer text."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ HANDLER_FAILED = f"{RESPONDED}b'error processing request: "
 UNABLE = "ServiceException: unable to connect to service: "
 MESSAGES = {
     f"{SERVER_REFUSED}service handler returned None'": "reached its end without a return",
-    f"{SERVER_REFUSED}no fuel'": "on purpose",
+    f"{SERVER_REFUSED}no fuel'": "refused this request",
     f"{SERVER_REFUSED}handler returned invalid value: Invalid number'": "cannot become a response",
     f"{SERVER_REFUSED}handler returned wrong number of values'": "length is not the number of fields",
     f"{SERVER_REFUSED}sucess is not an attribute of TriggerResponse'": "is misspelt",
     f"{HANDLER_FAILED}boom'": "raised an exception",
     f"{HANDLER_FAILED}field success is not a bool'": "wrong type for its field",
     f"{HANDLER_FAILED}<lambda>() takes 0 positional arguments but 1 was given'": "wrong parameters",
-    f"{RESPONDED}b''": "gave no reason",
+    f"{RESPONDED}b''": "without a reason",
     f"{UNABLE}remote error reported: request from [/c]: md5sums do not match: [a]": "different definitions",
     f"{UNABLE}[Errno 111] Connection refused": "does not run any more",
     f"{UNABLE}[Errno -2] Name or service not known": "host name",
@@ -78,15 +78,15 @@ PASTED = {
 
 @pytest.mark.parametrize(("text", "stretch"), PASTED.items(), ids=range(len(PASTED)))
 def test_pasted_text_is_explained(text: str, stretch: str) -> None:
-    """A message, a traceback of several parts, a log and a build are explained by their last error."""
+    """An error message, a long traceback, a log and a build's output are explained by their last error."""
     found = explain(text)
     assert found.known
     assert stretch in found.cause
     assert found.remedy.endswith((".", ")"))
 
 
-def test_an_exception_is_explained_by_its_own_words_first() -> None:
-    """The cause of an exception counts only if its own message is not in the table."""
+def test_an_exception_is_explained_by_its_own_message_first() -> None:
+    """The cause of an exception is used only if the table does not contain its own message."""
     cause = ConnectionRefusedError(111, "Connection refused")
     told = RuntimeError("the robot did not move")
     told.__cause__ = cause
@@ -97,13 +97,13 @@ def test_an_exception_is_explained_by_its_own_words_first() -> None:
 
 
 def test_errors_of_the_course_are_explained() -> None:
-    """Errors of a master are explained by their row; one without a row, by its own message."""
+    """An error of the master is explained by its row; an error without a row, by its own message."""
     with pytest.raises(Exception, match="No ROS master") as raised:
         MasterClient("http://localhost:1").pid()
     assert "No master answers" in explain(raised.value).cause
     assert "No master answers" in explain(str(raised.value)).cause
     silent = MasterSilent(
-        "The program at http://localhost:1 takes connections and did not answer within 2 s."
+        "The program at http://localhost:1 accepts connections, but did not answer within 2 s."
     )
     assert "it is stopped, or hangs" in explain(silent).cause
     assert explain(str(silent)) == explain(silent)
@@ -129,8 +129,8 @@ def ring() -> Exception:
     [None, "", "  \n", "all is well", 7, b"\xff\x00", KeyError("sprocket"), Unshowable(), ring(), object()],
     ids=lambda thing: type(thing).__name__,
 )
-def test_what_is_not_known_gets_a_friendly_sentence(thing: object) -> None:
-    """An unknown error gets no cause, but a next step; explain() never raises and never returns None."""
+def test_an_unknown_error_gets_a_next_step(thing: object) -> None:
+    """explain() returns a sentence and a next step for every unknown object, and never raises an error."""
     found = explain(thing)
     assert isinstance(found, Explanation)
     assert not found.known
@@ -142,14 +142,14 @@ def test_what_is_not_known_gets_a_friendly_sentence(thing: object) -> None:
     "start",
     ["service [/x", "service cannot process request: ", "error processing request: ", "The manifest "],
 )
-def test_a_long_text_full_of_beginnings(start: str) -> None:
-    """A long log, and a line without an end, take little time."""
+def test_a_long_text_with_many_partial_matches(start: str) -> None:
+    """explain() is fast for a long log, and for a very long line."""
     assert "still lists" in explain(f"{start}\n" * 15_000 + REFUSED).cause or "process" in start
     assert isinstance(explain(start * 15_000), Explanation)
 
 
-def test_how_it_looks_in_a_notebook() -> None:
-    """The result is three lines that are the same in every run; in HTML, text between backticks is code."""
+def test_an_explanation_in_a_notebook() -> None:
+    """The result has three lines that are the same in every run; in HTML, text in backticks is code."""
     found = explain("ServiceException: service [/nope] unavailable")
     assert repr(found).splitlines() == [
         "Cause: No node provides a service of this name: the server never started, has ended, or uses "
@@ -163,8 +163,8 @@ def test_how_it_looks_in_a_notebook() -> None:
     assert "<script>" not in Explanation("<script>", "x")._repr_html_()
 
 
-def test_each_row_names_a_chapter_that_there_is() -> None:
-    """Each row of the table names a chapter and has whole sentences."""
+def test_each_row_names_an_existing_chapter() -> None:
+    """Each row of the table names an existing chapter and has whole sentences."""
     for pattern, cause, remedy, chapter in TABLE:
         assert chapter in CHAPTERS, pattern
         assert cause.endswith("."), pattern
@@ -181,6 +181,6 @@ def test_each_error_has_its_own_explanation(message: str, part: str) -> None:
 
 
 def test_an_unknown_error_gets_no_explanation() -> None:
-    """An unknown error gets no guess."""
+    """known() returns None for an unknown error, and explain() marks its result as not known."""
     assert known("KeyError: 'sprocket'") is None
     assert not explain(KeyError("sprocket")).known

@@ -1,4 +1,4 @@
-"""An action of the kernel can be created again and again, and is gone after stop()."""
+"""A cell can create an action server again each time it runs, and stop() removes the action."""
 
 from __future__ import annotations
 
@@ -32,25 +32,25 @@ def asked(within=10):
 
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported an action's type."""
+    """Return a kernel that is a node and has imported the type of an action."""
     kernel.run(START)
     return kernel
 
 
-def test_a_goal_is_carried_out(joined: Kernel) -> None:
+def test_a_goal_is_executed(joined: Kernel) -> None:
     """The function receives the goal and the server, and its result is returned to the client."""
     assert joined.run('server = ActionServer("/fetch", FetchAction, returning(3))\nresult = asked()') == 3
 
 
 def test_serving_again_replaces(joined: Kernel, master: PrivateMaster) -> None:
-    """A cell that runs again serves only with its new function, because the old server has no reference."""
+    """If a cell runs again, only its new function executes goals: no variable refers to the old server."""
     joined.run('server = ActionServer("/fetch", FetchAction, returning(1))')
     joined.run('server = ActionServer("/fetch", FetchAction, returning(2))')
     assert joined.run("result = [asked(), asked()]") == [2, 2]
 
 
-def test_a_function_that_fails_ends_its_goal_alone(joined: Kernel) -> None:
-    """A function that fails, or sets no result, aborts the goal with a message; the next goal is executed."""
+def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
+    """A function that raises an error or sets no result aborts its goal; the next goal is executed."""
     assert joined.run("""
         def failing(goal, server):
             if goal.things:
@@ -66,14 +66,14 @@ def test_a_function_that_fails_ends_its_goal_alone(joined: Kernel) -> None:
 
 
 def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
-    """The server does not keep its process from ending; after SIGKILL its registrations remain."""
+    """A kernel with an action server ends by itself and unregisters the action's topics."""
     with Kernel() as kernel:
         kernel.run(START)
         kernel.run('server = ActionServer("/fetch", FetchAction, until_called_off)')
     assert "/fetch/status" not in MasterClient(master.uri).system_state().publishers
 
 
-def test_a_stopped_action_is_off_the_graph(joined: Kernel, master: PrivateMaster) -> None:
+def test_stop_removes_the_action_from_the_graph(joined: Kernel, master: PrivateMaster) -> None:
     """stop() unregisters the topics and cancels the running goal; a second stop changes nothing."""
     joined.run("""
         server = ActionServer("/fetch", FetchAction, until_called_off)

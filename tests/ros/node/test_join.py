@@ -1,4 +1,4 @@
-"""A kernel becomes a node, stays this node when cells run again, and recovers when the master was lost."""
+"""A kernel becomes a node, stays the same node when cells run again, and works again with a new master."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
     ]
 
 
-def test_private_master_where_none_is_named() -> None:
-    """Without ROS_MASTER_URI a kernel starts its own master, and the tools that it starts find it."""
+def test_private_master_without_ros_master_uri() -> None:
+    """Without ROS_MASTER_URI, a kernel starts its own master, and its child processes use this master."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         names = "import subprocess; result = subprocess.check_output(['rosnode', 'list'], text=True).split()"
         assert kernel.run(names) == ["/rosout", "/student"]
 
 
-def test_workspace_is_found_where_nobody_sourced_it() -> None:
-    """In an environment without ROS, such as an editor's, the course's types can be imported."""
+def test_workspace_is_found_without_sourcing() -> None:
+    """A kernel can import the course's types without ROS's environment variables, as in an editor."""
     bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
     with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
         kernel.run(JOIN)
@@ -50,7 +50,7 @@ def test_workspace_is_found_where_nobody_sourced_it() -> None:
 
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
-    """A malformed ROS_MASTER_URI is named at once, with an example; once corrected, the kernel joins."""
+    """join() reports a malformed ROS_MASTER_URI at once, with an example; after the correction it works."""
     with Kernel({"ROS_MASTER_URI": uri}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MalformedMasterUri"
@@ -60,8 +60,8 @@ def test_malformed_uri(uri: str) -> None:
         assert kernel.run(JOIN + "; result = node.name") == "/student"
 
 
-def test_nobody_at_the_uri() -> None:
-    """An address without a master is named at once; after the correction, the kernel joins."""
+def test_no_program_at_the_uri() -> None:
+    """join() reports an address without a master at once; after the correction it works."""
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"
@@ -70,8 +70,8 @@ def test_nobody_at_the_uri() -> None:
         assert kernel.run(JOIN + "; result = node.name") == "/student"
 
 
-def test_mute_at_the_uri() -> None:
-    """An address that accepts connections and sends nothing costs two seconds."""
+def test_silent_program_at_the_uri() -> None:
+    """join() reports an address that accepts connections but sends nothing, within 4 s."""
     with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
         uri = f"http://localhost:{mute.getsockname()[1]}"
         kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")
@@ -81,7 +81,7 @@ def test_mute_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """A web server is not mistaken for a master."""
+    """join() reports that a web server is not a master."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None
@@ -92,7 +92,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """The second kernel learns that the name is taken, and the first one is not disturbed."""
+    """The second kernel gets an error because the name is taken, and the first kernel stays a node."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)
@@ -103,7 +103,7 @@ def test_two_kernels_with_one_name(kernel: Kernel) -> None:
 
 
 def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
-    """A kernel that starts again after SIGKILL gets its name, and its old registrations are gone."""
+    """After SIGKILL of a kernel, a new kernel can use its name, and the old registrations are removed."""
     former = Kernel()
     former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
     former.kill()
@@ -114,7 +114,7 @@ def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
 
 
 def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
-    """One process is one node: a second name is refused, and the node does not change."""
+    """One process can be only one node: a second name is refused, and the node does not change."""
     kernel.run(JOIN)
     reply = kernel.ask("join('other')")
     assert reply.error == "NotJoined"
@@ -128,8 +128,8 @@ def test_illegal_name(kernel: Kernel, name: str) -> None:
     assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
 
 
-def test_joining_on_a_thread_spoils_nothing(kernel: Kernel) -> None:
-    """join() on another thread is refused before it calls rospy, so that the main thread can still join."""
+def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
+    """join() on another thread raises an error before it calls rospy, so join() still works afterwards."""
     kernel.run("""
         import threading
         from course_pkg.errors import NotJoined
@@ -149,7 +149,7 @@ def test_joining_on_a_thread_spoils_nothing(kernel: Kernel) -> None:
 
 
 def test_private_master_killed() -> None:
-    """When the kernel's own master was killed, the set-up cell starts another one and registers again."""
+    """If the kernel's private master was killed, the set-up cell starts a new one and registers again."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         uri = kernel.run("""
@@ -188,7 +188,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """When a shared master was restarted, the set-up cell registers everything again."""
+    """If a shared master was restarted, the set-up cell registers everything again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -202,7 +202,7 @@ def test_shared_master_restarted() -> None:
 
 
 def test_moving_to_another_master() -> None:
-    """When a shared master is gone, the set-up cell moves the node, and rospy, to a private one."""
+    """If a shared master has ended, the set-up cell registers the node at a private master."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -219,7 +219,7 @@ def test_moving_to_another_master() -> None:
 
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
-    """While the master is stopped, calls to it fail within their deadline; afterwards they work."""
+    """Requests to a stopped master fail within their timeout; after the master continues, they work."""
     kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
     with stopped(master.pid):
         for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
@@ -230,7 +230,7 @@ def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_exit_while_the_master_is_stopped() -> None:
-    """A kernel ends in bounded time even if its master does not answer; its registrations may then remain."""
+    """A kernel ends within 12 s even if its master does not answer."""
     with PrivateMaster() as own:
         kernel = Kernel({"ROS_MASTER_URI": own.uri})
         kernel.run(JOIN)
@@ -247,7 +247,7 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters everything and ends every process; join() registers it again."""
+    """leave() unregisters everything and ends all processes; after join(), the kernel can serve again."""
     kernel.run(
         JOIN
         + """
@@ -267,7 +267,7 @@ result = server.running
 
 
 def test_leaving_is_prompt(kernel: Kernel) -> None:
-    """Neither leave() nor the end of the process waits for rospy's threads."""
+    """leave() and the end of the process are quick, because they do not wait for rospy's threads."""
     kernel.run(JOIN)
     assert kernel.ask("node.leave()").took < 0.3
     started = time.monotonic()
@@ -275,8 +275,8 @@ def test_leaving_is_prompt(kernel: Kernel) -> None:
     assert time.monotonic() - started < 2
 
 
-def test_root_logger_is_left_alone(kernel: Kernel) -> None:
-    """join() neither removes handlers from the root logger nor adds any."""
+def test_root_logger_is_not_changed(kernel: Kernel) -> None:
+    """join() does not change the handlers and the level of the root logger."""
     assert kernel.run("""
         import logging
         logging.basicConfig(level=logging.ERROR)
@@ -288,8 +288,8 @@ def test_root_logger_is_left_alone(kernel: Kernel) -> None:
     """) == [True, True]
 
 
-def test_log_of_a_handler_stays_out_of_the_cell(master: PrivateMaster) -> None:
-    """What rospy logs on a handler's thread goes to the node's file; what the cell logs is printed."""
+def test_log_of_a_handler_is_not_printed_in_the_cell(master: PrivateMaster) -> None:
+    """Log messages of a handler's thread go to the node's file; log messages of the cell are printed."""
     kernel = Kernel()
     kernel.run(
         JOIN
@@ -321,8 +321,8 @@ rospy.spin()
 
 
 @pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
-def test_node_that_was_shut_down_begins_anew(kernel: Kernel, master: PrivateMaster, how: str) -> None:
-    """After a shutdown each method raises an error, and the set-up cell restores everything."""
+def test_node_that_was_shut_down_starts_again(kernel: Kernel, master: PrivateMaster, how: str) -> None:
+    """After a shutdown, the node's methods raise an error until the set-up cell restores everything."""
     kernel.run(
         JOIN
         + """
@@ -353,7 +353,7 @@ heard = node.subscribe("/numbers", UInt32)
 
 
 def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
-    """A forked child is not the node; its end unregisters nothing of its parent."""
+    """A forked child is not the node, and its end does not unregister its parent's services."""
     assert kernel.run(
         JOIN
         + """

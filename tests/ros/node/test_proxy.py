@@ -1,4 +1,4 @@
-"""Calls that hang with plain rospy end within their deadline, with a message; one thread serves all."""
+"""Calls that never end with plain rospy end at their deadline, with an error message."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # s; the deadline is 0.5 s, and the machine may be busy
+LONGEST = 2.0  # s; the deadline is 0.5 s, but the machine may be busy
 
 RAW_SERVER = """
 import rospy, sys, threading
@@ -59,12 +59,12 @@ def joined(kernel: Kernel) -> Kernel:
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Return a port that accepts connections, or not even that, and never sends anything."""
+    """Return a port that never sends anything; without `accept`, it does not accept connections."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         listener.listen(0)
         held = []
-        if not accept:  # a full queue of connections: further ones get no answer to their SYN
+        if not accept:  # The queue of connections is full, so more connections get no answer to their SYN.
             for _ in range(4):
                 held.append(socket.socket())
                 held[-1].setblocking(False)
@@ -76,7 +76,7 @@ def listening(accept: bool = True) -> Iterator[int]:
 
 @contextmanager
 def registered(name: str, uri: str) -> Iterator[None]:
-    """Register a service at the master that no node serves."""
+    """Register a service that no node serves at the master."""
     master = MasterClient(os.environ["ROS_MASTER_URI"])
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
@@ -84,7 +84,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 
 def times_out(kernel: Kernel, name: str) -> str:
-    """Call from the kernel within the deadline, check that the kernel still works, and return the message."""
+    """Check that a call from the kernel ends with CallTimeout at its deadline; return the error message."""
     reply = kernel.ask(CALL.format(name=name), patience=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
@@ -92,21 +92,21 @@ def times_out(kernel: Kernel, name: str) -> str:
 
 
 @pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
-def test_handler_without_end(joined: Kernel, raw: NodeProcess, name: str) -> None:
-    """A handler that never returns, or that ended by sys.exit, costs its client only the deadline."""
+def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str) -> None:
+    """A call ends at its deadline if the handler never returns or calls sys.exit(); other calls work."""
     assert "its handler is still working" in times_out(joined, name)
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_stopped_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A stopped server accepts connections and sends nothing; when it continues, calls work again."""
+    """A call of a stopped server ends at its deadline; after the server continues, calls work again."""
     with stopped(raw.pid):
-        assert "does not speak" in times_out(joined, "/raw/well")
+        assert "but sends nothing" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
-def test_idle_connection_hogs_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A server of plain rospy that is blocked by an idle connection does not block its client."""
+def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
+    """If an idle connection blocks a server of plain rospy, a call still ends at its deadline."""
     uri = MasterClient(os.environ["ROS_MASTER_URI"]).lookup_service("/raw/well")
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
@@ -115,21 +115,21 @@ def test_idle_connection_hogs_a_plain_server(joined: Kernel, raw: NodeProcess) -
 
 
 def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster) -> None:
-    """The error distinguishes a stopped master from a stopped server."""
+    """If the master is stopped, the error message names the master, not the server."""
     with stopped(master.pid):
         assert "the master" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 @pytest.mark.parametrize("accept", [True, False], ids=["accepts", "does not even accept"])
-def test_mute_address(joined: Kernel, accept: bool) -> None:
-    """An address that does not answer, or to which packets are lost, costs the deadline."""
+def test_silent_address(joined: Kernel, accept: bool) -> None:
+    """A call to an address that does not answer, or does not accept the connection, ends at its deadline."""
     with listening(accept) as port, registered("/mute", f"rosrpc://localhost:{port}"):
         times_out(joined, "/mute")
 
 
 def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
-    """A server that disappears during the call causes rospy's error at once."""
+    """If the server ends during the call, rospy's error is raised at once."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/dies', Trigger, timeout=20)")
     assert reply.error == "ServiceException"
     assert reply.words.startswith(
@@ -138,8 +138,8 @@ def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
     assert reply.took < LONGEST
 
 
-def test_dead_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A killed server stays registered, and a call raises rospy's error."""
+def test_killed_server(joined: Kernel, raw: NodeProcess) -> None:
+    """A killed server stays registered, so a call raises rospy's error about the connection."""
     raw.kill()
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/well', Trigger)")
     assert (reply.error, reply.words) == (
@@ -155,7 +155,7 @@ def test_no_such_service(joined: Kernel) -> None:
 
 
 def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
-    """Another thread can cancel a running call, and the proxy can be used again."""
+    """Another thread can cancel a running call, and afterwards the proxy can call again."""
     reply = joined.ask("""
         import threading
         from std_srvs.srv import Trigger
@@ -169,7 +169,7 @@ def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
-    """Interrupting the cell ends its call, and the node continues."""
+    """An interrupt of the cell ends its call, and the node continues."""
     joined.begin("from std_srvs.srv import Trigger\nnode.call('/raw/sleeps', Trigger, timeout=20)")
     eventually(lambda: "sleeping" in raw.output())
     joined.interrupt()
@@ -188,7 +188,7 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
-    """A deadline on a persistent connection closes this connection, and the next call opens another."""
+    """If a call on a persistent connection times out, the next call opens a new connection."""
     joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
     joined.run("proxy()")
     with stopped(raw.pid):
@@ -200,7 +200,7 @@ def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess
 
 @contextmanager
 def switching_often() -> Iterator[None]:
-    """Make Python switch threads as often as possible, so that races happen."""
+    """Make Python switch threads as often as possible, which makes race conditions more probable."""
     kept = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:
@@ -210,12 +210,12 @@ def switching_often() -> Iterator[None]:
 
 
 def watching() -> list[threading.Thread]:
-    """Return the watchdog threads of this test and of the process."""
+    """Return all watchdog threads of this process."""
     return [thread for thread in threading.enumerate() if thread.name == "call-watchdog"]
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """An overdue action is repeated, and is never called after disarm()."""
+    """An overdue action is repeated until disarm(), and does not run after that."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -227,7 +227,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Return when the thread has begun another round and ended the one before."""
+    """Return after the watchdog's thread has ended one loop and begun the next."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -235,7 +235,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The thread ends some time after the last call, and the next call starts another."""
+    """The watchdog's thread ends some time after the last call, and the next call starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()
@@ -248,8 +248,8 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
     assert rung.wait(5)
 
 
-def test_no_deadline_is_missed_while_the_thread_comes_and_goes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A deadline is kept even if it is set at the moment at which the thread ends."""
+def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An action runs at its deadline even if it is armed at the moment when the thread ends."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

@@ -1,4 +1,4 @@
-"""A publisher of the kernel can be created again and again, and counts what happens to its messages."""
+"""A cell can create a publisher again each time it runs, and the publisher counts its messages."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def joined(kernel: Kernel) -> Kernel:
     return kernel
 
 
-def test_a_message_reaches_who_is_connected(joined: Kernel) -> None:
-    """wait() returns when a subscriber is connected, and the next message is sent to it by name."""
+def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
+    """wait() returns when a subscriber is connected; the subscriber receives the next messages."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -45,7 +45,7 @@ def test_a_message_reaches_who_is_connected(joined: Kernel) -> None:
 
 
 def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
-    """A message that is published before a subscriber connects is lost, and counted as lost."""
+    """A message that is published before a subscriber connects is lost, and counted as unheard."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -59,7 +59,7 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
-    """With latch, the last message is sent to later subscribers, and counted as sent."""
+    """With latch, a later subscriber receives the last message, and this message counts as sent."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32, latch=True)
         spoken.publish(1)
@@ -71,8 +71,8 @@ def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
     """) == [[2], 2, 1]
 
 
-def test_a_cell_that_is_run_again_replaces_its_publisher(joined: Kernel, master: PrivateMaster) -> None:
-    """The earlier publisher ends together with its latch and its type; the later one publishes."""
+def test_a_cell_that_runs_again_replaces_its_publisher(joined: Kernel, master: PrivateMaster) -> None:
+    """The earlier publisher stops, with its latch and its type, and the new publisher publishes."""
     reply = joined.ask("""
         old = node.advertise("/numbers", UInt32, latch=True)
         old.publish(1)
@@ -91,7 +91,7 @@ def test_a_cell_that_is_run_again_replaces_its_publisher(joined: Kernel, master:
 
 
 def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
-    """A full queue drops its oldest message; each message is counted as sent, waiting or dropped."""
+    """A full queue drops its oldest message; each message counts as sent, waiting or dropped."""
     with Kernel() as other:
         other.run(LISTEN + 'heard = node.subscribe("/long", String)')
         kernel.run(START + 'spoken = node.advertise("/long", String, queue_size=2); spoken.wait(1)')
@@ -112,8 +112,8 @@ def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: Private
         assert kernel.run("result = spoken.dropped, spoken.sent") == [dropped, sent]
 
 
-def test_counts_outlive_the_subscriber(joined: Kernel) -> None:
-    """Messages to a node that has gone stay counted; the node is no longer listed."""
+def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
+    """Messages to a subscriber that has ended stay counted; the subscriber is no longer listed."""
     assert joined.run("""
         from tests.support import eventually
         spoken = node.advertise("/numbers", UInt32)
@@ -128,8 +128,8 @@ def test_counts_outlive_the_subscriber(joined: Kernel) -> None:
     """) == [3, 3, 0]
 
 
-def test_nobody_listens_is_said_in_time(joined: Kernel) -> None:
-    """A wait for subscribers ends with an error that names what to check."""
+def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
+    """wait() raises an error after its timeout, with a command that lists the subscribers."""
     reply = joined.ask("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.wait(1, timeout=0.2)
@@ -138,10 +138,8 @@ def test_nobody_listens_is_said_in_time(joined: Kernel) -> None:
     assert "rostopic info /numbers" in reply.words
 
 
-def test_leaving_withdraws_it_and_joining_again_does_not_bring_it_back(
-    joined: Kernel, master: PrivateMaster
-) -> None:
-    """leave() ends publishers, too."""
+def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, master: PrivateMaster) -> None:
+    """leave() unregisters the publisher, and after join() it stays stopped."""
     joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         node.leave()
@@ -151,7 +149,7 @@ def test_leaving_withdraws_it_and_joining_again_does_not_bring_it_back(
     assert joined.ask("spoken.publish(1)").error == "PublisherStopped"
 
 
-def test_a_publisher_comes_back_when_rospy_begins_anew(joined: Kernel) -> None:
+def test_a_publisher_is_restored_when_rospy_starts_again(joined: Kernel) -> None:
     """After a shutdown, join() advertises the node's topics again."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32)
@@ -165,8 +163,8 @@ def test_a_publisher_comes_back_when_rospy_begins_anew(joined: Kernel) -> None:
     """) == [[2], 2]
 
 
-def test_no_master_is_said_at_once(joined: Kernel, master: PrivateMaster) -> None:
-    """rospy.Publisher would wait for ever for a master that does not answer."""
+def test_a_silent_master_is_reported(joined: Kernel, master: PrivateMaster) -> None:
+    """advertise() raises MasterSilent if the master does not answer; rospy.Publisher would wait for ever."""
     with stopped(master.pid):
         reply = joined.ask("node.advertise('/numbers', UInt32)")
         assert (reply.error, reply.took < 4) == ("MasterSilent", True)

@@ -1,4 +1,4 @@
-"""A service of the kernel can be defined again and again, and stores its calls."""
+"""A cell can define a service again each time it runs, and the service stores its calls."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_serving_again_replaces(joined: Kernel) -> None:
-    """The latest handler answers, on a new connection and on a persistent one."""
+    """The latest handler answers, on new connections and on persistent connections."""
     assert joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -42,7 +42,7 @@ def test_serving_again_replaces(joined: Kernel) -> None:
 
 
 def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
-    """A service of rospy.Service is replaced, too; rospy itself would refuse with 'already registered'."""
+    """serve() also replaces a service of rospy.Service; rospy itself would raise 'already registered'."""
     assert (
         joined.run("""
         raw = rospy.Service("/x", Trigger, lambda request: (True, "raw"))
@@ -54,8 +54,8 @@ def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
     )
 
 
-def test_another_type_by_the_same_name(joined: Kernel) -> None:
-    """A name can change its type; a client with a persistent connection receives an error."""
+def test_another_type_with_the_same_name(joined: Kernel) -> None:
+    """A service name can get another type; a client with a persistent connection receives an error."""
     reply = joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -71,8 +71,8 @@ def test_another_type_by_the_same_name(joined: Kernel) -> None:
     assert "is of type std_srvs/SetBool now" in reply[1]
 
 
-def test_calls_are_remembered(joined: Kernel) -> None:
-    """Request, response and time of up to a thousand calls are stored."""
+def test_calls_are_stored(joined: Kernel) -> None:
+    """The service stores the request, response and time of the last 1000 calls."""
     assert joined.run("""
         import time
         started = time.time()
@@ -107,8 +107,8 @@ def test_calls_are_remembered(joined: Kernel) -> None:
         ("lambda request: exec('raise KeyboardInterrupt')", "handler ended with KeyboardInterrupt"),
     ],
 )
-def test_errors_reach_the_client_and_the_record(joined: Kernel, handler: str, told: str) -> None:
-    """A handler that fails in any way causes rospy's error for the client, and the error is stored."""
+def test_errors_are_sent_to_the_client_and_stored(joined: Kernel, handler: str, told: str) -> None:
+    """If a handler fails, the client gets rospy's error message, and the service stores the error."""
     words, errors = joined.run(f"""
         served = node.serve("/x", Trigger, {handler})
         result = words(), [(call.error, call.traceback) for call in served.errors]
@@ -130,8 +130,8 @@ def test_traceback_shows_the_handler(joined: Kernel) -> None:
     """)
 
 
-def test_prints_go_to_their_own_place(joined: Kernel) -> None:
-    """What a handler prints is its output, and what the cell prints meanwhile belongs to the cell."""
+def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
+    """The handler's printed text is in `output`; only the cell's own text is printed below the cell."""
     output = joined.run("""
         def chatty(request):
             print("from the handler")
@@ -149,7 +149,7 @@ def test_prints_go_to_their_own_place(joined: Kernel) -> None:
 
 
 def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
-    """A stopped service is unregistered; stopping it, or a replaced one, again changes nothing."""
+    """A stopped service is unregistered; a second stop, or a stop of a replaced service, changes nothing."""
     assert joined.run("""
         first = node.serve("/x", Trigger, lambda request: (True, "first"))
         second = node.serve("/x", Trigger, lambda request: (True, "second"))
@@ -171,15 +171,15 @@ def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
     ],
 )
 def test_another_class_in_place_of_the_type(joined: Kernel, kind: str, told: str) -> None:
-    """An argument that is no service type raises an error that names what is expected."""
+    """An argument that is not a service type raises an error with the expected type."""
     for cell in (f"node.serve('/x', {kind}, print)", f"node.call('/x', {kind})"):
         reply = joined.ask(cell)
         assert reply.error == "NotAServiceType"
         assert told in reply.words
 
 
-def test_idle_connections_block_nobody(joined: Kernel, master: PrivateMaster) -> None:
-    """Connections that send nothing, or half a header, do not block other clients."""
+def test_idle_connections_do_not_block_clients(joined: Kernel, master: PrivateMaster) -> None:
+    """Connections that send nothing, or only a part of a header, do not block other clients."""
     joined.run("node.serve('/x', Trigger, lambda request: (True, 'here'))")
     uri = MasterClient(master.uri).lookup_service("/x")
     assert uri is not None
@@ -196,7 +196,7 @@ def test_idle_connections_block_nobody(joined: Kernel, master: PrivateMaster) ->
 
 
 def test_burst_of_clients(joined: Kernel) -> None:
-    """Thirty simultaneous clients are all served, and none waits for TCP's retransmission after 1 s."""
+    """Thirty simultaneous calls all succeed within 1 s, so none of them waited for TCP's next attempt."""
     took = joined.run("""
         import time
         from concurrent.futures import ThreadPoolExecutor
@@ -225,8 +225,8 @@ def test_calling_itself(joined: Kernel) -> None:
     )
 
 
-def test_three_styles_of_a_request(joined: Kernel) -> None:
-    """A request can be given by position, by name, and whole; a wrong one raises rospy's own error."""
+def test_three_ways_to_give_a_request(joined: Kernel) -> None:
+    """A call accepts fields by position, fields by name, or a request; wrong values raise rospy's errors."""
     assert joined.run("""
         from std_srvs.srv import SetBoolRequest
         node.serve("/x", SetBool, lambda request: (request.data, ""))
@@ -238,8 +238,8 @@ def test_three_styles_of_a_request(joined: Kernel) -> None:
     assert joined.ask("call('text')").error == "SerializationError"
 
 
-def test_types_by_text_and_by_name(joined: Kernel) -> None:
-    """A class that catkin did not generate, and the name of a type, are accepted as well."""
+def test_types_from_text_and_from_a_name(joined: Kernel) -> None:
+    """serve() and call() also accept a class that was compiled from text, and the name of a type."""
     assert joined.run("""
         from course_pkg.types import compile_service
         echo = compile_service("course_pkg/Echo", "string text\\n---\\nstring text\\n")

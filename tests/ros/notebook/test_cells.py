@@ -1,4 +1,4 @@
-"""A cell with plain rospy can run again: what its last run created is ended first."""
+"""A cell with plain rospy can run again: the objects of its last run are ended first."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def value(notebook: NotebookKernel, code: str) -> str:
 
 
 def silent(shown: Shown) -> None:
-    """Assert that a cell ran and showed nothing."""
+    """Assert that a cell ran without any output."""
     assert shown == Shown(), shown
 
 
 def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
-    """The new handler answers, and nothing is printed."""
+    """After the second run, the new handler answers, and nothing is printed."""
     for answer in ("first", "second"):
         silent(
             notebook.run(f"service = rospy.Service('/again', Trigger, lambda r: (True, '{answer}'))", "again")
@@ -33,7 +33,7 @@ def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """What `__init__` of a class creates belongs to the cell that ran it, not to the cell with the class."""
+    """Objects from a class's `__init__` belong to the cell that calls it, not to the cell with the class."""
     notebook.run(
         """
         class Counter:
@@ -54,7 +54,7 @@ def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
 
 
 def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
-    """The callback is called once for each message, however often its cell has run."""
+    """After three runs of the cell, the callback is still called only once for each message."""
     notebook.run("publisher = rospy.Publisher('/numbers', UInt32, queue_size=9)", "publisher")
     cell = (
         "received = []\nsubscriber = rospy.Subscriber('/numbers', UInt32, lambda m: received.append(m.data))"
@@ -73,7 +73,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """A cell that is changed so that it creates nothing leaves no topic behind."""
+    """If a changed cell no longer creates the publisher and subscriber, both are unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -89,7 +89,7 @@ def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, mast
 
 
 def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
-    """Only the timer of the last run calls back."""
+    """Only the timer of the last run calls its callback."""
     for number in (1, 2):
         notebook.run(
             f"calls = []\ntimer = rospy.Timer(rospy.Duration(0.01), lambda _: calls.append({number}))",
@@ -100,7 +100,7 @@ def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_action_server_cell_runs_again(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The new action server executes the goals; the old one has ended with its thread and its topics."""
+    """The new action server executes the goals; the thread and the topics of the old one have ended."""
     notebook.run("import actionlib\nfrom actionlib_msgs.msg import GoalStatus\nfrom course_pkg import msg")
     cell = """
     def execute(goal):
@@ -125,7 +125,7 @@ def test_action_server_cell_runs_again(notebook: NotebookKernel, master: Private
 
 
 def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
-    """The later cell replaces the service and prints one line; the first cell takes it back the same way."""
+    """A cell replaces the service of another cell with the same name, and prints one line about it."""
     serve = "service = rospy.Service('/shared', Trigger, lambda r: (True, '{}'))"
     silent(notebook.run(serve.format("one"), "one"))
     for cell in ("two", "one", "two"):
@@ -136,7 +136,7 @@ def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
 
 
 def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
-    """Within one run of a cell, rospy refuses a second service of the name, as in a script."""
+    """In one run of a cell, rospy refuses a second service with the same name, as in a script."""
     cell = "rospy.Service('/twice', Trigger, print)\nrospy.Service('/twice', Trigger, print)"
     shown = notebook.run(cell, "twice")
     assert (shown.ename, shown.evalue) == ("ServiceException", "service [/twice] already registered")
@@ -144,14 +144,14 @@ def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
 
 
 def test_cells_without_ids(notebook: NotebookKernel) -> None:
-    """A client such as nbclient sends no id: each execution is a cell of its own."""
+    """A client such as nbclient sends no cell ids, so each execution counts as a separate cell."""
     serve = "service = rospy.Service('/no_id', Trigger, lambda r: (True, ''))"
     silent(notebook.run(serve))
     assert notebook.run(serve) == Shown(out=REPLACES.format("/no_id"))
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """What a handler creates stays when the cell that called it runs again."""
+    """A publisher from a handler stays registered when the cell that called the handler runs again."""
     cell = """
     def handle(request):
         global made
@@ -167,7 +167,7 @@ def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, mast
 
 
 def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
-    """What a thread creates while the cell that has started it runs belongs to this cell."""
+    """A service belongs to the running cell, even if a thread that the cell started creates it."""
     cell = """
     def work():
         global service
@@ -182,7 +182,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:
-    """A persistent proxy does not reach the old handler: the error says to create the proxy again."""
+    """A persistent proxy of the old service gets an error message: create the proxy again."""
     serve = "service = rospy.Service('/kept', Trigger, lambda r: (True, ''))"
     notebook.run(serve, "kept")
     notebook.run("proxy = rospy.ServiceProxy('/kept', Trigger, persistent=True)\nproxy()", "proxy")
@@ -191,14 +191,14 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """%%capture runs a cell within the cell: what the inner one creates belongs to the cell."""
+    """%%capture runs an inner cell; its objects belong to the outer cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))
 
 
 def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The cell with join() runs again: /rosout and the logger services stay."""
+    """When the cell with join() runs again, /rosout and the logger services stay registered."""
     for _ in range(2):
         silent(notebook.run("node = join('student')", "join"))
     state = MasterClient(master.uri).system_state()
@@ -207,7 +207,7 @@ def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, maste
 
 
 def test_init_node_after_join(notebook: NotebookKernel) -> None:
-    """init_node() of a program that was pasted into a cell changes nothing, with any arguments."""
+    """After join(), a call of init_node() in a cell changes nothing, with any valid arguments."""
     for arguments in ("'listener'", "'listener', anonymous=True", "'student', disable_signals=True"):
         silent(notebook.run(f"rospy.init_node({arguments})"))
     assert value(notebook, "rospy.get_name()") == "'/student'"
@@ -215,7 +215,7 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """When the master was lost, the cell with a publisher runs again after join(), and does not hang."""
+    """Without a master, a cell can run again and does not block; with a new master, it serves again."""
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")
         kernel.run("node = join('student')", "join")
@@ -230,7 +230,7 @@ def test_cell_that_runs_again_without_a_master() -> None:
 
 
 def test_kernel_ends_although_it_has_an_action_server(master: PrivateMaster) -> None:
-    """The thread of actionlib does not keep the kernel's process from ending."""
+    """The kernel's process can end even if a thread of actionlib is running."""
     with NotebookKernel() as kernel:
         kernel.run("import actionlib\nfrom course_pkg import join, msg\nnode = join('acting')")
         kernel.run("server = actionlib.SimpleActionServer('/act', msg.FetchAction, print, auto_start=False)")

@@ -1,4 +1,4 @@
-"""A notebook shows an error in at most 12 lines: the student's own code and the message."""
+"""A notebook shows an error in at most 12 lines: the student's own code and the error message."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ MOST = 12
 
 
 def without_cell_numbers(lines: list[str]) -> list[str]:
-    """Return lines with In[*] for the number of each cell."""
+    """Return the lines, with In[*] instead of the number of each cell."""
     return [
         line.split("In[")[0] + "In[*]" + line.split("]", 1)[1] if "In[" in line else line for line in lines
     ]
 
 
 def test_error_of_rospy(notebook: NotebookKernel) -> None:
-    """The lines of both cells and the message, and no frame of rospy."""
+    """The traceback shows the lines of both cells and the error message, but no frame of rospy."""
     notebook.run("def area():\n    return ask('/nope')\n")
     shown = notebook.run("print(1)\narea()")
     assert without_cell_numbers(shown.error_lines) == [
@@ -37,7 +37,7 @@ def test_error_of_rospy(notebook: NotebookKernel) -> None:
 
 
 def test_many_calls(notebook: NotebookKernel) -> None:
-    """If not all calls fit, the first one and the last ones are shown, with their number between."""
+    """If not all calls fit, the traceback shows the first and last calls and the number of the others."""
     notebook.run("def down(n):\n    return 1 / n + down(n - 1)")
     lines = without_cell_numbers(notebook.run("down(20)").error_lines)
     assert lines[1:4] == ["  This cell, line 1", "    down(20)", "  … 18 more calls …"]
@@ -49,8 +49,8 @@ def test_many_calls(notebook: NotebookKernel) -> None:
     assert len(lines) <= MOST
 
 
-def test_everything_on_request(notebook: NotebookKernel) -> None:
-    """%tb shows the frames of rospy as well; so does a mode that the student has chosen."""
+def test_the_whole_traceback_on_request(notebook: NotebookKernel) -> None:
+    """%tb also shows the frames of rospy, and so does another mode of %xmode."""
     notebook.run("ask('/nope')")
     assert "tcpros_service.py" in "\n".join(notebook.run("%tb").traceback)
     notebook.run("%xmode Verbose")
@@ -88,7 +88,7 @@ def test_everything_on_request(notebook: NotebookKernel) -> None:
     ],
 )
 def test_every_error_is_short(notebook: NotebookKernel, cell: str, tmp_path: Path) -> None:
-    """Every error needs at most 12 rows of a hundred characters, and its last line names it."""
+    """Every error needs at most 12 rows of 100 characters, and the traceback names the error."""
     (tmp_path / "broken_by_student.py").write_text("def f(:\n    pass\n")
     notebook.run(f"import sys; sys.path.insert(0, {str(tmp_path)!r})")
     shown = notebook.run(cell)
@@ -99,14 +99,14 @@ def test_every_error_is_short(notebook: NotebookKernel, cell: str, tmp_path: Pat
 
 
 def test_error_while_handling_another(notebook: NotebookKernel) -> None:
-    """One line names the error that the student's code was handling."""
+    """One line shows the earlier error that the student's code was handling."""
     shown = notebook.run("try:\n    {}['a']\nexcept KeyError:\n    raise ValueError('no a')")
     assert without_cell_numbers(shown.error_lines)[1] == "  (This cell, line 2, had raised KeyError: 'a')"
     assert shown.error_lines[-1] == "ValueError: no a"
 
 
 def test_error_in_a_handler(notebook: NotebookKernel) -> None:
-    """The cell that calls shows both errors: the line of the handler, and its own line."""
+    """The calling cell shows both errors: the line of the handler, and its own line."""
     notebook.run(
         "def handle(request):\n    return 1 / 0\nservice = rospy.Service('/bad', Trigger, handle)", "bad"
     )
@@ -121,7 +121,7 @@ def test_error_in_a_handler(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel) -> None:
-    """A callback that fails many times a second does not flood the notebook; the next cell shows it again."""
+    """An error that a callback raises many times per second is shown once below each cell."""
     notebook.run(
         """
         called = []
@@ -153,7 +153,7 @@ def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel
     ["rospy.Timer(rospy.Duration(0.01), work, oneshot=True)", "threading.Thread(target=work).start()"],
 )
 def test_error_that_ends_a_thread(notebook: NotebookKernel, start: str) -> None:
-    """An error of a timer or of another thread is equally short."""
+    """An error of a timer or of another thread is also shown in a few lines."""
     notebook.run("def work(*_):\n    failed.set()\n    1 / 0\nfailed = threading.Event()")
     shown = notebook.run(f"{start}\nfailed.wait()\nrospy.sleep(0.2)")
     assert without_cell_numbers(shown.err.splitlines()) == [

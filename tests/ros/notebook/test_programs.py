@@ -1,4 +1,4 @@
-"""%rosrun and %roslaunch start programs that end with their cell, and with the kernel."""
+"""%rosrun and %roslaunch start programs; these end when their cell runs again, or with the kernel."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def value(notebook: NotebookKernel, code: str) -> str:
 
 
 def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The handle waits for a service, provides the output, and stops the program."""
+    """The returned object waits for a service, contains the output, and stops the program."""
     notebook.run("server = %rosrun course_pkg server", "rosrun")
     assert notebook.run("server.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "server") == "<rosrun course_pkg server: running>"
@@ -32,7 +32,7 @@ def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster
 
 
 def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
-    """The words after the program are its arguments, also in quotes; wait() returns the exit status."""
+    """%rosrun passes arguments to the program, also in quotes; wait() returns the exit status."""
     shown = notebook.run("client = %rosrun course_pkg client 1 2 'not a number'\nclient.wait()")
     assert shown.results == ["2"], shown
     assert value(notebook, "client").endswith("'not a number': ended with exit status 2>")
@@ -40,7 +40,7 @@ def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_starts_the_program_again(notebook: NotebookKernel) -> None:
-    """The program of the previous run is ended first."""
+    """When the cell runs again, the program of its previous run ends first."""
     cell = "%rosrun course_pkg server __name:=again &"
     assert notebook.run(cell, "again").results == ["<rosrun course_pkg server __name:=again: running>"]
     notebook.run("first = _\nfirst.wait(service='/getGeometry')")
@@ -50,7 +50,7 @@ def test_cell_that_runs_again_starts_the_program_again(notebook: NotebookKernel)
 
 
 def test_roslaunch(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """A launch file is named by package and file, with arguments, and its nodes end with the handle."""
+    """%roslaunch starts a launch file of a package; stop() ends its nodes."""
     notebook.run("launched = %roslaunch course_pkg geometry.launch")
     assert notebook.run("launched.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "launched.stop(); launched.running") == "False"
@@ -58,7 +58,7 @@ def test_roslaunch(notebook: NotebookKernel, master: PrivateMaster) -> None:
 
 
 def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
-    """`--core` starts a master on the given port, as roscore does, and it ends with the handle."""
+    """`--core` starts a master on the given port, as roscore does; stop() ends it."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     notebook.run(f"core = %roslaunch --core -p {port}")
@@ -78,7 +78,7 @@ def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
     ],
 )
 def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: str) -> None:
-    """A misspelt name gives one message below the line of the cell."""
+    """A misspelt name raises an error with one message below the line of the cell."""
     shown = notebook.run(line)
     assert shown.ename == error
     assert words in shown.evalue
@@ -96,7 +96,7 @@ def test_usage(notebook: NotebookKernel, line: str) -> None:
     assert notebook.run(line).err.startswith(f"UsageError: usage: {line.split()[0]} PACKAGE")
 
 
-def test_nothing_is_left_after_a_killed_kernel(master: PrivateMaster) -> None:
+def test_a_killed_kernel_leaves_no_program(master: PrivateMaster) -> None:
     """After SIGKILL of the kernel, its program ends and is unregistered."""
     with NotebookKernel() as kernel:
         kernel.run(SETUP.replace("student", "killed"))

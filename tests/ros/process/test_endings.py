@@ -1,4 +1,4 @@
-"""Each process that was started ends with its owner, even if the owner is killed."""
+"""Every started process ends with its owner, even if the owner is killed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether none of the processes runs; a zombie counts as ended."""
+    """Return whether all of the processes have ended; a zombie has ended."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
@@ -48,7 +48,7 @@ def port_is_free(uri: str) -> bool:
 
 
 def test_killed_owner_of_a_private_master() -> None:
-    """After SIGKILL of a kernel no process below it is left, roslaunch's nodes included, and no port held."""
+    """After SIGKILL of a kernel, all its descendants end, also roslaunch's nodes, and the port is free."""
     kernel = Kernel({"ROS_MASTER_URI": None})
     uri = kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -60,7 +60,7 @@ def test_killed_owner_of_a_private_master() -> None:
 
 
 def test_killed_owner_on_a_shared_master(master: PrivateMaster) -> None:
-    """After SIGKILL of a kernel, a master that continues has none of its registrations."""
+    """After SIGKILL of a kernel, all its registrations at a shared master are removed."""
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -84,8 +84,8 @@ while True:
 """
 
 
-def test_deaf_node_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed soon after its owner, and its registrations are removed."""
+def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
+    """A node that ignores SIGTERM is killed after its owner's end, and its registrations are removed."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
@@ -103,8 +103,8 @@ node.wait_for_service("/deafened")
     kernel.exit()
 
 
-def test_graceful_end_leaves_nothing(master: PrivateMaster) -> None:
-    """A kernel that ends normally leaves no registration and no process, and ends quickly."""
+def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
+    """A kernel that ends normally leaves no registrations and no processes, and ends within 5 s."""
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -113,8 +113,8 @@ def test_graceful_end_leaves_nothing(master: PrivateMaster) -> None:
     assert gone(pids)
 
 
-def test_interrupt_leaves_the_nodes_alone(kernel: Kernel) -> None:
-    """An interrupt of the kernel goes to its process group, which does not contain its nodes."""
+def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
+    """An interrupt of the kernel does not reach its nodes, because they are not in its process group."""
     kernel.run(
         "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
     )
@@ -126,7 +126,7 @@ def test_interrupt_leaves_the_nodes_alone(kernel: Kernel) -> None:
 
 
 def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
-    """A node that a thread has started continues after the thread has ended."""
+    """A node continues after the end of the thread that started it."""
     kernel.run("""
         import threading
         from course_pkg.ros import NodeProcess, join
@@ -141,7 +141,7 @@ def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_stubborn_descendants_are_killed(number: signal.Signals) -> None:
-    """A grandchild in its own session that ignores signals is killed when its parent has ended."""
+    """A grandchild in its own session that ignores signals is killed after its parent's end."""
     stubborn = "import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)]; time.sleep(1000)"
     parent = f"""
 import subprocess, sys, time
@@ -156,7 +156,7 @@ time.sleep(1000)
 
 
 def test_exit_status_is_passed_on() -> None:
-    """The owner sees the exit status of a command, or the signal that ended it."""
+    """`returncode` is the exit status of the command, or the negative number of the signal that ended it."""
     for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
         process = SupervisedProcess(["sh", "-c", command])
         assert process.wait(5)
@@ -173,8 +173,8 @@ sys.exit(process.returncode)
 """
 
 
-def test_what_a_foreground_command_leaves_in_the_background_ends(tmp_path: Path) -> None:
-    """A command in the foreground uses the owner's input and output; what it leaves behind is ended."""
+def test_background_processes_of_a_foreground_command_end(tmp_path: Path) -> None:
+    """A command in the foreground uses the owner's input and output; its background processes are ended."""
     line = f"sleep 1000 & echo $! > {tmp_path}/pid; setsid sleep 1000 & cat; exit 4"
     done = subprocess.run(
         [sys.executable, "-c", OWNER, "sh", "-c", line],
@@ -189,7 +189,7 @@ def test_what_a_foreground_command_leaves_in_the_background_ends(tmp_path: Path)
 
 
 def test_a_terminal_interrupts_a_foreground_command_once() -> None:
-    """Each Ctrl-C reaches the command once, and the command decides what to do."""
+    """The command receives each Ctrl-C exactly once, and may continue after it."""
     command = (
         "import signal\n"
         "came = []\n"
@@ -213,7 +213,7 @@ def test_a_terminal_interrupts_a_foreground_command_once() -> None:
 
 
 def test_stopped_node_is_ended(master: PrivateMaster) -> None:
-    """A node that is stopped by SIGSTOP ends when it is ended, and is unregistered."""
+    """stop() ends and unregisters a node even if SIGSTOP has stopped it."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry")
         with stopped(server.pid):
@@ -222,7 +222,7 @@ def test_stopped_node_is_ended(master: PrivateMaster) -> None:
 
 
 def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
-    """All sockets of a kernel, its master, its nodes and a launch listen on 127.0.0.1 only."""
+    """All sockets of a kernel, its master, its nodes and a launch file listen only on 127.0.0.1."""
     kernel.run(EVERYTHING)
     ports = listening_ports(kernel.pid)
     assert len(ports) >= 7

@@ -1,4 +1,4 @@
-"""A private master: on a free port, on loopback, and removed completely."""
+"""A private master uses a free port on 127.0.0.1, and leaves nothing after its end."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.support import eventually, stopped
 
 
 def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Inside the block the master answers; afterwards it is gone; its log is in ROS_LOG_DIR."""
+    """The master answers inside the block and has ended after it; its log file is in ROS_LOG_DIR."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     with PrivateMaster() as master:
         client = MasterClient(master.uri)
@@ -28,7 +28,7 @@ def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without ROS_LOG_DIR, the logs are removed with the master."""
+    """Without ROS_LOG_DIR, the master's log files are removed after its end."""
     monkeypatch.delenv("ROS_LOG_DIR")
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
@@ -38,15 +38,15 @@ def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_busy_port() -> None:
-    """A port that is taken is refused at once, with its number."""
+    """start() raises PortBusy with the number of the port if another program uses it."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         with pytest.raises(PortBusy, match=str(port)):
             PrivateMaster(port).start()
 
 
-def test_port_can_be_had_again(master: PrivateMaster) -> None:
-    """The port of a killed master can be used again at once."""
+def test_port_of_a_killed_master_is_free(master: PrivateMaster) -> None:
+    """A new master can use the port of a killed master at once."""
     with PrivateMaster() as former:
         MasterClient(former.uri).system_state()
         os.kill(former.pid, signal.SIGKILL)
@@ -55,13 +55,13 @@ def test_port_can_be_had_again(master: PrivateMaster) -> None:
             assert MasterClient(latter.uri).pid() == latter.pid
 
 
-def test_a_master_that_is_named_is_used(master: PrivateMaster) -> None:
-    """If ROS_MASTER_URI is set, no other master is started."""
+def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
+    """If ROS_MASTER_URI is set, find_or_start_master() returns this master and starts no other."""
     assert find_or_start_master().uri == master.uri
 
 
 def test_stopped_master_is_silent(master: PrivateMaster) -> None:
-    """A stopped master costs the time limit, and works again when it continues."""
+    """A request to a stopped master raises MasterSilent at the timeout; after SIGCONT, requests work."""
     client = MasterClient(master.uri, timeout=0.3)
     client.pid()
     with stopped(master.pid), pytest.raises(MasterSilent, match=r"within 0.3 s"):
@@ -69,8 +69,8 @@ def test_stopped_master_is_silent(master: PrivateMaster) -> None:
     assert client.pid() == master.pid
 
 
-def test_dripping_answer_is_silence() -> None:
-    """A server that sends single bytes does not extend the time limit."""
+def test_slow_bytes_do_not_extend_the_timeout() -> None:
+    """A server that sends one byte at a time does not extend the timeout."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         over = threading.Event()
 
@@ -92,19 +92,19 @@ def test_dripping_answer_is_silence() -> None:
     "uri", ["", "localhost:11311", "https://localhost:1", "http://:1", "http://localhost:99999"]
 )
 def test_malformed_uri(uri: str) -> None:
-    """A malformed address is refused without a connection."""
+    """A malformed address raises MalformedMasterUri before any connection."""
     with pytest.raises(MalformedMasterUri, match="http://HOST:PORT"):
         MasterClient(uri)
 
 
 def test_unknown_host() -> None:
-    """A host that does not exist is unreachable."""
+    """An unknown host raises MasterUnreachable."""
     with pytest.raises(MasterUnreachable, match="no-such-host"):
         MasterClient("http://no-such-host.invalid:11311").pid()
 
 
 def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
-    """A kept connection to the previous master does not disturb the client of its successor."""
+    """A client can call a new master at the same address, despite its open connection to the old master."""
     with PrivateMaster() as former:
         client = MasterClient(former.uri)
         client.pid()
@@ -113,7 +113,7 @@ def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
 
 
 def test_registrations(master: PrivateMaster) -> None:
-    """Registrations are listed by name and by address, and can be withdrawn only with the right address."""
+    """Lookups find registered services and nodes; unregistering works only with the right address."""
     client = MasterClient(master.uri)
     client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
     client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")

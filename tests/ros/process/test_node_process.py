@@ -1,4 +1,4 @@
-"""Nodes as processes: found, waited for, ended with their registrations, and on a private graph."""
+"""Nodes as processes: start them, wait for them, end them with their registrations; private graphs."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ pytestmark = pytest.mark.usefixtures("master")
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:
-    """The error for an unknown package or program names similar ones."""
+    """The error message for an unknown package or program contains similar names."""
     with pytest.raises(UnknownExecutable) as error:
         NodeProcess.rosrun(package, program)
     assert message in str(error.value)
 
 
 def test_command_that_cannot_be_started() -> None:
-    """An unknown command raises an error at the call, and leaves no process."""
+    """An unknown command raises GraphError at once."""
     with pytest.raises(GraphError, match="No such file"):
         NodeProcess(["/no/such/command"])
 
 
 def test_output_is_kept() -> None:
-    """The output of a node, stdout and stderr, is available while it runs and after its end."""
+    """output() contains stdout and stderr, also after the end of the process."""
     with NodeProcess(
         [sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]
     ) as process:
@@ -49,8 +49,8 @@ def test_output_is_kept() -> None:
     assert "out" in process.output()
 
 
-def test_waiting_fails_fast_when_the_node_dies() -> None:
-    """Waiting for a service of a process ends with the process, and shows the end of its output."""
+def test_waiting_ends_when_the_node_ends() -> None:
+    """If the process ends, wait_for_service() raises NodeFailed at once, with the end of the output."""
     with NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process:
         started = time.monotonic()
         with pytest.raises(NodeFailed, match="no luck today") as error:
@@ -60,15 +60,15 @@ def test_waiting_fails_fast_when_the_node_dies() -> None:
 
 
 def test_waiting_has_a_limit() -> None:
-    """Waiting for a service that never appears ends after the given time, and the process continues."""
+    """If the service never appears, wait_for_service() raises NodeFailed at the timeout."""
     with NodeProcess.rosrun("course_pkg", "pulse") as process:
         with pytest.raises(NodeFailed, match=r"after 0\.2 s"):
             process.wait_for_service("/never", timeout=0.2)
         assert process.running
 
 
-def test_waiting_for_words() -> None:
-    """Waiting for output ends when it is printed, and fails when the process has ended without it."""
+def test_waiting_for_output() -> None:
+    """wait_for_output() returns after the text is printed; it fails at the timeout or the process's end."""
     script = "import time; print('first'); time.sleep(60)"
     with NodeProcess([sys.executable, "-c", script]) as process:
         process.wait_for_output("first")
@@ -81,8 +81,8 @@ def test_waiting_for_words() -> None:
         process.wait_for_output("second")
 
 
-def test_waiting_is_for_this_process(kernel: Kernel) -> None:
-    """A service of this name on another node does not count: the process itself must provide it."""
+def test_waiting_checks_the_process(kernel: Kernel) -> None:
+    """wait_for_service() does not return while another node still serves the name."""
     kernel.run("""
         from course_pkg.srv import geometry
         from course_pkg.ros import join
@@ -94,8 +94,8 @@ def test_waiting_is_for_this_process(kernel: Kernel) -> None:
     """)
 
 
-def test_stopping_withdraws(master: PrivateMaster) -> None:
-    """When stop() returns, the process is off the graph, even if it had to be killed."""
+def test_stop_unregisters(master: PrivateMaster) -> None:
+    """After stop(), the process has no registrations, even if it had to be killed."""
     deaf = """
 import rospy, signal, threading
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -113,7 +113,7 @@ threading.Event().wait()
 
 
 def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
-    """kill() leaves registrations at the master; the next node of the name replaces them."""
+    """kill() leaves registrations at the master; the next node with the same name replaces them."""
     process = NodeProcess.rosrun("course_pkg", "server")
     process.wait_for_service("/getGeometry")
     process.kill()
@@ -125,7 +125,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A cell that starts a node and runs again ends the old process; another name is another process."""
+    """A second run() of a program ends the first process; with another name, both processes run."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -141,7 +141,7 @@ def test_running_again_replaces(kernel: Kernel) -> None:
 
 
 def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
-    """With a namespace as argument, another node runs beside the first; the same again replaces it."""
+    """A program can run in two namespaces; a second run in the same namespace replaces the first."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -155,14 +155,14 @@ def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
 
 
 def test_launch_file() -> None:
-    """A launch file starts its nodes, and they end with it."""
+    """A launch file starts its nodes, with the given arguments."""
     with NodeProcess.roslaunch("course_pkg", "geometry.launch", "client:=true") as process:
         process.wait_for_service("/getGeometry")
         eventually(lambda: "area: 6.24\n" in process.output() and "volume: 55.54\n" in process.output())
 
 
 def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
-    """The nodes are registered with their own master only."""
+    """The nodes of a private graph are registered only at its own master."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         assert MasterClient(graph.uri).system_state().nodes == ("/pulse",)
@@ -170,8 +170,8 @@ def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
         assert repr(graph) == "<a private graph with a master and 1 programs>"
 
 
-def test_a_stream_outlives_its_master() -> None:
-    """Connected nodes exchange messages without their master; a new node finds no master."""
+def test_messages_continue_without_the_master() -> None:
+    """Connected nodes still exchange messages after their master has ended; a new tool finds no master."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         echo = graph.start("rostopic", "echo", "/pulse")
@@ -184,8 +184,8 @@ def test_a_stream_outlives_its_master() -> None:
         assert "Unable to communicate with master" in late.output()
 
 
-def test_the_second_of_a_name_ends_the_first() -> None:
-    """Each run is another process, even with the same name: the master shuts down the first one."""
+def test_the_second_node_with_a_name_ends_the_first() -> None:
+    """A second run() starts a second node with the same name, and the master shuts the first one down."""
     with PrivateGraph() as graph:
         first, second = (graph.run("course_pkg", "pulse") for _ in range(2))
         assert first.wait(10) == 0
@@ -193,8 +193,8 @@ def test_the_second_of_a_name_ends_the_first() -> None:
         assert second.running
 
 
-def test_nothing_of_a_private_graph_stays() -> None:
-    """close() ends everything, including killed programs; a graph without references closes itself."""
+def test_close_ends_everything_of_a_private_graph() -> None:
+    """close() ends all programs and the master; a graph also ends when no variable refers to it."""
     graph = PrivateGraph()
     running, killed = (graph.run("course_pkg", "pulse", f"__name:=pulse_{number}") for number in range(2))
     master = graph._master.pid
@@ -208,7 +208,7 @@ def test_nothing_of_a_private_graph_stays() -> None:
 
 
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
-    """The errors name the existing programs, or the output of the program."""
+    """run() raises errors with a similar program name, or with the output of the ended program."""
     started = time.monotonic()
     with PrivateGraph() as graph:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):
@@ -219,7 +219,7 @@ def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateM
 
 
 def test_the_tools_use_the_address_of_a_private_graph() -> None:
-    """ROS_MASTER_URI directs any command to this graph."""
+    """A command with the graph's address in ROS_MASTER_URI uses this graph."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         command = f"ROS_MASTER_URI={graph.uri} rosnode list"

@@ -1,4 +1,4 @@
-"""A master as roscore starts it: with the node /rosout and the parameters; it ends with its owner."""
+"""A Roscore has the same node and parameters as roscore, and ends with its owner."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ rospy.loginfo("the battery is low")
 
 
 def processes(pids: list[int]) -> list[psutil.Process]:
-    """Return those of `pids` that are a node /rosout."""
+    """Return the processes in `pids` that run the node /rosout."""
     return [psutil.Process(pid) for pid in pids if psutil.Process(pid).name() == "rosout"]
 
 
 @pytest.fixture
 def core(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Roscore:
-    """Return a Roscore that is not started and logs to tmp_path."""
+    """Return a Roscore that is not started, with its log files in tmp_path."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     return Roscore()
 
 
-def test_the_graph_is_that_of_roscore(core: Roscore) -> None:
-    """The node, its services and the parameters, whose values are the output of rosversion."""
+def test_the_graph_is_the_same_as_with_roscore(core: Roscore) -> None:
+    """The node, its services and the parameters are present; the parameters match rosversion's output."""
     with core:
         client = MasterClient(core.uri)
         state = client.system_state()
@@ -57,7 +57,7 @@ def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path)
 
 
 def test_it_listens_on_loopback_only(core: Roscore) -> None:
-    """Without loopback.c, which LD_PRELOAD names, roscpp listens on all addresses."""
+    """/rosout listens only on 127.0.0.1, because LD_PRELOAD loads the library from loopback.c."""
     with core:
         [rosout] = processes(descendants(os.getpid()))
         sockets = [each for each in rosout.net_connections("inet") if each.status == psutil.CONN_LISTEN]
@@ -65,8 +65,8 @@ def test_it_listens_on_loopback_only(core: Roscore) -> None:
         assert {each.laddr.ip for each in sockets} == {"127.0.0.1"}
 
 
-def test_it_ends_as_a_whole_and_can_be_started_again(core: Roscore) -> None:
-    """After stop() neither process is left; the second graph is like the first, at another address."""
+def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
+    """After stop(), both processes have ended; a second start creates the same graph at another address."""
     core.start()
     first, pids = core.uri, descendants(os.getpid())
     assert processes(pids)
@@ -78,18 +78,18 @@ def test_it_ends_as_a_whole_and_can_be_started_again(core: Roscore) -> None:
         assert core.uri != first
 
 
-def test_without_the_node_nothing_is_left(
+def test_without_the_node_the_master_ends(
     core: Roscore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Where the package rosout is missing, the message says what to do, and the master ends."""
+    """If the package rosout is missing, start() raises an error with the next step and ends the master."""
     monkeypatch.setattr("course_pkg.ros.process.roscore._prefix", lambda: tmp_path)
     with pytest.raises(SetupError, match="course doctor"):
         core.start()
     assert not core.running
 
 
-def test_a_kernel_without_a_master_gets_all_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If ROS_MASTER_URI names no master, a Roscore is started."""
+def test_a_kernel_without_a_master_starts_a_roscore(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without ROS_MASTER_URI, find_or_start_master() starts a Roscore."""
     monkeypatch.delenv("ROS_MASTER_URI", raising=False)
     monkeypatch.setenv("ROS_HOSTNAME", "localhost")
     found = find_or_start_master()
@@ -98,8 +98,8 @@ def test_a_kernel_without_a_master_gets_all_of_it(monkeypatch: pytest.MonkeyPatc
     found.stop()
 
 
-def test_a_killed_owner_takes_rosout_along(tmp_path: Path) -> None:
-    """After SIGKILL of the kernel that started it, /rosout ends, too."""
+def test_rosout_ends_with_a_killed_owner(tmp_path: Path) -> None:
+    """After SIGKILL of the kernel that started /rosout, /rosout also ends."""
     kernel = Kernel({"ROS_MASTER_URI": None, "ROS_LOG_DIR": str(tmp_path)})
     kernel.run("from course_pkg.ros import join; node = join('owner')")
     pids = descendants(kernel.pid)

@@ -1,4 +1,4 @@
-"""A snapshot shows the nodes, topics and services, and which of them answer, in bounded time."""
+"""A snapshot lists the nodes, topics and services, and which of them answer, within a time limit."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
     remove_stale()
 
 
-def test_what_is_there(server: NodeProcess) -> None:
-    """Nodes, topics and services are listed with types and providers, sorted, and can be written as JSON."""
+def test_contents_of_a_snapshot(server: NodeProcess) -> None:
+    """A snapshot lists nodes, topics and services with their types and servers, and can become JSON."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         seen = look()
@@ -39,8 +39,8 @@ def test_what_is_there(server: NodeProcess) -> None:
     assert json.loads(json.dumps(seen.as_dict()))["services"][1]["name"] == "/SERVER_NODE/set_logger_level"
 
 
-def test_the_same_graph_looks_the_same(server: NodeProcess) -> None:
-    """Two snapshots of an unchanged graph are equal."""
+def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
+    """Two snapshots of an unchanged graph are equal; after a change they differ."""
     before = look()
     assert (look(), hash(look())) == (before, hash(before))
     MasterClient(before.master).register_service(
@@ -51,7 +51,7 @@ def test_the_same_graph_looks_the_same(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A stopped node is shown as silent; it is not stale."""
+    """A stopped node is listed as silent, and remove_stale() keeps its registrations."""
     with stopped(server.pid):
         started = time.monotonic()
         seen = look()
@@ -65,7 +65,7 @@ def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> 
 
 
 def test_killed_node_is_stale_until_removed(server: NodeProcess) -> None:
-    """After SIGKILL the registrations remain, are found, and can be removed; living nodes keep theirs."""
+    """remove_stale() removes the registrations of a killed node, and keeps those of a running node."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         server.kill()
@@ -87,6 +87,6 @@ def test_killed_node_is_stale_until_removed(server: NodeProcess) -> None:
 
 
 def test_no_master() -> None:
-    """Without a master, a snapshot raises an error at once."""
+    """Without a master, look() raises MasterUnreachable."""
     with pytest.raises(MasterUnreachable):
         look("http://localhost:1")

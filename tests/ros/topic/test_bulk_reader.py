@@ -22,7 +22,7 @@ class Notes:
         self.heard.setdefault(topic, []).extend(messages)
 
     def look(self) -> None:
-        """Count the looks."""
+        """Count the reads."""
         self.looks += 1
 
     def reader(self) -> BulkReader:
@@ -31,12 +31,12 @@ class Notes:
 
 
 def pulse(name: str) -> NodeProcess:
-    """Start a node that counts, 50 times a second."""
+    """Start a node that publishes 50 numbers per second."""
     return NodeProcess(["rosrun", "course_pkg", "pulse", f"__name:={name}", f"pulse:={name}", "_rate:=50"])
 
 
 def test_every_message_in_order(master: PrivateMaster) -> None:
-    """Messages of several topics arrive complete, in order, each exactly once."""
+    """The messages of several topics arrive in order, each exactly once."""
     notes = Notes()
     reader = notes.reader()
     with pulse("one"), pulse("two"):
@@ -48,8 +48,8 @@ def test_every_message_in_order(master: PrivateMaster) -> None:
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
 
-def test_the_graph_looks_as_without_it(master: PrivateMaster) -> None:
-    """The reader does not appear as a subscriber."""
+def test_the_reader_is_not_a_subscriber(master: PrivateMaster) -> None:
+    """The reader is not registered as a subscriber of the topic."""
     notes = Notes()
     reader = notes.reader()
     with pulse("alone"):
@@ -59,8 +59,8 @@ def test_the_graph_looks_as_without_it(master: PrivateMaster) -> None:
         reader.stop()
 
 
-def test_an_end_is_told_and_a_return_is_heard(master: PrivateMaster) -> None:
-    """A publisher that ends is removed, and a new one is read."""
+def test_a_publisher_that_ends_and_returns(master: PrivateMaster) -> None:
+    """The reader reports a publisher that ends, and reads a new publisher of the topic."""
     notes = Notes()
     reader = notes.reader()
     reader.start()
@@ -73,8 +73,8 @@ def test_an_end_is_told_and_a_return_is_heard(master: PrivateMaster) -> None:
     reader.stop()
 
 
-def test_stop_ends_it(master: PrivateMaster) -> None:
-    """After stop() it looks at most once more, and a start begins again."""
+def test_stop_ends_the_reader(master: PrivateMaster) -> None:
+    """stop() ends the reader's thread, and start() starts a new one."""
     notes = Notes()
     reader = notes.reader()
     reader.start()

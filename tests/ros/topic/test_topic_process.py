@@ -1,4 +1,4 @@
-"""A separate node for one topic: it publishes, subscribes, lists the nodes, and ends with its owner."""
+"""A separate node for one topic publishes, subscribes, lists the topic's nodes, and ends with its owner."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ NUMBER = {"name": "std_msgs/Float64", "text": ""}
 
 
 class Reports:
-    """What a topic process has reported: the latest of each part, and all messages that it received."""
+    """The reports of a topic process: the latest value of each part, and all received messages."""
 
     def __init__(self, topic: str = "/speed") -> None:
         self.parts: Report = {}
@@ -39,7 +39,7 @@ class Reports:
         self.process = TopicProcess(topic, self._report, self._lose)
 
     def published(self, part: str) -> Plain:
-        """Return a part of the report on what was published."""
+        """Return a field of the publisher's report."""
         return self.parts.get("publisher", {}).get(part)
 
     def _report(self, _process: TopicProcess, report: Report) -> None:
@@ -67,8 +67,8 @@ def publish(reports: Reports, text: str, **how: Plain) -> None:
     )
 
 
-def test_pace_is_that_of_what_goes_on() -> None:
-    """Rate, jitter and longest gap of recent messages are computed; a topic that stopped has none."""
+def test_rate_of_recent_messages() -> None:
+    """Rate, jitter and longest gap are computed for recent messages; after a long silence there are none."""
     statistics = RateStatistics()
     assert statistics.figures(0.0) == {}
     for at in (0.0, 0.1, 0.2, 0.4):
@@ -80,8 +80,8 @@ def test_pace_is_that_of_what_goes_on() -> None:
     assert statistics.figures(5.0) == {}
 
 
-def test_pace_holds_for_rare_and_for_frequent_events() -> None:
-    """One message in ten seconds has a rate; ten thousand per second do not fill the memory."""
+def test_rate_of_rare_and_of_frequent_messages() -> None:
+    """One message per 10 s has a rate; for 10,000 messages per second, only a limited number is stored."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -91,8 +91,8 @@ def test_pace_holds_for_rare_and_for_frequent_events() -> None:
     assert fast.figures(3 * MOST / 10_000)["gaps"] == MOST - 1
 
 
-def test_a_curve_keeps_what_can_be_seen() -> None:
-    """Of each step the first, smallest, largest and last value are kept, for the last 20 s."""
+def test_a_curve_keeps_extreme_values() -> None:
+    """Each step keeps its first, smallest, largest and last value; values older than 20 s are removed."""
     curve = DownsampledSeries()
     for at, value in ((0.01, 5.0), (0.02, 9.0), (0.03, 1.0), (0.04, 4.0), (0.05, 3.0), (STEP * 1.5, 2.0)):
         curve.add(at, value)
@@ -103,8 +103,8 @@ def test_a_curve_keeps_what_can_be_seen() -> None:
     assert curve.points(101.0)[0][0] >= 81.0 - STEP
 
 
-def test_a_curve_counts_what_is_no_number() -> None:
-    """NaN and infinity are left out and counted."""
+def test_a_curve_counts_invalid_numbers() -> None:
+    """NaN and infinity are not stored, but counted."""
     curve = DownsampledSeries()
     for value in (1.0, float("nan"), float("inf")):
         curve.add(0.0, value)
@@ -112,7 +112,7 @@ def test_a_curve_counts_what_is_no_number() -> None:
 
 
 def test_a_timer_ticks_until_it_is_stopped() -> None:
-    """After stop() has returned, no tick follows."""
+    """After stop(), there are no more ticks, and the timer's thread has ended."""
     ticks: list[int] = []
     timer = Timer(1000.0, lambda: ticks.append(1), lambda _: None)
     eventually(lambda: len(ticks) > 20)
@@ -122,8 +122,8 @@ def test_a_timer_ticks_until_it_is_stopped() -> None:
     assert len(ticks) == count
 
 
-def test_a_timer_leaves_out_what_is_long_past() -> None:
-    """After a slow tick, the missed ticks are not made up."""
+def test_a_timer_skips_late_ticks() -> None:
+    """After a very slow tick, the timer skips the late ticks and counts them."""
     held = threading.Event()
     ticks: list[int] = []
 
@@ -138,8 +138,8 @@ def test_a_timer_leaves_out_what_is_long_past() -> None:
     assert timer.skipped >= 100 * 2 * CATCH_UP
 
 
-def test_a_metronome_that_fails_says_so() -> None:
-    """An error ends the clock, and its owner receives the error."""
+def test_a_failing_timer_reports_the_error() -> None:
+    """If a tick raises an error, the timer passes this error to its owner."""
     errors: list[Exception] = []
 
     def tick() -> None:
@@ -149,8 +149,8 @@ def test_a_metronome_that_fails_says_so() -> None:
     assert str(eventually(lambda: errors)[0]) == "no more"
 
 
-def test_a_wire_carries_messages_whole() -> None:
-    """Long and simultaneous messages arrive as they were sent; silence and an end are distinguished."""
+def test_a_channel_transfers_whole_messages() -> None:
+    """Long messages arrive unchanged; a missing message and a closed channel raise different errors."""
     one, other = map(JsonChannel, socket.socketpair())
     long = {"texts": ["x" * 1000] * 300, "nan": None}
     sender = threading.Thread(target=lambda: [one.send(each) for each in (long, {"n": 1})])
@@ -167,7 +167,7 @@ def test_a_wire_carries_messages_whole() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Numeric fields, nested fields and first elements of arrays can be plotted; strings and times cannot."""
+    """Numbers in fields, nested messages and first array elements have paths; strings have none."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -196,12 +196,12 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     ],
 )
 def test_the_first_measurement_of_a_message(name: str, path: str) -> None:
-    """A header counts messages, and limits of a sensor do not change: neither is plotted by default."""
+    """measurement() returns the first number that is not in a header and is not a limit of the sensor."""
     assert measurement(message_type(name)) == path
 
 
 def test_a_whole_number_is_a_measurement_if_the_message_has_no_float() -> None:
-    """Then a header's number still does not count, and a bool counts last."""
+    """Without a float, measurement() selects an integer outside of the header, or else a bool."""
     counted = compile_message("demo/Counted", "std_msgs/Header header\nbool on\nint32 parts\n")
     switched = compile_message("demo/Switched", "std_msgs/Header header\nbool on\n")
     assert (measurement(counted), measurement(switched)) == ("parts", "on")
@@ -210,7 +210,7 @@ def test_a_whole_number_is_a_measurement_if_the_message_has_no_float() -> None:
 
 
 def test_a_number_is_found_in_the_bytes() -> None:
-    """A missing value is NaN; a path that the type does not have is refused."""
+    """extractor() returns the number, or NaN if it is missing; an unknown path raises ValueError."""
     kind = message_type("sensor_msgs/JointState")
     buffer = BytesIO()
     kind.to_message({**kind.default(), "position": [1.5, -2.5]}).serialize(buffer)
@@ -221,8 +221,8 @@ def test_a_number_is_found_in_the_bytes() -> None:
         extractor(kind, "effort")
 
 
-def test_who_is_on_a_topic_and_of_which_type(master: PrivateMaster) -> None:
-    """Each node is asked for its type, because the master stores one type only."""
+def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
+    """The result contains the type of each node; the master itself stores only one type."""
     with Kernel() as one, Kernel() as other:
         one.run("""
             from course_pkg.ros import join
@@ -240,8 +240,8 @@ def test_who_is_on_a_topic_and_of_which_type(master: PrivateMaster) -> None:
     assert found["subscribers"] == [{"node": "/listener", "type": "std_msgs/Float64"}]
 
 
-def test_a_first_message_is_lost_and_a_second_reportd(reports: Reports) -> None:
-    """A message that is published before the connection is counted as lost; the next one is received."""
+def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
+    """A message before the connection counts as unheard; the next message is received and reported."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -258,15 +258,15 @@ def test_a_first_message_is_lost_and_a_second_reportd(reports: Reports) -> None:
 
 
 def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
-    """The first message reaches a subscriber that connects after it."""
+    """With latch, a subscriber that connects later receives the first message."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "7", latch=True)
     assert eventually(lambda: reports.messages)[0]["texts"] == {"data": "7.0"}
     assert (reports.published("unheard"), reports.published("reached")) == (1, 0)
 
 
-def test_a_publisher_ends_when_it_is_withdrawn_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """Another queue size creates a new publisher with new counts; withdrawing unregisters it."""
+def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
+    """Another queue size creates a new publisher with new counts; `withdraw` unregisters it."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
@@ -278,8 +278,8 @@ def test_a_publisher_ends_when_it_is_withdrawn_or_changed(reports: Reports, mast
     assert not find_connections(MasterClient(master.uri), "/speed")["publishers"]
 
 
-def test_a_rate_goes_on_until_it_is_stopped(reports: Reports) -> None:
-    """Messages are published repeatedly, plotted, and end with the command stop."""
+def test_repeated_messages_until_stop(reports: Reports) -> None:
+    """After the command `repeat`, messages are published and plotted until the command `stop`."""
     reports.process.tell("type", **NUMBER)
     reports.process.tell("plot", path="data")
     reports.process.tell("repeat", texts={"data": "4"}, latch=False, queue=10, rate=50.0)
@@ -293,10 +293,10 @@ def test_a_rate_goes_on_until_it_is_stopped(reports: Reports) -> None:
     eventually(lambda: reports.published("published") == published + 1)
 
 
-def test_what_cannot_be_done_is_a_problem_and_no_end(reports: Reports) -> None:
-    """A missing type, a wrong value and an unknown path are errors, and the process continues."""
+def test_an_invalid_command_is_reported_and_the_process_continues(reports: Reports) -> None:
+    """A missing type, a wrong value and an unknown path are reported, and the process continues."""
     publish(reports, "1")
-    assert "type of the topic is not known" in eventually(lambda: reports.published("problem"))
+    assert "the topic has no type yet" in eventually(lambda: reports.published("problem"))
     reports.process.tell("type", **NUMBER)
     publish(reports, "fast")
     eventually(lambda: "'fast' is not a number" in reports.published("problem"))
@@ -307,8 +307,8 @@ def test_what_cannot_be_done_is_a_problem_and_no_end(reports: Reports) -> None:
     assert eventually(lambda: reports.published("problem") == "")
 
 
-def test_messages_of_another_type_are_reportd_but_not_read(reports: Reports, kernel: Kernel) -> None:
-    """It reports messages of each type with the type, and the values of those of its own type."""
+def test_messages_of_another_type_are_reported_without_values(reports: Reports, kernel: Kernel) -> None:
+    """A message of another type is reported with its type, but without values."""
     reports.process.tell("type", **NUMBER)
     kernel.run("""
         from course_pkg.ros import join
@@ -324,7 +324,7 @@ def test_messages_of_another_type_are_reportd_but_not_read(reports: Reports, ker
 
 
 def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
-    """A type that is not built is sent as text."""
+    """The process can use a type that is not built, because it receives the type's text."""
     kind = compile_message("demo/Spot", "float64 x\nstring what\n")
     reports.process.tell("type", name=kind.name, text=kind.text)
     texts = {"x": "1", "what": "a"}
@@ -332,8 +332,8 @@ def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
     assert eventually(lambda: reports.messages)[0]["texts"] == {"x": "1.0", "what": "a"}
 
 
-def test_it_leaves_nothing_behind(reports: Reports, master: PrivateMaster) -> None:
-    """After end() its process and all its registrations are gone."""
+def test_end_removes_the_process_and_its_registrations(reports: Reports, master: PrivateMaster) -> None:
+    """After end(), the process has ended and has no registrations."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
@@ -343,16 +343,16 @@ def test_it_leaves_nothing_behind(reports: Reports, master: PrivateMaster) -> No
     assert reports.lost == ""
 
 
-def test_one_that_dies_is_said_to_have_ended(reports: Reports, master: PrivateMaster) -> None:
-    """If the process dies, its owner gets a message, and the master does not list it any more."""
+def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -> None:
+    """If the process is killed, its owner gets an error message and unregisters the node."""
     os.kill(reports.process.pid, signal.SIGKILL)
     assert "The panel's node has ended." in eventually(lambda: reports.lost)
     assert look(master.uri).nodes == ()
     publish(reports, "1")
 
 
-def test_one_that_is_stopped_ends_all_the_same(reports: Reports, master: PrivateMaster) -> None:
-    """A stopped process is killed, and its owner unregisters it; a command to it does not block."""
+def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
+    """end() kills a stopped process and unregisters its node; commands to the process do not block."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):
@@ -361,8 +361,8 @@ def test_one_that_is_stopped_ends_all_the_same(reports: Reports, master: Private
         assert look(master.uri).nodes == ()
 
 
-def test_messages_are_read_before_a_type_is_told(reports: Reports, kernel: Kernel) -> None:
-    """Until the type of the topic is set, the publisher's type is used."""
+def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel) -> None:
+    """Before the command `type`, the process reads messages with the publisher's type."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -373,7 +373,7 @@ def test_messages_are_read_before_a_type_is_told(reports: Reports, kernel: Kerne
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """After SIGKILL of its owner, nothing of the process stays on the graph."""
+    """After SIGKILL of its owner, the process ends and has no registrations."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []
@@ -388,8 +388,8 @@ def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
     eventually(lambda: not look(master.uri).nodes)
 
 
-def test_it_waits_for_a_master_and_comes_back_to_one(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Without a master it reports the reason; on a restarted master it registers again."""
+def test_it_waits_for_a_master_and_registers_again(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Without a master, the process reports the reason; at a restarted master, it registers again."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

@@ -1,4 +1,4 @@
-"""Nodes report what they have sent, without a subscriber; servers report their callers."""
+"""Nodes report how many messages they have sent, and servers report their callers."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ for _ in range(3):
 
 @pytest.fixture
 def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
-    """Run a kernel that publishes and one that subscribes, connected."""
+    """Run a kernel that publishes and a kernel that subscribes, and wait until they are connected."""
     with Kernel() as speaker, Kernel() as listener:
         speaker.run(SPEAK)
         listener.run(HEAR)
@@ -71,14 +71,14 @@ def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
 
 
 def counted(wanted: Callable[[Traffic], bool]) -> int | None:
-    """Return the number of messages of the wanted connection; None if there is none."""
+    """Return the number of messages of the wanted connection, or None if there is no such connection."""
     found = [each.messages for each in ActivityPoller().poll(look()).traffic if wanted(each)]
     assert len(found) <= 1
     return found[0] if found else None
 
 
 def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None:
-    """A connection has both ends and its number of messages; reading it adds no subscriber."""
+    """A poll returns both ends of a connection and its number of messages, without a new subscriber."""
     speaker, _ = pair
     before = [topic for topic in look().topics if topic.name == "/words"]
     speaker.run("for number in range(3): speaker.publish(str(number))")
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """A node is silent if XML-RPC cannot encode its count of bytes; the others are read."""
+    """If XML-RPC cannot encode a node's count of bytes, the poll lists this node as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """A node that does not answer is listed as silent; the others are read."""
+    """The poll lists a node that does not answer as silent."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):
@@ -117,7 +117,7 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """Roscpp answers in another format, which is read as well; it does not report callers of services."""
+    """The counts of a C++ node are read, although its format differs; it reports no callers of services."""
     try:
         process = NodeProcess.rosrun("rosout", "rosout")
     except UnknownExecutable:
@@ -136,8 +136,8 @@ def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
         assert "/rosout/get_loggers" not in seen.callers
 
 
-def test_who_called_is_told_by_the_server(kernel: Kernel) -> None:
-    """A service of the course's nodes lists its callers, the latest first, with number and time."""
+def test_the_server_reports_its_callers(kernel: Kernel) -> None:
+    """A node of the course reports the callers of its services, with the number of calls and the time."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry", timeout=20)
         assert ActivityPoller().poll(look()).callers["/getGeometry"] == ()
@@ -152,7 +152,7 @@ def test_who_called_is_told_by_the_server(kernel: Kernel) -> None:
 
 
 def test_an_empty_graph() -> None:
-    """Without any node there is no error."""
+    """A poll of a graph without nodes returns empty results."""
     with PrivateMaster() as alone:
         seen = ActivityPoller().poll(look(alone.uri))
     assert (seen.traffic, seen.silent, dict(seen.callers)) == ((), frozenset(), {})
@@ -168,8 +168,8 @@ def test_an_empty_graph() -> None:
         "nonsense",
     ],
 )
-def test_a_stranger_s_answer_does_no_harm(answer: object) -> None:
-    """A node of another library may use another format: what cannot be read is not counted."""
+def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
+    """If a node of another library uses another format, the parts that cannot be read are not counted."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
@@ -193,8 +193,8 @@ def ask(master: PrivateMaster, *nodes: str) -> Callers:
     return {name: callers for probe in probes for name, callers in answered_callers(probe).items()}
 
 
-def test_who_called(kernel: Kernel, master: PrivateMaster) -> None:
-    """A service lists its callers with number and time; one without calls has none."""
+def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
+    """A service reports its callers with number of calls and time; without calls, the list is empty."""
     kernel.run(SERVE)
     before = time.time()
     with Kernel() as asker:
@@ -205,8 +205,8 @@ def test_who_called(kernel: Kernel, master: PrivateMaster) -> None:
     assert ask(master, "/server")["/raw"] == ()
 
 
-def test_who_is_waiting(kernel: Kernel, master: PrivateMaster) -> None:
-    """While a handler works, its caller counts as waiting; when it has ended, it does not."""
+def test_waiting_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
+    """A caller counts as waiting while the handler is running, and no longer after its end."""
     kernel.run(SERVE)
     with Kernel() as asker:
         asker.run(ASK)
@@ -218,8 +218,8 @@ def test_who_is_waiting(kernel: Kernel, master: PrivateMaster) -> None:
         assert eventually(lambda: ask(master, "/server")["/raw"][0].running == 0)
 
 
-def test_who_does_not_count(kernel: Kernel, master: PrivateMaster) -> None:
-    """Services of a node that does not count, or does not answer, are missing, and nothing hangs."""
+def test_a_node_that_does_not_count_callers(kernel: Kernel, master: PrivateMaster) -> None:
+    """A node that does not count its callers, or does not answer, is missing; the request still ends."""
     kernel.run(SERVE)
     with stopped(kernel.pid):
         began = time.monotonic()
@@ -230,8 +230,8 @@ def test_who_does_not_count(kernel: Kernel, master: PrivateMaster) -> None:
         assert ask(master, "/plain") == {}
 
 
-def test_topics_are_told_as_ever(kernel: Kernel) -> None:
-    """For topics getBusStats returns rospy's values, and a wrong request is refused as before."""
+def test_statistics_of_topics_are_unchanged(kernel: Kernel) -> None:
+    """The method getBusStats still returns rospy's values for topics, and refuses invalid requests."""
     stats, refused = kernel.run(
         SERVE
         + """
@@ -251,7 +251,7 @@ result = proxy.getBusStats("/test"), proxy.getBusStats("/test", "too much")[0]
 @pytest.mark.parametrize(
     "answer", [b"", b"HTTP/1.0 200 OK\r\n\r\n<methodResponse>", b"nonsense</methodResponse>"]
 )
-def test_an_answer_that_is_none(answer: bytes) -> None:
+def test_an_invalid_answer(answer: bytes) -> None:
     """An answer that is not XML-RPC counts as no answer."""
     probe = callers_probe("http://localhost:1/")
     probe.answer, probe.reach = answer, Reach.ANSWERED

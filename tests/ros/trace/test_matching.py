@@ -1,4 +1,4 @@
-"""Spans are matched by connection and number; spans with more than one possibility are not matched."""
+"""Spans are matched by connection and number; a span with more than one possible match stays unmatched."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def span(
     note: str = "",
     thread: tuple[str, int] = ("MainThread", 1),
 ) -> SpanData:
-    """Return a span as a process records it."""
+    """Return a span in the form in which a process records it."""
     return {
         "kind": kind,
         "name": name,
@@ -46,12 +46,12 @@ def events(*records: list[SpanData], start: float = 0.0, end: float = 100.0) -> 
 
 
 def keys(found: tuple[Event, ...]) -> list[tuple[str, str]]:
-    """Return kind and key of each."""
+    """Return kind and key of each event."""
     return [(event.kind, event.key) for event in found]
 
 
 def call(number: int, start: float, end: float) -> list[SpanData]:
-    """Return the caller's side of a call."""
+    """Return the caller's spans of a call."""
     return [
         span("request", start, start + 0.1, call=number),
         span("wait", start + 0.1, end, call=number),
@@ -59,8 +59,8 @@ def call(number: int, start: float, end: float) -> list[SpanData]:
     ]
 
 
-def test_same_wire_same_call() -> None:
-    """A handler belongs to the call whose request came over the same connection with the same number."""
+def test_same_connection_and_number_is_the_same_call() -> None:
+    """A handler is matched with the call that has the same connection and the same number."""
     assert keys(events(call(1, 1, 3), [span("handler", 2, 2.5)])) == [
         ("request", "call 1"),
         ("wait", "call 1"),
@@ -70,24 +70,24 @@ def test_same_wire_same_call() -> None:
 
 
 def test_another_number_is_another_call() -> None:
-    """The next request over the same connection is not taken for this one."""
+    """A handler with another number on the same connection belongs to another call."""
     found = events(call(1, 1, 3), [span("handler", 2, 2.5, transfers=[(TRANSFER[0], 2, "/n0")])])
     assert ("handler", "call 2") in keys(found)
 
 
 def test_another_service_on_the_same_ports() -> None:
-    """A handler of another service is not matched, even with the same ports."""
+    """A handler of another service is not matched, even if the ports are the same."""
     assert ("handler", "call 2") in keys(events(call(1, 1, 3), [span("handler", 2, 2.5, name="/y")]))
 
 
 def test_a_port_that_was_used_again() -> None:
-    """Two calls or two handlers with the same ports cannot be distinguished, so nothing is matched."""
+    """If two calls have the same ports and numbers, their handlers are not matched."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
 
 
-def test_times_that_contradict() -> None:
+def test_contradictory_times() -> None:
     """A handler that began before the request, or after the response, is not matched."""
     for start in (0.5, 4.0):
         found = dict(keys(events(call(1, 1, 3), [span("handler", start, start + 0.1)])))
@@ -95,14 +95,14 @@ def test_times_that_contradict() -> None:
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """Each process numbers its own calls, even if both had the same node name one after the other."""
+    """Calls with the same number in two processes are different calls, even with the same node name."""
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]
 
 
 def test_one_message_many_callbacks() -> None:
-    """All callbacks of a message belong to it, on each connection."""
+    """All callbacks of a message, on all connections, are matched with the message."""
     wires = [TRANSFER, ["127.0.0.1:40001>50000", 9, "/n2"]]
     found = events(
         [span("publish", 1, 1.1, transfers=wires)],
@@ -114,26 +114,26 @@ def test_one_message_many_callbacks() -> None:
 
 
 def test_a_callback_of_an_unknown_message() -> None:
-    """A callback is not matched if its message is not recorded, or was published after it."""
+    """A callback is not matched if its message was not recorded, or was published after the callback."""
     assert keys(events([span("callback", 2, 3, transfers=[])])) == [("callback", "message 1")]
     assert len({event.key for event in events([span("publish", 5, 6)], [span("callback", 2, 3)])}) == 2
 
 
-def test_the_window() -> None:
-    """Events before and after the recording are left out; an event that continues has no end."""
+def test_events_outside_of_the_recording() -> None:
+    """Events before and after the recording are omitted; an event that ends after it has no end."""
     spans = [span("publish", 1, 2), span("publish", 4, 6), span("publish", 8, 12), span("publish", 11, 12)]
     found = events(spans, start=5, end=10)
     assert [(event.start, event.end) for event in found] == [(-1, 1), (3, None)]
 
 
 def test_threads_of_one_name() -> None:
-    """Two threads with the same name in one node are distinguished."""
+    """If two threads of a node have the same name, the second one gets a number."""
     spans = [span("callback", start, start + 1, transfers=[], thread=["/x", start]) for start in (1, 2)]
     assert [event.thread for event in events(spans)] == ["/x", "/x (2)"]
 
 
 def test_a_message_that_was_dropped() -> None:
-    """A message that was sent to fewer connections than existed is marked, if the sending is over."""
+    """If a message was sent to only some connections, its note says so after publish() has ended."""
     (lost,) = events([span("publish", 1, 2, connections=2)])
     assert "sent to 1 of 2" in lost.note
     (going,) = events([span("publish", 1, None, connections=2)])

@@ -1,4 +1,4 @@
-"""A process records the last ended spans, all running ones, and the callers of its services."""
+"""A process records its last ended spans, all running spans, and the callers of its services."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from course_pkg.ros.trace.hooks import Hook
 from course_pkg.ros.trace.recorder import CALLERS, LONGEST, CallCounter, Recorder
 
 
-def test_the_ring_is_bounded() -> None:
-    """The recorder keeps the last ended spans and all running ones, and reports since when it is complete."""
+def test_the_number_of_stored_spans_is_bounded() -> None:
+    """The recorder keeps the last ended spans and all running spans; `complete_from` is correct."""
     recorder = Recorder(size=3)
     lasting = recorder.begin("handler", "/x", "/caller", [])
     spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]
@@ -21,15 +21,15 @@ def test_the_ring_is_bounded() -> None:
     assert lasting.end is None
 
 
-def test_a_small_ring_that_is_not_full_is_complete() -> None:
-    """Before the ring is full, the record is complete from the beginning."""
+def test_a_memory_that_is_not_full_is_complete() -> None:
+    """Before the recorder's memory is full, the record is complete from the beginning."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
 
 
 def test_an_end_counts_once() -> None:
-    """A second end changes neither the time nor the note."""
+    """A second end() does not change the note of a span."""
     recorder = Recorder()
     span = recorder.begin("handler", "/x", "/caller", [])
     recorder.end(span, "the first")
@@ -39,7 +39,7 @@ def test_an_end_counts_once() -> None:
 
 
 def test_long_error_messages_are_cut() -> None:
-    """The error messages of handlers and callers are kept up to a length."""
+    """Long error messages of handlers and callers are cut."""
     recorder = Recorder()
     recorder.end(recorder.begin("handler", "/x", "/caller", []), "x" * 10_000)
     call = recorder.begin_call("/x")
@@ -49,7 +49,7 @@ def test_long_error_messages_are_cut() -> None:
 
 
 def test_reading_while_others_write() -> None:
-    """A record is complete even if other threads write at the same time."""
+    """since() works while other threads write, and returns all stored spans."""
     recorder = Recorder(size=1000)
     stop = threading.Event()
 
@@ -69,7 +69,7 @@ def test_reading_while_others_write() -> None:
 
 
 def test_calls_are_counted_by_caller() -> None:
-    """Calls are counted by service and caller, the latest caller first, with those that are running."""
+    """Calls and running calls are counted by service and caller, and the latest caller is first."""
     counter = CallCounter()
     for caller in ("/a", "/b", "/a"):
         counter.begin("/x", caller)
@@ -82,7 +82,7 @@ def test_calls_are_counted_by_caller() -> None:
 
 
 def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
-    """The counter keeps a limited number of callers, and always those that still wait."""
+    """The counter keeps a limited number of callers, but always the callers that are waiting."""
     counter = CallCounter()
     counter.begin("/x", "/waiting")
     for number in range(CALLERS + 10):
@@ -100,8 +100,8 @@ class _Owner:
         return one
 
 
-def test_a_hook_fits_what_it_expects() -> None:
-    """A method with other parameters, with other globals, or no method at all is refused."""
+def test_a_hook_fits_only_the_expected_method() -> None:
+    """A hook does not fit a method with other parameters or other globals, or a missing method."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()

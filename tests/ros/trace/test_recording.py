@@ -1,4 +1,4 @@
-"""A recording contains both ends of each connection, matched."""
+"""A recording contains the events at both ends of each connection, and matches them."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def recorded(asker: Kernel, cell: str) -> Recording:
 
 
 def kinds(recording: Recording, key: str) -> list[str]:
-    """Return the kinds of the events with this key, in the order of their beginning."""
+    """Return the kinds of the events with this key, sorted by their start."""
     return [event.kind for event in recording.parts(key)]
 
 
@@ -73,7 +73,7 @@ def plain_node(master: PrivateMaster) -> Iterator[None]:
     "how", ["node.call('/getGeometry', geometry", "rospy.ServiceProxy('/getGeometry', geometry)("]
 )
 def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
-    """A call of either kind has five parts of the caller, and the handler runs during the wait."""
+    """A call has five parts of the caller, and the handler runs between the request and the response."""
     opening = how if how.endswith("(") else f"{how}, "
     recording = recorded(
         asker,
@@ -104,8 +104,8 @@ def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
     assert len(recording.events) == 6
 
 
-def test_a_kept_connection_is_looked_up_once(asker: Kernel) -> None:
-    """Over a persistent connection each call has its own handler, and only the first one connects."""
+def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
+    """On a persistent connection, only the first call has a lookup; each call has its own handler."""
     recording = recorded(
         asker,
         """
@@ -124,8 +124,8 @@ def test_a_kept_connection_is_looked_up_once(asker: Kernel) -> None:
     assert len(recording.of("handler")) == 3
 
 
-def test_a_refusal_is_an_answer(asker: Kernel) -> None:
-    """If the server refuses, the error names the server, and the handler has the error message, too."""
+def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
+    """If the server refuses, the error event and the handler event both contain the error message."""
     recording = recorded(
         asker,
         """
@@ -143,14 +143,14 @@ def test_a_refusal_is_an_answer(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """A call of a service that does not exist has a lookup, and an error without a peer."""
+    """A call of an unknown service has only a lookup and an error without a peer."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
 
 
 def test_a_caller_that_gave_up(asker: Kernel) -> None:
-    """At a timeout the wait ends with an error of the caller, and the handler continues."""
+    """After a timeout, the caller's wait ends with an error, and the handler has no end."""
     recording = recorded(
         asker,
         """
@@ -169,8 +169,8 @@ def test_a_caller_that_gave_up(asker: Kernel) -> None:
     assert handler.key == wait.key == error.key
 
 
-def test_what_is_under_way_is_open(asker: Kernel) -> None:
-    """A blocked caller and a working handler have no end; what began before has a negative start."""
+def test_unfinished_events_are_open(asker: Kernel) -> None:
+    """A waiting caller and a running handler have no end; an event before the block has a negative start."""
     recording = recorded(
         asker,
         """
@@ -194,8 +194,8 @@ def test_what_is_under_way_is_open(asker: Kernel) -> None:
     assert wait.thread != recording.of("wait", name="/asker/get_loggers")[0].thread
 
 
-def test_a_client_that_ends_meanwhile(asker: Kernel) -> None:
-    """A client in another process hands its record over when it ends, and no parameter remains."""
+def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
+    """A client in another process sends its record when it ends, and no parameter remains at the master."""
     recording = recorded(
         asker,
         """
@@ -215,8 +215,8 @@ def test_a_client_that_ends_meanwhile(asker: Kernel) -> None:
     assert asker.run("result = [*left]") == []
 
 
-def test_a_kernel_that_leaves_meanwhile(asker: Kernel) -> None:
-    """Another notebook's node that leaves the graph hands its record over, too."""
+def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
+    """A node of another notebook sends its record when it leaves the graph."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -232,7 +232,7 @@ def test_a_kernel_that_leaves_meanwhile(asker: Kernel) -> None:
 
 
 def test_a_server_that_died(asker: Kernel) -> None:
-    """A node that crashes is named as one without a record; the caller's side is there."""
+    """A node that crashes is listed as unrecorded, but the caller's events are recorded."""
     recording = recorded(
         asker,
         """
@@ -242,12 +242,13 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    assert [*recording.unrecorded] == ["/dying_server"]  # its sockets close one by one, so the reason differs
+    # The reason is not checked, because it depends on which socket closes first.
+    assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A node that does not answer delays the recording by at most a second."""
+    """A stopped node delays the recording only a little, and is listed as unrecorded."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -264,8 +265,8 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
     assert "stopped, or busy" in unrecorded["/pulse"]
 
 
-def test_a_node_of_others(asker: Kernel, master: PrivateMaster) -> None:
-    """A node without prepare_node() can be called, has no record, and is listed as not recorded."""
+def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
+    """A node without prepare_node() is listed as unrecorded; the caller's events are recorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]
@@ -274,7 +275,7 @@ def test_a_node_of_others(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_messages_and_their_callbacks(asker: Kernel) -> None:
-    """Each callback belongs to the message that it got, at each subscriber."""
+    """Each callback of each subscriber is matched with the message that it received."""
     recording = recorded(
         asker,
         """
@@ -321,14 +322,14 @@ result = [(sent.get(key), value) for key, value in by_key(recording, "callback",
 
 @pytest.mark.parametrize(("outgoing", "incoming"), [(3, None), (200, 1), (2, 2)])
 def test_dropped_messages_are_not_matched(asker: Kernel, outgoing: int, incoming: int | None) -> None:
-    """A callback is matched with its message, even if queues drop other messages."""
+    """Each callback is matched with the right message, even if queues drop other messages."""
     pairs: list[tuple[int | None, int]] = asker.run(FLOOD.format(outgoing=outgoing, incoming=incoming))
     assert 0 < len(pairs) < 150
     assert [sent for sent, _ in pairs] == [received for _, received in pairs]
 
 
 def test_a_message_without_a_subscriber(asker: Kernel) -> None:
-    """The note of a message without a subscriber mentions this."""
+    """The note of a message says that no subscriber was connected."""
     recording = recorded(
         asker,
         """
@@ -341,7 +342,7 @@ def test_a_message_without_a_subscriber(asker: Kernel) -> None:
 
 
 def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
-    """A latched message is sent again to a new subscriber, and the callback is matched with it."""
+    """A new subscriber receives the latched message, and its callback is matched with this message."""
     recording = recorded(
         asker,
         """
@@ -357,7 +358,7 @@ def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
 
 
 def test_a_call_from_a_callback(asker: Kernel) -> None:
-    """A call within a callback is on the callback's thread, inside the callback."""
+    """A call in a callback is recorded on the callback's thread, between its start and its end."""
     recording = recorded(
         asker,
         """
@@ -369,7 +370,7 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
         with node.record() as recording:
             publisher.publish(1)
             publisher.publish(2)
-            while len(served.calls) < 2:  # the first callback is over then
+            while len(served.calls) < 2:  # at the second call, the first callback has ended
                 time.sleep(0.01)
     """,
     )
@@ -381,7 +382,7 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
 
 
 def test_without_a_master() -> None:
-    """Without a master, the kernel's own events are recorded, and a note says what is unknown."""
+    """Without a master, only the kernel's own events are recorded, and a note gives the reason."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(START)
         kernel.run("""
@@ -396,7 +397,7 @@ def test_without_a_master() -> None:
 
 
 def test_an_error_in_the_block(asker: Kernel) -> None:
-    """An error leaves the block, and the recording contains the events up to then."""
+    """If the block raises an error, the recording contains the events before the error."""
     reply = asker.ask("""
         with node.record() as recording:
             called("/nope", Trigger)
@@ -406,8 +407,8 @@ def test_an_error_in_the_block(asker: Kernel) -> None:
     assert asker.run("result = [event.kind for event in recording.events]") == ["lookup", "error"]
 
 
-def test_a_rospy_that_is_built_otherwise(kernel: Kernel) -> None:
-    """A rospy whose methods have other parameters is not changed, and the recording reports it."""
+def test_a_rospy_with_other_methods(kernel: Kernel) -> None:
+    """If a method of rospy has other parameters, it is not replaced, and the recording says so."""
     assert kernel.run("""
         from rospy.impl.tcpros_service import ServiceImpl
         bare = ServiceImpl._handle_request
@@ -425,6 +426,6 @@ def test_a_rospy_that_is_built_otherwise(kernel: Kernel) -> None:
     """) == [
         "here",
         True,
-        ["/other does not record service calls: this rospy makes and answers them otherwise."],
+        ["/other does not record service calls: this rospy makes and answers them in another way."],
         [],
     ]
