@@ -16,11 +16,11 @@ from typing import IO, Any
 from course_pkg.files import write_atomically
 from course_pkg.waiting import wait_until
 
-LOCK = 5.0  # time limit in s for a lock; each program that has the lock writes one small file
+LOCK = 5.0  # s; the time limit for a lock, which is enough because each program writes only one small file
 
 
 def state_folder() -> Path:
-    """Return the folder of this checkout's state: COURSE_STATE, or a folder in the user's state home."""
+    """Return the folder of this checkout's state: COURSE_STATE, or a folder below XDG_STATE_HOME."""
     if given := os.environ.get("COURSE_STATE"):
         return Path(given)
     home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
-PATIENCE = 30.0  # s for a cell, unless a test says otherwise
+PATIENCE = 30.0  # s; the time limit for a cell, unless a test gives another limit
 
 LOOP = """
 import json, os, sys, time
@@ -37,7 +37,11 @@ for line in sys.stdin:
 
 @dataclass(frozen=True)
 class Reply:
-    """The result of a cell: `value` of its name `result`, or its error's class and message; `took` in s."""
+    """The result of a cell.
+
+    `value` is the value of the cell's variable `result`. If the cell raised an exception, `error` is the name
+    of its class and `words` is its message. `took` is the time in s.
+    """
 
     value: Any
     error: str
@@ -46,7 +50,10 @@ class Reply:
 
 
 class Kernel:
-    """Such a process. A cell that takes too long is killed with the process, and fails the test."""
+    """A Python process that runs cells. If a cell reaches its time limit, the process is killed.
+
+    The test then fails with an AssertionError.
+    """
 
     def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
         reader, writer = os.pipe()
@@ -58,7 +65,7 @@ class Kernel:
             stderr=subprocess.STDOUT,
             pass_fds=[writer],
             env={name: value for name, value in environment.items() if value is not None},
-            start_new_session=True,  # as Jupyter starts one
+            start_new_session=True,  # as Jupyter starts a kernel
             text=True,
         )
         os.close(writer)
@@ -74,7 +81,7 @@ class Kernel:
         self.exit()
 
     def ask(self, cell: str, patience: float = PATIENCE) -> Reply:
-        """Run a cell and return its result, which may be an error."""
+        """Run a cell, and return its result, which may be an error. `patience` is the time limit in s."""
         self.begin(cell)
         return self.reply(patience)
 
@@ -100,11 +107,11 @@ class Kernel:
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the running cell as Jupyter does: its whole process group."""
+        """Interrupt the running cell with a signal to its whole process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, patience: float = 10.0) -> str:
-        """End the process, kill it if necessary, and return all that it printed."""
+        """End the process, and return all text that it printed; kill it after `patience` s."""
         try:
             printed, _ = self._process.communicate(timeout=patience)
         except subprocess.TimeoutExpired:
@@ -122,7 +129,7 @@ class Kernel:
             line = self._replies.readline()
         finally:
             guard.cancel()
-        assert line, f"the cell did not end within {patience:g} s, or its process did"
+        assert line, f"the cell did not end within {patience:g} s, or its process ended before the cell"
         return line
 
     @property

@@ -1,4 +1,4 @@
-"""Limits that grow with the load of the machine."""
+"""Time limits that grow with the load of the machine."""
 
 from __future__ import annotations
 
