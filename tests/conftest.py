@@ -71,7 +71,7 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
 
 @pytest.fixture
 def kernel(master: PrivateMaster) -> Iterator[Kernel]:
-    """Start a process that runs cells, a new one for each test, because rospy starts only once in a process."""
+    """Start a process that runs cells. Each test gets a new one, because rospy starts only once in each."""
     with Kernel() as fresh:
         yield fresh
 
