@@ -126,9 +126,9 @@ class World:
         self.spawn(HOME, HOME, 0.0)
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Add a turtle, and return it. Without `name`, it gets the next free name of turtle1, turtle2, …
+        """Add a turtle, and return it. Raises NameTaken if a turtle with this name exists.
 
-        Raises NameTaken if a turtle with this name exists.
+        Without `name`, the turtle gets the next free name of turtle1, turtle2, and so on.
         """
         return self.add(self.make(x, y, theta, name))
 
