@@ -36,7 +36,7 @@ COMMANDS: dict[str, Command] = {
 
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:
-    """Set up what the command needs, run it, and exit with its status."""
+    """Set up the environment for a command, run the command, and exit with its status."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
         sys.exit(_dispatch(arguments))

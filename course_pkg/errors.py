@@ -139,11 +139,11 @@ class NotJoined(GraphError):
 
 
 class NotAServiceType(GraphError, TypeError):
-    """The argument should be a service type."""
+    """The argument must be a service type, but is not."""
 
 
 class NotAMessageType(GraphError, TypeError):
-    """The argument should be a message type."""
+    """The argument must be a message type, but is not."""
 
 
 class CallError(GraphError):
@@ -175,7 +175,7 @@ class UnknownExecutable(GraphError):
 
 
 class NodeFailed(GraphError):
-    """The process of a node ended; `output` is the end of its output, `returncode` its exit status."""
+    """The process of a node ended. `output` is the end of its output, and `returncode` its exit status."""
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
         super().__init__(message)
@@ -248,7 +248,7 @@ class NoServiceSelected(PanelError):
 
 
 class CallInProgress(PanelError):
-    """The panel is making a call; it makes one call at a time."""
+    """The panel is already making a call. It makes only one call at a time."""
 
 
 class DrawingFailed(PanelError):

@@ -1,4 +1,4 @@
-"""The folder for a student's work and results: one folder per checkout, outside the checkout."""
+"""The folder for a student's results and own packages. Each checkout has one, outside the checkout."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
     """Hold the lock of `folder` during the block, so that two kernels do not use it at the same time.
 
-    Creates the folder. Raises OSError if that fails, or if another process holds the lock for `timeout` s.
+    Creates the folder. Raises OSError if this fails, or if another process holds the lock for `timeout` s.
     On a file system without locks, the block runs without a lock.
     """
     folder.mkdir(parents=True, exist_ok=True)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Value = TypeVar("Value")
-INTERVAL = 0.01  # s between two evaluations of a condition that takes little time
+INTERVAL = 0.01  # s between two evaluations of a condition
 MOST = 4.0  # the largest factor for a limit on a busy machine
 
 
@@ -25,7 +25,7 @@ class Deadline:
 
     @property
     def left(self) -> float:
-        """The seconds that are left, at least 0; infinity for a deadline that never passes."""
+        """The seconds that are left, at least 0, or infinity if the deadline never passes."""
         return max(self._end - time.monotonic(), 0.0)
 
     @property
@@ -47,9 +47,9 @@ def wait_until(
 ) -> Value:
     """Return the first true value of `condition`, or its last value when `timeout` s have passed.
 
-    The condition is evaluated immediately, then every `interval` s, and once again after the deadline. So
-    even a thread that could not run for a long time gets the present value. If `stopped` is set, the wait
-    ends early.
+    The condition is evaluated immediately, then every `interval` s, and once more after the deadline.
+    Therefore even a thread that could not run for a long time returns the present value. If the event
+    `stopped` is set, the wait ends early.
     """
     deadline = Deadline(timeout)
     while True:

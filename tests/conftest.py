@@ -78,7 +78,7 @@ def kernel(master: PrivateMaster) -> Iterator[Kernel]:
 
 @pytest.fixture(scope="module")
 def server(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run the course's geometry server on the master."""
+    """Run the course's geometry server for the tests of one module."""
     assert master.uri
     server = NodeProcess.rosrun("course_pkg", "server")
     server.wait_for_service("/getGeometry", timeout=20)

@@ -103,7 +103,7 @@ class Kernel:
         return Reply(**json.loads(self._line(patience)))
 
     def kill(self) -> None:
-        """Kill the process, as the system does when memory runs out."""
+        """Kill the process by SIGKILL, as the operating system does if there is no free memory."""
         self._process.kill()
 
     def interrupt(self) -> None:

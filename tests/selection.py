@@ -56,7 +56,7 @@ class Selection:
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed before, with another digest (never on a fresh clone)."""
+        """Return whether the group of `item` passed before with another digest; false in a new clone."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
@@ -128,7 +128,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def group_of(test: str) -> str:
-    """Return the group of a test's id: its file, and its chapter if its parameter names one."""
+    """Return the group of the test with the id `test`: its file, and the chapter in its parameter."""
     found = CHAPTER.search(test)
     return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
 

@@ -29,7 +29,7 @@ class CellMetadata(TypedDict, total=False):
 
 
 class Output(TypedDict, total=False):
-    """An output of a code cell (nbformat 4); which keys it has depends on `output_type`."""
+    """An output of a code cell (nbformat 4). Its keys depend on `output_type`."""
 
     output_type: str  # "stream", "execute_result", "display_data", "error"
     name: str

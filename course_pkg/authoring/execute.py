@@ -94,7 +94,7 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return the message about a check that does not accept the solution."""
+    """Return the message about a check that has not passed, with its report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 

@@ -49,7 +49,7 @@ def strip(notebook: Notebook) -> None:
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id that is the same after each run."""
+    """Give each cell a valid and unique id, which is the same after each run."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)

@@ -31,7 +31,7 @@ class Connection(Protocol):
     log: Logger
 
     async def connect(self) -> None:
-        """Begin to pass messages."""
+        """Begin to pass messages between the page and the kernel."""
 
 
 class WebApplication(Protocol):

@@ -71,9 +71,9 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
 
 
 def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
-    """Return the first of `candidates` on which a program can listen at `ip`; 0 means any port.
+    """Return the first port of `candidates` on which a program can listen at `ip`; 0 means any port.
 
-    Raises PortBusy if there is none.
+    Raises PortBusy if no port is free.
     """
     reason, tried = "no port was given", 0
     for tried in candidates:
@@ -89,7 +89,7 @@ def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
 
 
 class _Address(NamedTuple):
-    """The address at which the server listens, as the server itself reports it."""
+    """The address at which the server listens, and its token, from the server's own file."""
 
     url: str
     token: str

@@ -1,4 +1,4 @@
-"""`course run`: runs a command in the environment, with its own master."""
+"""`course run`: runs a command in the course's environment, with a private master."""
 
 from __future__ import annotations
 

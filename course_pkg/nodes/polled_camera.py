@@ -29,7 +29,7 @@ UNCHANGED = 4.0  # s for which the random number of customers stays the same
 
 
 class PolledCamera:
-    """Draws pictures of the shop."""
+    """Handles requests for pictures of the shop, and publishes a stream of pictures."""
 
     def __init__(self) -> None:
         self._watch = Watch()

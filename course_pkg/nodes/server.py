@@ -23,7 +23,7 @@ def main() -> None:
 def measure(request: geometryRequest) -> geometryResponse:
     """Return area = width x length (m²) and volume = area x height (m³).
 
-    Raises ServiceException for a side that is negative or not finite.
+    Raises ServiceException if a side is negative or not finite.
     """
     for side in ("length", "width", "height"):
         value = getattr(request, side)

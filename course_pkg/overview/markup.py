@@ -15,14 +15,14 @@ HEAD = ("Chapter", "Parts", "Passed", "Points", "Predictions")
 
 
 def overview_output(progress: Progress) -> str:
-    """Return all chapters in a table, for the output of a cell."""
+    """Return HTML for the output of a cell: a table of all chapters, and the next steps."""
     return _output(
         [_strong(headline(progress)), chapters_table(progress), steps_html(next_steps(progress))], progress
     )
 
 
 def chapter_output(progress: Progress, steps: Sequence[Step]) -> str:
-    """Return one chapter with its parts in a table, for the output of a cell."""
+    """Return HTML for the output of a cell: a table of one chapter's parts, and the next steps."""
     chapter = progress.chapters[0]
     head = _strong(headline(progress, chapter.number))
     return _output([head, parts_table(chapter), steps_html(steps)], progress)

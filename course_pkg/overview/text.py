@@ -13,7 +13,7 @@ LEGEND = "✓ passed   ✗ checked, not passed yet   · not checked"
 
 
 def headline(progress: Progress, chapter: str = "") -> str:
-    """Return the totals in one line."""
+    """Return one line with the totals of all chapters, or of `chapter`."""
     counted = f"{of(progress.passed)} parts passed, {of(progress.points)} points"
     answered = ((progress.right, "predictions right"), (progress.chosen, "choices right"))
     counted += "".join(f", {of(pair)} {what}" for pair, what in answered if pair[1])
@@ -44,7 +44,7 @@ def chapter_text(progress: Progress, steps: Sequence[Step]) -> str:
 
 
 def of(pair: tuple[int, int]) -> str:
-    """Return a count as text: "3 of 5"."""
+    """Return a pair of numbers as text, such as "3 of 5"."""
     return f"{pair[0]} of {pair[1]}"
 
 

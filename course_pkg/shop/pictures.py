@@ -25,9 +25,9 @@ HEAD, SHOULDERS = 0.14, 0.2  # half the breadth of a figure, as a fraction of th
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture as rgb8: `height` rows of `width` points of three bytes, from the top left.
+    """Return the picture in the encoding rgb8: `height` rows of `width` points, from the top left.
 
-    It shows at most MOST customers.
+    Each point has three bytes. The picture shows at most MOST customers.
     """
     return b"".join(
         _picture_row((row + 0.5) / height, width, height, min(customers, MOST)) for row in range(height)

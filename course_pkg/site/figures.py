@@ -23,7 +23,7 @@ DRAWN = frozenset(
     (*SHAPES, "svg", "g", "defs", "marker", "clipPath", "linearGradient", "radialGradient", "stop")
 )
 SAID = ("title", "desc")  # The description in the Markdown replaces these elements.
-WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the drawing
+WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the same drawing
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
 # The least width of a drawing, as a part of its own width. In a narrower window it gets a scroll bar, because
 # its text would become too small.

@@ -44,14 +44,14 @@ class Page(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """The chapters of a path in their order, and their total time as text."""
+    """The chapters of a learning path in their order, and their total time as text."""
 
     chapters: Sequence[Chapter]
     hours: str
 
 
 class LearningPath(NamedTuple):
-    """A selection of chapters that needs no other chapter; it may offer a choice of how it ends."""
+    """A selection of chapters that needs no other chapter. A path with two possible ends has two choices."""
 
     name: str
     about: str
@@ -87,7 +87,7 @@ class Renderer:
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
-        """Return the whole page."""
+        """Return the HTML of the whole page, with its frame."""
         # The nonce is computed from the whole page, so code in a stored output cannot contain it.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
@@ -101,7 +101,7 @@ def _inline(html: str) -> Markup:
 
 
 def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
-    """Return the page that a reader opens first."""
+    """Return the landing page, which a reader opens first."""
     systems = json.loads((HERE / "systems.json").read_text("utf-8"))
     by_number = {chapter.number: chapter for chapter in chapters}
     for system in systems:

@@ -107,12 +107,12 @@ def mathml(formula: str, display: Literal["inline", "block"]) -> str:
 
 
 def words(html: str) -> str:
-    """Return the text of a piece of HTML."""
+    """Return the text of a piece of HTML, without its tags."""
     return unescape(TAG.sub("", html))
 
 
 def attribute(text: str) -> str:
-    """Return `text` escaped for the quotes of an attribute."""
+    """Return `text` escaped for the value of an HTML attribute in quotes."""
     return escape(text, quote=True)
 
 

@@ -41,7 +41,7 @@ def refuse_like_roscpp() -> None:
 
 
 class _Protocol(TCPService):
-    """The connection header of a roscpp server."""
+    """The protocol of a service, with the connection header of a roscpp server."""
 
     def __init__(self, name: str, kind: ServiceClass) -> None:
         TCPService.__init__(self, name, kind)

@@ -32,7 +32,7 @@ class Simulator:
 
     def __init__(self) -> None:
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
-        self._changes = threading.RLock()  # held while turtles are added or removed
+        self._changes = threading.RLock()  # a thread holds it while it adds or removes turtles
         for name, value in DEFAULTS.items():
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)

@@ -151,7 +151,7 @@ class World:
         return self.turtles.pop(name)
 
     def clear(self, background: Colour) -> None:
-        """Erase all lines."""
+        """Erase all lines, and give the canvas the colour `background`."""
         self.canvas.fill(background)
 
     def reset(self, background: Colour) -> None:

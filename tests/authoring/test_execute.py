@@ -132,7 +132,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """Ctrl-C ends the command and every kernel that it started."""
+    """After Ctrl-C, the command and the kernel that it started end."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

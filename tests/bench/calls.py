@@ -133,7 +133,7 @@ def panel_main() -> int:
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
 DEADLINE = 15.0  # s for one payment; a killed till needs about 1 s to restart
-GRACE = 2.0  # s after the deadline
+GRACE = 2.0  # s after the deadline; a call that still runs then is a hang
 IN_THE_TILL = (
     "dies before it charges",
     "charges and dies",
@@ -203,7 +203,7 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Pay with a fault, and return "right", "hang", or a description of the error."""
+        """Pay while the till has `fault`, and return "right", "hang", or a description of the error."""
         self._cause(fault, dice)
         results: list[object] = []
 

@@ -107,7 +107,7 @@ def all_main() -> bool:
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield the notebook, the number and the cell for each cell of this kind."""
+    """Yield the notebook's path, the cell's number and the cell, for each cell of this kind."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:

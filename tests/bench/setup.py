@@ -200,7 +200,9 @@ def cpp_measure() -> tuple[list[float], float]:
     """Return the duration of each build in a new workspace, and of the compiler for one file, in s."""
     with tempfile.TemporaryDirectory(prefix="course-cpp-") as folder:
         seconds = list(built(Path(folder)))
-        from course_pkg.workspace.cpp_support import compile_command  # `fresh` runs without the course
+        from course_pkg.workspace.cpp_support import (
+            compile_command,
+        )  # here, because `fresh` runs without the course
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)

@@ -1,7 +1,7 @@
 """The table of common mistakes with ROS 1 services, and the fault or build that shows each of them.
 
-A row is a mistake with the stable part of its symptom. A mistake at run time names the faults of the lab that
-cause it; a mistake of a build names a package with this mistake, or a command.
+A row is a mistake with the part of its symptom that never changes. A mistake at run time names the faults of
+BreakIt that cause it. A mistake in a build names a package with this mistake, or a command.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Functions that run `course` as a user does, and find the processes that it leaves behind."""
+"""Functions that run `course` as a user does, and that find the processes that `course` leaves behind."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def user_environment() -> dict[str, str]:
 
 @contextmanager
 def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Start `course lab` or `course run` with its output in a pipe; end it if it has not ended by itself."""
+    """Start `course lab` or `course run` with its output in a pipe, and end it after the block."""
     with subprocess.Popen(
         [ROOT / "course", *arguments],
         env={**user_environment(), **variables},

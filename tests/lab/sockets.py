@@ -15,7 +15,7 @@ class SocketsHandler(JupyterHandler):  # type: ignore[misc]
     """Reports the options of the server's sockets."""
 
     def get(self) -> None:
-        """Answer with one Boolean for each open kernel websocket."""
+        """Respond with a JSON list that has one Boolean for each open kernel websocket."""
         handlers = [
             it
             for it in gc.get_objects()

@@ -112,7 +112,7 @@ def test_a_connection_works_if_the_option_cannot_be_set() -> None:
 
 @pytest.fixture
 def kept(tmp_path: Path) -> CachedCheckpoints:
-    """Create checkpoints of a folder with two notebooks of the same name."""
+    """Return a store of checkpoints for a checkout with two notebooks of the same name."""
     for chapter in ("notebooks", "solutions"):
         folder = tmp_path / "checkout" / chapter
         folder.mkdir(parents=True)

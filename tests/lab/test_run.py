@@ -103,8 +103,8 @@ def test_nothing_outlives_a_killed_run() -> None:
     ids=["a node", "without a parent or session", "ignores SIGTERM"],
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
-    """The processes that a command leaves in the background end after the command; then the master ends."""
-    tag = str(tmp_path)  # all these processes have it in their environment, and no other process has it
+    """When a command ends, all processes that it has left in the background end, too."""
+    tag = str(tmp_path)  # Only these processes have this text in their environment.
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []
@@ -134,7 +134,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
         shell.expect_exact("Stopped")
         assert alive(background[0])
         assert alive(stopped[0])
-        shell.sendline("kill %2")  # with a stopped job, the first `exit` only prints a warning
+        shell.sendline("kill %2")  # because with a stopped job, the first `exit` only prints a warning
         assert all_gone(stopped)
         shell.sendline("exit 7")
         shell.expect(pexpect.EOF)

@@ -27,7 +27,7 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB, CTRL_C = "\t", "\x03"
-BUSY = 240.0  # s, for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # s; the time limit for commands that take 3 s on an idle machine, such as catkin_make
 
 
 class Terminal:
@@ -69,7 +69,7 @@ class Terminal:
 
 
 def listening(pid: int) -> set[str]:
-    """Return the addresses on which a process, or a process that it has started, listens."""
+    """Return the addresses on which a process or its child processes listen."""
     family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
     sockets = [each for process in family for each in process.net_connections("inet")]
     return {each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN}
@@ -99,7 +99,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
-    """The chapters tell the reader to go to the folder that contains `notebooks`."""
+    """A terminal starts in the folder that contains `notebooks`, because the chapters say so."""
     assert Path(terminal.run("pwd").strip()) == ROOT
 
 
@@ -112,7 +112,7 @@ def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
 
 
 def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
-    """ROS_MASTER_URI is the address of the lab's master, so a second roscore refuses to start, as usual."""
+    """A second roscore refuses to start, because a master already runs at ROS_MASTER_URI."""
     printed = terminal.run("roscore")
     assert "roscore cannot run as another roscore/master is already running" in printed
     assert terminal.environment["ROS_MASTER_URI"] in printed
@@ -152,7 +152,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """After the end of the lab's master, roscore starts a new one at the same address, with /rosout."""
+    """If the lab's master is killed, roscore starts a new master at the same address, and the node /rosout."""
     uri = terminal.environment["ROS_MASTER_URI"]
     former = MasterClient(uri).pid()
     os.kill(former, signal.SIGKILL)

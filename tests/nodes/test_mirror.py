@@ -1,4 +1,4 @@
-"""The robot publishes its joint states, and the simulator publishes them mirrored."""
+"""The robot publishes its joint states, and the simulator publishes their mirror images."""
 
 from __future__ import annotations
 

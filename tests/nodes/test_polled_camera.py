@@ -1,4 +1,4 @@
-"""The camera that takes a picture for each call."""
+"""The node `polled_camera` takes a picture for each call."""
 
 from __future__ import annotations
 

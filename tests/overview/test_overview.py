@@ -26,7 +26,7 @@ from tests.setup.test_course import course
 
 @pytest.fixture
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Give the course an empty state folder."""
+    """Make the course use an empty state folder, and return this folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return tmp_path / "state"
 
@@ -171,7 +171,7 @@ def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
 
 
 class Tags(HTMLParser):
-    """Collects the tags of a page with their attributes, and asserts that they are closed in order."""
+    """Collects the tags of a page with their attributes, and asserts that each tag is closed in order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()

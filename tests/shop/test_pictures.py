@@ -20,7 +20,7 @@ from course_pkg.shop.pictures import (
 
 
 def figures(width: int, height: int, customers: int, y: float) -> int:
-    """Count the differently coloured segments in one row of a picture."""
+    """Return the number of coloured segments in one row of a picture, which is the number of customers."""
     data = shop_picture(width, height, customers)
     start = 3 * width * int(y * height)
     row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]

@@ -79,4 +79,4 @@ def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
 
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
-        """Write no log."""
+        """Write no log, so that the output of the tests stays short."""

@@ -14,7 +14,7 @@ GOOD = (
 
 
 def page(folder: Path, html: str) -> list[str]:
-    """Write a page with this text beside a good page, and return the faults."""
+    """Write a page with `html` and a second, correct page, and return the faults."""
     (folder / "one.html").write_text(f"<html><body>{html}")
     (folder / "two.html").write_text('<p id="x">x</p>')
     return faults(folder)
@@ -50,7 +50,7 @@ def page(folder: Path, html: str) -> list[str]:
     ],
 )
 def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
-    """Each fault is found alone, with its page."""
+    """`faults` returns exactly one fault, which begins with the name of the page."""
     assert page(tmp_path, html) == [fault]
 
 

@@ -1,4 +1,4 @@
-"""Cells as HTML."""
+"""The cells of a notebook as HTML."""
 
 from __future__ import annotations
 

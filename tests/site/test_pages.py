@@ -1,4 +1,4 @@
-"""The pages in a real browser: from a folder and from a server, wide and narrow, light and dark."""
+"""The pages in a real browser: from a folder or a server, in wide and narrow windows, light and dark."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so a
 CONTRAST = "color-contrast"  # the slowest rule of axe-core; its result does not depend on the width
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-ALWAYS = (1200, "light")  # checked in every run; the other three only if a page may look different
+ALWAYS = (1200, "light")  # checked in every run; the others are checked only if a page may have changed
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
     for width in WIDTHS

@@ -21,7 +21,7 @@ from tests.site.notebook_stores import runs, store
 
 
 def test_the_course_has_no_fault(course: Path) -> None:
-    """Each link leads to a target, and each figure has a description."""
+    """`faults` finds no fault in the site of the whole course."""
     assert faults(course) == []
 
 
