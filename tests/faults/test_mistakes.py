@@ -113,7 +113,7 @@ def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_p
     assert built.cause in explained.cause
 
 
-def test_two_labs_on_one_graph(master: PrivateMaster) -> None:
+def test_two_cases_run_on_one_graph(master: PrivateMaster) -> None:
     """Two cases can run at the same time in different namespaces, and each shows its own symptom."""
     client = MasterClient(master.uri)
     with caused("stale") as one, caused("returns_none") as other:

@@ -152,7 +152,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """If the lab's master is killed, roscore starts a new master at the same address, and the node /rosout."""
+    """If the master of the lab is killed, roscore starts a new one at the same address, with /rosout."""
     uri = terminal.environment["ROS_MASTER_URI"]
     former = MasterClient(uri).pid()
     os.kill(former, signal.SIGKILL)

@@ -36,7 +36,7 @@ def test_each_customer_is_seen(customers: int, y: float) -> None:
 
 @pytest.mark.parametrize("size", [(16, 16), (17, 400), (1280, 16), (320, 240)])
 @pytest.mark.parametrize("customers", [0, 1, 5, 1000])
-def test_any_size_has_all_its_points(size: tuple[int, int], customers: int) -> None:
+def test_a_picture_has_all_its_points_at_any_size(size: tuple[int, int], customers: int) -> None:
     """A picture has three bytes for each point, for any size and any number of customers."""
     width, height = size
     assert len(shop_picture(width, height, customers)) == 3 * width * height

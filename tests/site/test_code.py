@@ -13,7 +13,7 @@ from course_pkg.site.prose import words
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
-def test_colours_change_no_letter(path: Path) -> None:
+def test_colours_do_not_change_the_text(path: Path) -> None:
     """Without its tags, the coloured HTML of each cell of the course equals the cell's source."""
     highlight = Highlighter()
     for cell in code_cells(read(path)):

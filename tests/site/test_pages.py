@@ -79,7 +79,7 @@ def test_every_page_is_whole_without_a_network(
 
 @pytest.mark.timeout(360)  # This test computes much, and the machine may be busy.
 @pytest.mark.parametrize(("width", "colours"), SWEEPS)
-def test_axe_finds_nothing(
+def test_axe_finds_no_problem(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
 ) -> None:
     """axe-core finds no problem on any page, both with and without the open search dialog.
@@ -260,7 +260,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
     context.close()
 
 
-def test_a_page_connects_nowhere(browser: Browser, course: Path, served: dict[Path, str]) -> None:
+def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
     """The page's policy forbids all connections, even to its own server, and scripts without the nonce."""
     context = browser.new_context()
     page = context.new_page()

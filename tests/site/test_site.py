@@ -35,7 +35,7 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
         assert ('rel="next"' in page) == (path != NotebookStore().solutions()[-1])
 
 
-def test_pages_are_light(course: Path, panels: Path) -> None:
+def test_pages_are_small(course: Path, panels: Path) -> None:
     """Compressed, the shared files are at most 170 kB. Without pictures, the median page is at most 60 kB.
 
     The page with all panels is at most 60 kB, too.
