@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
-PATIENCE = 30.0  # s; the time limit for a cell, unless a test gives another limit
+TIMEOUT = 30.0  # s; the time limit for a cell, unless a test gives another limit
 
 LOOP = """
 import json, os, sys, time
@@ -80,14 +80,14 @@ class Kernel:
     ) -> None:
         self.exit()
 
-    def ask(self, cell: str, patience: float = PATIENCE) -> Reply:
-        """Run a cell, and return its result, which may be an error. `patience` is the time limit in s."""
+    def ask(self, cell: str, timeout: float = TIMEOUT) -> Reply:
+        """Run a cell, and return its result, which may be an error. `timeout` is the time limit in s."""
         self.begin(cell)
-        return self.reply(patience)
+        return self.reply(timeout)
 
-    def run(self, cell: str, patience: float = PATIENCE) -> Any:  # noqa: ANN401
+    def run(self, cell: str, timeout: float = TIMEOUT) -> Any:  # noqa: ANN401
         """Run a cell that must succeed, and return its `result`."""
-        reply = self.ask(cell, patience)
+        reply = self.ask(cell, timeout)
         assert not reply.error, f"{reply.error}: {reply.words}"
         return reply.value
 
@@ -96,11 +96,11 @@ class Kernel:
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
-        assert self._line(PATIENCE) == "begun\n"
+        assert self._line(TIMEOUT) == "begun\n"
 
-    def reply(self, patience: float = PATIENCE) -> Reply:
+    def reply(self, timeout: float = TIMEOUT) -> Reply:
         """Return the result of the cell that was started."""
-        return Reply(**json.loads(self._line(patience)))
+        return Reply(**json.loads(self._line(timeout)))
 
     def kill(self) -> None:
         """Kill the process by SIGKILL, as the operating system does if there is no free memory."""
@@ -110,10 +110,10 @@ class Kernel:
         """Interrupt the running cell with a signal to its whole process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
-    def exit(self, patience: float = 10.0) -> str:
-        """End the process, and return all text that it printed; kill it after `patience` s."""
+    def exit(self, timeout: float = 10.0) -> str:
+        """End the process, and return all text that it printed; kill it after `timeout` s."""
         try:
-            printed, _ = self._process.communicate(timeout=patience)
+            printed, _ = self._process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:
             self._process.kill()
             printed, _ = self._process.communicate()
@@ -122,14 +122,14 @@ class Kernel:
             self._replies.close()
         return printed
 
-    def _line(self, patience: float) -> str:
-        guard = threading.Timer(patience, self.kill)
+    def _line(self, timeout: float) -> str:
+        guard = threading.Timer(timeout, self.kill)
         guard.start()
         try:
             line = self._replies.readline()
         finally:
             guard.cancel()
-        assert line, f"the cell did not end within {patience:g} s, or its process ended before the cell"
+        assert line, f"the cell did not end within {timeout:g} s, or its process ended before the cell"
         return line
 
     @property

@@ -12,7 +12,7 @@ from types import TracebackType
 
 from jupyter_client import BlockingKernelClient, KernelManager
 
-PATIENCE = 30.0  # s; the time limit for a cell
+TIMEOUT = 30.0  # s; the time limit for a cell
 
 
 @dataclass
@@ -41,7 +41,7 @@ class NotebookKernel:
         self.manager.start_kernel(env={**os.environ, **(env or {})})
         self.client: BlockingKernelClient = self.manager.client()
         self.client.start_channels()
-        self.client.wait_for_ready(timeout=PATIENCE)
+        self.client.wait_for_ready(timeout=TIMEOUT)
 
     def __enter__(self) -> NotebookKernel:
         return self
@@ -67,21 +67,21 @@ class NotebookKernel:
         self.client.shell_channel.send(message)
         return str(message["header"]["msg_id"])
 
-    def run(self, code: str, cell: str | None = None, patience: float = PATIENCE) -> Shown:
+    def run(self, code: str, cell: str | None = None, timeout: float = TIMEOUT) -> Shown:
         """Run a cell, and return its outputs."""
-        return self.shown(self.begin(code, cell), patience)
+        return self.shown(self.begin(code, cell), timeout)
 
-    def shown(self, number: str, patience: float = PATIENCE) -> Shown:
+    def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
         """Wait until the cell of the message `number` has ended, and return its outputs.
 
-        Raises AssertionError if the cell does not end within `patience` s.
+        Raises AssertionError if the cell does not end within `timeout` s.
         """
-        shown, deadline = Shown(), time.monotonic() + patience
+        shown, deadline = Shown(), time.monotonic() + timeout
         while True:
             try:
                 message = self.client.get_iopub_msg(timeout=max(deadline - time.monotonic(), 0.01))
             except queue.Empty:
-                raise AssertionError(f"the cell did not end within {patience:g} s: {shown}") from None
+                raise AssertionError(f"the cell did not end within {timeout:g} s: {shown}") from None
             kind, content = message["msg_type"], message["content"]
             if message["parent_header"].get("msg_id") != number:
                 shown.others += str(content.get("text", ""))

@@ -20,7 +20,7 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # the turtle that exists after a reset
-BUDGET = 0.008  # s; the longest time of a tick for requests, so that many requests do not delay the poses
+BUDGET = 0.008  # s of a tick for requests; so many requests delay a pose by at most this time
 MAX_DELAY = 0.25  # s; older missed ticks are skipped, for example after the machine has slept
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 

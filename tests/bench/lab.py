@@ -133,7 +133,7 @@ def click(clicks: int = 100) -> bool:
 
 
 def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[float]:
-    """Return the time of each click on a new page in ms."""
+    """Open the notebook on a new page, and return the time of each click in ms."""
     with server as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=FLAGS, headless=True

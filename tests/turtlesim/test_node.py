@@ -249,7 +249,7 @@ def test_bad_clients_do_no_harm(seed: int, master: PrivateMaster, kernel: Kernel
             sane(node)
             result = fuzzer.refused
             """,
-            patience=100,
+            timeout=100,
         )
         assert refused > 20
         assert simulator.running

@@ -85,7 +85,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 def times_out(kernel: Kernel, name: str) -> str:
     """Call from the kernel within the deadline, check that the kernel still works, and return the message."""
-    reply = kernel.ask(CALL.format(name=name), patience=20)
+    reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
     return reply.words
