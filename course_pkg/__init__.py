@@ -1,7 +1,7 @@
 """A course on ROS 1 services.
 
-A notebook needs these names; each is looked up when it is first used, so that
-`import course_pkg` stays cheap for nodes and tools, which need none of them.
+The notebooks import these names. Each name is imported when it is first used. So `import course_pkg` is fast
+for nodes and tools, which do not use these names.
 """
 
 from pkgutil import extend_path
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from course_pkg.ros import join
     from course_pkg.ros.explain import explain
 
-# catkin generates `course_pkg.srv` into another folder; without this line, the checkout hides that folder.
+# catkin generates `course_pkg.srv` in another folder. Without this line, Python searches only the checkout.
 __path__ = extend_path(__path__, __name__)
 
 __all__ = [

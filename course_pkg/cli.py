@@ -1,7 +1,7 @@
-"""The commands of `course`: each package declares its commands in `commands.py`, and this module runs them.
+"""Runs the commands of `course`. Each package declares its commands in its module `commands.py`.
 
-Any Python of the machine can run this module and `commands.py` before anything is installed: they import only
-the standard library. Each command imports other modules when it runs.
+Any Python of the machine can run this module before anything is installed, because it imports only the
+standard library and the modules `commands.py`. Each command imports other modules when it runs.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from course_pkg.site import commands as site
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-INSIDE = "COURSE_INSIDE"  # set while the course's own interpreter runs this module
+INSIDE = "COURSE_INSIDE"  # a variable that is set while the course's own interpreter runs this module
 COMMANDS: dict[str, Command] = {
     **lab.COMMANDS,
     **overview.COMMANDS,
@@ -36,7 +36,7 @@ COMMANDS: dict[str, Command] = {
 
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:
-    """Set up what the command needs, run it, and exit with its status."""
+    """Set up the environment for a command, run the command, and exit with its status."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
         sys.exit(_dispatch(arguments))
@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
 
 
 def parse(arguments: Sequence[str]) -> SimpleNamespace:
-    """Return the parsed `arguments`; print the usage and exit if they are wrong."""
+    """Return the parsed `arguments`. If they are wrong, print the usage and exit with status 2."""
     name = arguments[0] if arguments else ""
     if name in COMMANDS and COMMANDS[name].rest and arguments[1:2] not in (["-h"], ["--help"]):
         rest = list(arguments[1:])
@@ -58,7 +58,7 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 
 def _parser() -> ArgumentParser:
-    from argparse import ArgumentParser  # imported here, because `run` need not spend 10 ms on it
+    from argparse import ArgumentParser  # imported here, because it takes 10 ms and `run` does not need it
 
     parser = ArgumentParser(
         prog="course",
@@ -84,9 +84,9 @@ def _dispatch(arguments: Sequence[str]) -> int:
 
 
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
-    """Set up what is missing and apply the environment.
+    """Set up the parts of the environment that are missing, and apply the environment.
 
-    A command that imports libraries is run by the environment's own interpreter, which replaces this process.
+    If the command imports libraries, the interpreter of the environment replaces this process and runs it.
     """
     from course_pkg.setup import Places, ensure, environment
 

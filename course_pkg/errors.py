@@ -26,7 +26,7 @@ CourseError
 │   ├── UnknownCheck: no check has this id
 │   └── ToolMissing: this machine lacks a tool that the exercise needs
 ├── CameraSilent: the camera of the shop sends no messages
-├── PrinterFailed: the printer of the till has printed nothing
+├── PrinterFailed: the printer of the cash register has printed nothing
 ├── UnknownFault: BreakIt has no fault of this name
 ├── AuthoringError: a solution notebook breaks a rule of the course
 ├── GradingError: submissions cannot be graded
@@ -71,12 +71,12 @@ class UnknownType(InterfaceError):
 class BrokenDefinition(InterfaceError):
     """ROS does not accept the text of a service or message type.
 
-    `source` names the type or file, `line` and `column` count from 1, `text` is the wrong line. `problem` and
-    `remedy` are the two parts of one sentence.
+    `source` names the type or file. `line` and `column` count from 1. `text` is the wrong line. `problem` and
+    `remedy` are the two parts of the message.
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # a tab becomes one space, so that the mark is below the right letter
+        # A tab becomes one space, so that the mark ^ is below the right letter.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -91,8 +91,8 @@ class BrokenDefinition(InterfaceError):
 class FieldError(InterfaceError, ValueError):
     """A value that a field cannot hold.
 
-    `field` is the path of the field (`points[2].x`), and `value` the given value. `allowed` describes the
-    valid values, `problem` what is wrong, and `hint`, if not empty, the value that was probably meant.
+    `field` is the path of the field (`points[2].x`), and `value` is the given value. `allowed` describes the
+    valid values, and `problem` says what is wrong. `hint` may name the value that was probably meant.
     """
 
     def __init__(self, field: str, value: object, allowed: str, problem: str = "", hint: str = "") -> None:
@@ -139,11 +139,11 @@ class NotJoined(GraphError):
 
 
 class NotAServiceType(GraphError, TypeError):
-    """The argument should be a service type."""
+    """The argument must be a service type, but is not."""
 
 
 class NotAMessageType(GraphError, TypeError):
-    """The argument should be a message type."""
+    """The argument must be a message type, but is not."""
 
 
 class CallError(GraphError):
@@ -175,7 +175,7 @@ class UnknownExecutable(GraphError):
 
 
 class NodeFailed(GraphError):
-    """The process of a node ended; `output` is the end of its output, `returncode` its exit status."""
+    """The process of a node ended. `output` is the end of its output, and `returncode` its exit status."""
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
         super().__init__(message)
@@ -212,11 +212,11 @@ class ToolMissing(CheckError):
 
 
 class CameraSilent(CourseError):
-    """The camera of a shop has sent no message for so long that it is not known who is at the counter."""
+    """The camera of a shop sends no messages, so it is not known whether a customer is at the counter."""
 
 
 class PrinterFailed(CourseError):
-    """The printer of a till has jammed or is out of paper, and has printed nothing."""
+    """The printer of a cash register has a paper jam or has no paper, and has printed nothing."""
 
 
 class UnknownFault(CourseError):
@@ -248,7 +248,7 @@ class NoServiceSelected(PanelError):
 
 
 class CallInProgress(PanelError):
-    """The panel is making a call; it makes one call at a time."""
+    """The panel is already making a call. It makes only one call at a time."""
 
 
 class DrawingFailed(PanelError):

@@ -1,4 +1,4 @@
-"""Writes files completely or not at all; imports nothing but the standard library."""
+"""Writes files completely or not at all. This module imports only the standard library."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
-    """Write `content` to `path`, and create its folders: a reader sees the whole old or the whole new file.
+    """Write `content` to `path`, and create its folders. A reader gets the complete old or new file.
 
     Raises OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the
     text. In both cases, the old file does not change.

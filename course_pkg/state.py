@@ -1,4 +1,4 @@
-"""The folder for a student's work and results: one folder per checkout, outside the checkout."""
+"""The folder for a student's results and own packages. Each checkout has one, outside the checkout."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from typing import IO, Any
 from course_pkg.files import write_atomically
 from course_pkg.waiting import wait_until
 
-LOCK = 5.0  # time limit in s for a lock; each program that has the lock writes one small file
+LOCK = 5.0  # s; the time limit for a lock, which is enough because each program writes only one small file
 
 
 def state_folder() -> Path:
-    """Return the folder of this checkout's state: COURSE_STATE, or a folder in the user's state home."""
+    """Return the folder of this checkout's state: COURSE_STATE, or a folder below XDG_STATE_HOME."""
     if given := os.environ.get("COURSE_STATE"):
         return Path(given)
     home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
@@ -37,7 +37,7 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
     """Hold the lock of `folder` during the block, so that two kernels do not use it at the same time.
 
-    Creates the folder. Raises OSError if that fails, or if another process holds the lock for `timeout` s.
+    Creates the folder. Raises OSError if this fails, or if another process holds the lock for `timeout` s.
     On a file system without locks, the block runs without a lock.
     """
     folder.mkdir(parents=True, exist_ok=True)

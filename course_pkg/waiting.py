@@ -1,4 +1,4 @@
-"""Waits with a limit: for a condition, until a deadline, and for code that is interrupted after its time."""
+"""Waits with a time limit: deadlines, a wait for a condition, and an interrupt of code after a limit."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Value = TypeVar("Value")
-INTERVAL = 0.01  # s between two evaluations of a condition that takes little time
-MOST = 4.0  # the factor of the limit on a busy machine, at most
+INTERVAL = 0.01  # s between two evaluations of a condition
+MOST = 4.0  # the largest factor for a limit on a busy machine
 
 
 class Deadline:
-    """A point in time, `seconds` after now on the monotonic clock; with None, it never passes."""
+    """A point in time, `seconds` from now on the monotonic clock; with None, it never passes."""
 
     def __init__(self, seconds: float | None) -> None:
         self.seconds = seconds  # the seconds that were given
@@ -25,7 +25,7 @@ class Deadline:
 
     @property
     def left(self) -> float:
-        """The seconds that are left, at least 0; infinity for a deadline that never passes."""
+        """The seconds that are left, at least 0, or infinity if the deadline never passes."""
         return max(self._end - time.monotonic(), 0.0)
 
     @property
@@ -47,9 +47,9 @@ def wait_until(
 ) -> Value:
     """Return the first true value of `condition`, or its last value when `timeout` s have passed.
 
-    The condition is evaluated immediately, then every `interval` s, and once again after the deadline. So
-    even a thread that could not run for a long time gets the present value. If `stopped` is set, the wait
-    ends early.
+    The condition is evaluated immediately, then every `interval` s, and once more after the deadline.
+    Therefore even a thread that could not run for a long time returns the present value. If the event
+    `stopped` is set, the wait ends early.
     """
     deadline = Deadline(timeout)
     while True:
@@ -67,8 +67,8 @@ def wait_until(
 def at_this_load(seconds: float) -> float:
     """Return a limit (s) for work that takes `seconds` s at most on an idle machine.
 
-    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. So a
-    program that waits for the processor is not mistaken for a program that never ends.
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without
+    this factor, a program that waits for the processor would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -76,11 +76,11 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the block when it has run for `seconds` s, and again every `repeat` s (0: only once).
+    """Raise `error` in the block when it has run for `seconds` s, and again every `repeat` s.
 
-    Use `repeat` for code that may catch the first error. This function uses an alarm signal (SIGALRM), so the
-    block has to run in the main thread, and such blocks may not be nested. Raises ValueError in another
-    thread.
+    If `repeat` is 0, `error` is raised only once. Use `repeat` for code that may catch the first error. This
+    function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks may
+    not be nested. Raises ValueError in another thread.
     """
 
     def alarm(*_: object) -> None:

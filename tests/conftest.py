@@ -15,22 +15,23 @@ from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 
 ANSWERS, NOTEBOOKS = "tests/checking/test_answers.py", "tests/notebooks/test_validation.py"
-LAB = "JupyterLab"  # the group of all tests that use it
+LAB = "JupyterLab"  # the group of all tests that use JupyterLab
 
 
 def pytest_configure() -> None:
-    """Handle the signals that a shell ignores for background commands; all child processes inherit this."""
+    """Handle the signals that a shell ignores for background commands. All child processes inherit this."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-@pytest.hookimpl(tryfirst=True)  # xdist reads the marks in the same hook
+@pytest.hookimpl(tryfirst=True)  # because pytest-xdist reads the marks in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Form the groups that stay on one worker (`--dist loadgroup`), and begin with those that take longest.
+    """Form groups of tests that stay on one worker (`--dist loadgroup`), and put the slowest groups first.
 
-    The tests of a file share a master. The answers stay on one worker, whose sandboxes run them side by side,
-    and so do all tests that use JupyterLab: a page takes longer to load than most of them to run.
+    The tests of a file form a group, because they share a master. The tests of example answers form a group,
+    because the sandboxes of one worker run the answers at the same time. All tests with JupyterLab form a
+    group, because loading its page takes longer than most of these tests.
     """
     for item in items:
         group = item.path.relative_to(item.config.rootpath).as_posix()
@@ -70,14 +71,14 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
 
 @pytest.fixture
 def kernel(master: PrivateMaster) -> Iterator[Kernel]:
-    """Start a process that runs cells; rospy allows one node for each process, and starts only once."""
+    """Start a process that runs cells. Each test gets a new one, because rospy starts only once in each."""
     with Kernel() as fresh:
         yield fresh
 
 
 @pytest.fixture(scope="module")
 def server(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run the course's geometry server on the master."""
+    """Run the course's geometry server for the tests of one module."""
     assert master.uri
     server = NodeProcess.rosrun("course_pkg", "server")
     server.wait_for_service("/getGeometry", timeout=20)
@@ -87,6 +88,6 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture(scope="session")
 def sandbox() -> None:
-    """Skip the test, with the reason, on a machine without a sandbox, where `course grade` refuses, too."""
+    """Skip the test if this machine has no sandbox; without it, `course grade` does not run, either."""
     if reason := refusal():
         pytest.skip(reason)

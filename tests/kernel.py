@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
-PATIENCE = 30.0  # s for a cell, unless a test says otherwise
+TIMEOUT = 30.0  # s; the time limit for a cell, unless a test gives another limit
 
 LOOP = """
 import json, os, sys, time
@@ -37,7 +37,11 @@ for line in sys.stdin:
 
 @dataclass(frozen=True)
 class Reply:
-    """The result of a cell: `value` of its name `result`, or its error's class and message; `took` in s."""
+    """The result of a cell.
+
+    `value` is the value of the cell's variable `result`. If the cell raised an exception, `error` is the name
+    of its class and `words` is its message. `took` is the time in s.
+    """
 
     value: Any
     error: str
@@ -46,7 +50,10 @@ class Reply:
 
 
 class Kernel:
-    """Such a process. A cell that takes too long is killed with the process, and fails the test."""
+    """A Python process that runs cells. If a cell reaches its time limit, the process is killed.
+
+    The test then fails with an AssertionError.
+    """
 
     def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
         reader, writer = os.pipe()
@@ -58,7 +65,7 @@ class Kernel:
             stderr=subprocess.STDOUT,
             pass_fds=[writer],
             env={name: value for name, value in environment.items() if value is not None},
-            start_new_session=True,  # as Jupyter starts one
+            start_new_session=True,  # as Jupyter starts a kernel
             text=True,
         )
         os.close(writer)
@@ -73,14 +80,14 @@ class Kernel:
     ) -> None:
         self.exit()
 
-    def ask(self, cell: str, patience: float = PATIENCE) -> Reply:
-        """Run a cell and return its result, which may be an error."""
+    def ask(self, cell: str, timeout: float = TIMEOUT) -> Reply:
+        """Run a cell, and return its result, which may be an error. `timeout` is the time limit in s."""
         self.begin(cell)
-        return self.reply(patience)
+        return self.reply(timeout)
 
-    def run(self, cell: str, patience: float = PATIENCE) -> Any:  # noqa: ANN401
+    def run(self, cell: str, timeout: float = TIMEOUT) -> Any:  # noqa: ANN401
         """Run a cell that must succeed, and return its `result`."""
-        reply = self.ask(cell, patience)
+        reply = self.ask(cell, timeout)
         assert not reply.error, f"{reply.error}: {reply.words}"
         return reply.value
 
@@ -89,24 +96,24 @@ class Kernel:
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
-        assert self._line(PATIENCE) == "begun\n"
+        assert self._line(TIMEOUT) == "begun\n"
 
-    def reply(self, patience: float = PATIENCE) -> Reply:
+    def reply(self, timeout: float = TIMEOUT) -> Reply:
         """Return the result of the cell that was started."""
-        return Reply(**json.loads(self._line(patience)))
+        return Reply(**json.loads(self._line(timeout)))
 
     def kill(self) -> None:
-        """Kill the process, as the system does when memory runs out."""
+        """Kill the process by SIGKILL, as the operating system does if there is no free memory."""
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the running cell as Jupyter does: its whole process group."""
+        """Interrupt the running cell with a signal to its whole process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
-    def exit(self, patience: float = 10.0) -> str:
-        """End the process, kill it if necessary, and return all that it printed."""
+    def exit(self, timeout: float = 10.0) -> str:
+        """End the process, and return all text that it printed; kill it after `timeout` s."""
         try:
-            printed, _ = self._process.communicate(timeout=patience)
+            printed, _ = self._process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:
             self._process.kill()
             printed, _ = self._process.communicate()
@@ -115,14 +122,14 @@ class Kernel:
             self._replies.close()
         return printed
 
-    def _line(self, patience: float) -> str:
-        guard = threading.Timer(patience, self.kill)
+    def _line(self, timeout: float) -> str:
+        guard = threading.Timer(timeout, self.kill)
         guard.start()
         try:
             line = self._replies.readline()
         finally:
             guard.cancel()
-        assert line, f"the cell did not end within {patience:g} s, or its process did"
+        assert line, f"the cell did not end within {timeout:g} s, or its process ended before the cell"
         return line
 
     @property

@@ -1,4 +1,4 @@
-"""A real IPython kernel that receives an id with each cell, as front ends of Jupyter send one."""
+"""A real IPython kernel. It receives the id of each cell, as from a front end of Jupyter."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from types import TracebackType
 
 from jupyter_client import BlockingKernelClient, KernelManager
 
-PATIENCE = 30.0  # s for a cell
+TIMEOUT = 30.0  # s; the time limit for a cell
 
 
 @dataclass
@@ -25,7 +25,7 @@ class Shown:
     ename: str = ""
     evalue: str = ""
     traceback: list[str] = field(default_factory=list)
-    others: str = ""  # what other cells printed meanwhile
+    others: str = ""  # the text that other cells printed at the same time
 
     @property
     def error_lines(self) -> list[str]:
@@ -41,7 +41,7 @@ class NotebookKernel:
         self.manager.start_kernel(env={**os.environ, **(env or {})})
         self.client: BlockingKernelClient = self.manager.client()
         self.client.start_channels()
-        self.client.wait_for_ready(timeout=PATIENCE)
+        self.client.wait_for_ready(timeout=TIMEOUT)
 
     def __enter__(self) -> NotebookKernel:
         return self
@@ -53,7 +53,7 @@ class NotebookKernel:
         self.manager.shutdown_kernel(now=True)
 
     def begin(self, code: str, cell: str | None = None) -> str:
-        """Send a cell, with its id unless it is None, and return the id of the message."""
+        """Send the code of a cell, and its id `cell` if it is not None; return the id of the message."""
         content = {
             "code": textwrap.dedent(code).strip("\n"),
             "silent": False,
@@ -67,18 +67,21 @@ class NotebookKernel:
         self.client.shell_channel.send(message)
         return str(message["header"]["msg_id"])
 
-    def run(self, code: str, cell: str | None = None, patience: float = PATIENCE) -> Shown:
-        """Run a cell and return what it showed."""
-        return self.shown(self.begin(code, cell), patience)
+    def run(self, code: str, cell: str | None = None, timeout: float = TIMEOUT) -> Shown:
+        """Run a cell, and return its outputs."""
+        return self.shown(self.begin(code, cell), timeout)
 
-    def shown(self, number: str, patience: float = PATIENCE) -> Shown:
-        """Return the outputs of the cell of the message `number` at its end; fail after `patience` s."""
-        shown, deadline = Shown(), time.monotonic() + patience
+    def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
+        """Wait until the cell of the message `number` has ended, and return its outputs.
+
+        Raises AssertionError if the cell does not end within `timeout` s.
+        """
+        shown, deadline = Shown(), time.monotonic() + timeout
         while True:
             try:
                 message = self.client.get_iopub_msg(timeout=max(deadline - time.monotonic(), 0.01))
             except queue.Empty:
-                raise AssertionError(f"the cell did not end within {patience:g} s: {shown}") from None
+                raise AssertionError(f"the cell did not end within {timeout:g} s: {shown}") from None
             kind, content = message["msg_type"], message["content"]
             if message["parent_header"].get("msg_id") != number:
                 shown.others += str(content.get("text", ""))

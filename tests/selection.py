@@ -1,10 +1,11 @@
-"""A pytest plug-in that chooses tests: those that a change can affect, and the long series.
+"""A pytest plug-in that chooses tests: `--changed` runs tests that a change can affect, `--slow` slow tests.
 
-A test depends on its own folder below tests/, and on the packages of course_pkg that its package may import:
-the layers of import-linter's contract in pyproject.toml say which. A test of one chapter depends on that
-chapter's folder and on those that it imports from, and not on the others. Tests are chosen by file and
-chapter: such a group is left out by `--changed` if it passed when everything that it depends on had the same
-digest.
+A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
+layers of import-linter's contract in pyproject.toml list these packages. A test of one chapter depends on the
+folder of this chapter and on the chapters from which it imports, but not on other chapters.
+
+A group contains the tests of one file, or of one file and one chapter. `--changed` leaves a group out if the
+group passed before, and all files on which it depends have the same digest as then.
 """
 
 from __future__ import annotations
@@ -31,18 +32,18 @@ else:
 
 ROOT = Path(__file__).parents[1]
 ALWAYS = ("pyproject.toml", "CMakeLists.txt", "package.xml", "course_pkg/setup/locks/test.txt")
-CHAPTER = re.compile(r"\[(\d\d)[._]")  # of a test's id: "[05.1 right: …]", "[05_write_a_server]"
+CHAPTER = re.compile(r"\[(\d\d)[._]")  # the chapter in a test's id: "[05.1 right: …]", "[05_write_a_server]"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the two options."""
+    """Add the options `--changed` and `--slow`."""
     group = parser.getgroup("course")
-    group.addoption("--changed", action="store_true", help="run what a change can affect")
-    group.addoption("--slow", action="store_true", help="run the long series, and only these")
+    group.addoption("--changed", action="store_true", help="run only the tests that a change can affect")
+    group.addoption("--slow", action="store_true", help="run only the slow tests")
 
 
 class Selection:
-    """The groups of tests that passed, each with the digest of what it depends on."""
+    """The groups of tests that passed, each with the digest of the files on which it depends."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -55,16 +56,16 @@ class Selection:
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed before, with another digest (never on a fresh clone)."""
+        """Return whether the group of `item` passed before with another digest; false in a new clone."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
-        """Take down how a phase of a test ended."""
+        """Note the outcome of one phase of a test."""
         group = group_of(report.nodeid)
         self._outcomes[group] = self._outcomes.get(group, True) and not report.failed
 
     def store(self) -> None:
-        """Write down which groups passed in this run; a group that failed is forgotten."""
+        """Store the groups that passed in this run, and remove the groups that failed."""
         for group, passed in self._outcomes.items():
             self._passed.pop(group, None)
             if passed:
@@ -73,7 +74,7 @@ class Selection:
 
 
 class SelectionPlugin:
-    """The hooks: choose before the run; note, store and name the failures after it."""
+    """The hooks of the plug-in: they choose tests before the run, and store and list outcomes after it."""
 
     def __init__(self, config: pytest.Config) -> None:
         self._config = config
@@ -81,7 +82,7 @@ class SelectionPlugin:
         self._whole = not config.option.keyword and not any("::" in word for word in config.args)
 
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
-        """Leave out slow tests, or all others, and what no change can affect."""
+        """Deselect the slow tests, or all others with `--slow`; with `--changed` also unchanged groups."""
         named = any("::" in word for word in config.args)
         left = {
             item
@@ -93,26 +94,26 @@ class SelectionPlugin:
         items[:] = [item for item in items if item not in left]
 
     def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
-        """Return whether a test belongs to a usual run, or to the long series if `slow`."""
+        """Return whether a test belongs to a usual run, or to a run with `--slow` if `slow` is true."""
         if item.get_closest_marker("when_changed"):
             return slow or self._selection.has_changed(item)
         return (item.get_closest_marker("slow") is not None) == slow
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note each outcome, and name a failure at once: a run that is stopped prints no summary."""
+        """Note each outcome, and print a failure at once, because a run that is stopped prints no summary."""
         self._selection.note(report)
         if report.failed and not hasattr(self._config, "workerinput"):
             reporter = self._config.pluginmanager.get_plugin("terminalreporter")
             reporter.write_line(f"\n{report.nodeid} failed ({report.when})")
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Store what passed, if groups ran as a whole and to their end."""
+        """Store the groups that passed, if the run was complete: no selection of tests, and no early end."""
         controller = not hasattr(session.config, "workerinput")
         if controller and self._whole and not session.shouldstop and not session.config.option.markexpr:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """End with the command that repeats each failure."""
+        """Print, at the end of the run, a command that repeats each failed test."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:
@@ -127,7 +128,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def group_of(test: str) -> str:
-    """Return the group of a test's id: its file, and its chapter if its parameter names one."""
+    """Return the group of the test with the id `test`: its file, and the chapter in its parameter."""
     found = CHAPTER.search(test)
     return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
 
@@ -147,9 +148,9 @@ def digest_of(group: str) -> str:
 
 
 def _packages_below(folder: str) -> list[str]:
-    """Return the packages on which a folder of tests depends: its own and those that it may import.
+    """Return the packages on which a folder of tests depends: its own package, and those that it may import.
 
-    A folder that is named after no package depends on all.
+    If no package has the name of the folder, the folder depends on all packages.
     """
     package = {"chapters": "authoring", "notebooks": "authoring"}.get(folder, folder)
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
@@ -160,7 +161,10 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the notebooks of a chapter, its folder and those that it imports from; "" means all chapters."""
+    """Yield the folders and the notebooks on which the tests of a chapter depend; "" means all chapters.
+
+    The folders are the chapter's own folder and the folders from which it imports.
+    """
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):
@@ -169,7 +173,10 @@ def chapter_paths(chapter: str) -> Iterator[str]:
 
 @cache
 def _digest_of_folder(path: str, *, own: bool = False) -> str:
-    """Return the digest of a file, a module of that name, or a folder; with `own` without its subfolders."""
+    """Return the digest of a file, of a module without its ending .py, or of a folder.
+
+    If `own` is true, the subfolders of the folder are not included.
+    """
     where = ROOT / path
     found = where.glob("*" if own else "**/*") if where.is_dir() else [where, where.with_suffix(".py")]
     return _digest_of_files(sorted(str(file.relative_to(ROOT)) for file in found if _counts(file)))

@@ -1,4 +1,4 @@
-"""What tests of all folders share."""
+"""Functions for the tests of all folders: waits, states of processes, and commands."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
 
 @contextmanager
 def stopped(pid: int) -> Iterator[None]:
-    """Stop a process by SIGSTOP for the block; all its threads are stopped when the block begins."""
+    """Stop a process with SIGSTOP during the block. All its threads are stopped when the block begins."""
     os.kill(pid, signal.SIGSTOP)
     try:
         eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))
@@ -37,7 +37,7 @@ def stopped(pid: int) -> Iterator[None]:
 
 
 def process_state(pid: int) -> str:
-    """Return the letter for the state of a process, as in ps; "Z" also for a process that has ended."""
+    """Return the letter for the state of a process, as in ps; return "Z" also if the process has ended."""
     return _state(Path(f"/proc/{pid}/stat"))
 
 
@@ -53,11 +53,11 @@ def _state(stat: Path) -> str:
 
 
 def terminal(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end, with its output as text."""
+    """Run a command to its end, and return its exit status and its output as text."""
     env = {**os.environ, **environment}
     return subprocess.run(command, capture_output=True, text=True, timeout=30, env=env, check=False)
 
 
 def program(name: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run one of the course's programs to its end."""
+    """Run one of the course's programs to its end, and return its exit status and its output as text."""
     return terminal("rosrun", "course_pkg", name, *arguments, **environment)

@@ -1,4 +1,4 @@
-"""Files that are written completely or not at all."""
+"""`write_atomically` writes a file completely or not at all."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from course_pkg.files import write_atomically
 
 
-def test_a_failed_write_leaves_the_old_text_and_no_litter(tmp_path: Path) -> None:
-    """A reader never gets a part of a file, and a failure leaves no file."""
+def test_a_failed_write_does_not_change_the_file(tmp_path: Path) -> None:
+    """After a failed write, the file has its old text, and no temporary file is left."""
     path = tmp_path / "file"
     write_atomically(path, "old")
     with pytest.raises(UnicodeEncodeError):

@@ -1,4 +1,4 @@
-"""The suite runs on several workers, and some tests share what takes long to start."""
+"""Tests that share a master or a JupyterLab are in one group, which stays on one worker."""
 
 from __future__ import annotations
 
@@ -6,6 +6,6 @@ import pytest
 
 
 def test_a_worker_knows_the_group_of_each_test(request: pytest.FixtureRequest) -> None:
-    """Under `--dist loadgroup`, xdist adds its group to a test's id; not with pytest 9.2."""
+    """With `--dist loadgroup`, xdist adds the group to the id of a test. With pytest 9.2, it does not."""
     grouped = request.config.getoption("loadgroup", default=False)
     assert request.node.nodeid.endswith("@tests/test_groups.py") == grouped

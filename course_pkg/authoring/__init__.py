@@ -1,1 +1,1 @@
-"""From solutions, which are written and run by an author, to the notebooks that students get."""
+"""Tools for authors: they run the solutions, and derive the students' notebooks from them."""

@@ -1,15 +1,15 @@
-"""What a student gets in place of an answer: an exercise cell with the answer taken out.
+"""Removes the answer from an exercise cell.
 
-Three rules. Everything that they do not name stays as it is, byte for byte.
+There are three rules. They change nothing else in the cell, not even one byte.
 
 1. The body of a function or method becomes its docstring, if it has one, and `...`.
-2. `name = value` at the top level becomes `name = ...`, unless the value calls what this very cell
-   defines (`counter = Counter()`): that only wires the answer up.
-3. A cell that begins with `%%writefile` keeps that line. Python below it follows rules 1 and 2; any
-   other text becomes its leading comment lines and `...`.
+2. `name = value` at the top level becomes `name = ...`. A line stays if its value calls a function or a class
+   of the same cell (`counter = Counter()`), because such a line contains no part of the answer.
+3. A cell that begins with `%%writefile` keeps this line. Rules 1 and 2 apply to Python below it. Any other
+   text becomes its comment lines at the top, and `...`.
 
-Where something is to be repaired, none of the three helps: there the check itself says what a student begins
-with (`start`, see checking/parts.py), and it knows that cell again when it has not been touched.
+If students have to repair something, these rules do not help. Then the check contains the text with which a
+student begins (`start`, see checking/parts.py). The check reports it if a student has not changed this text.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 class Edit(NamedTuple):
-    """Bytes from `start` to `end` give way to `text`."""
+    """A replacement: `text` replaces the bytes from `start` to `end`."""
 
     start: int
     end: int
@@ -39,12 +39,16 @@ class Edit(NamedTuple):
 
 
 def handed_out(exercise: str, source: str) -> str:
-    """Return what a student gets for the exercise cell of the part `exercise`, whose solution is `source`."""
+    """Return the source of a student's exercise cell.
+
+    `exercise` is the id of the part, such as "05.1", and `source` is the source of the solution. Raises
+    AuthoringError if no rule fits the solution.
+    """
     return start_of(exercise).strip("\n") or blank(source)
 
 
 def blank(source: str) -> str:
-    """Return the source of an exercise cell without the answer."""
+    """Return the source of an exercise cell without the answer. Raises AuthoringError if no rule fits it."""
     first, newline, rest = source.partition("\n")
     if not first.startswith("%%"):
         return _blank_python(source)
@@ -53,7 +57,7 @@ def blank(source: str) -> str:
         return first + newline + _blank_python(rest)
     if magic == "%%writefile":
         return first + newline + _blank_text(rest)
-    raise AuthoringError(f"An exercise cell cannot begin with {magic}: nothing can stand in for its answer.")
+    raise AuthoringError(f"An exercise cell cannot begin with {magic}, because no rule removes its answer.")
 
 
 def _blank_text(text: str) -> str:
@@ -75,7 +79,7 @@ def _blank_python(source: str) -> str:
 
 
 class _Cell:
-    """The source of a cell as bytes, which is how `ast` counts columns, and as a tree."""
+    """The source of a cell as bytes and as a syntax tree. `ast` counts columns in bytes."""
 
     def __init__(self, source: str) -> None:
         self.data = source.encode()
@@ -87,7 +91,7 @@ class _Cell:
         self._defined = {node.name for node in self._tree.body if isinstance(node, Function | ast.ClassDef)}
 
     def edits(self) -> Iterator[Edit]:
-        """Yield what rules 1 and 2 change."""
+        """Yield the replacements of rules 1 and 2."""
         for node in self._tree.body:
             yield from self._rule_1(node)
             if isinstance(node, ast.Assign | ast.AnnAssign):
@@ -115,14 +119,14 @@ class _Cell:
         return isinstance(called, ast.Name) and called.id in self._defined
 
     def _end_of_kept(self, node: Function) -> int:
-        """Return where the signature and the docstring end, with a comment behind them on the same line."""
+        """Return the end of the signature and the docstring, including a comment after them on this line."""
         documented = ast.get_docstring(node, clean=False) is not None
         end = self._end(node.body[0]) if documented else self._end_of_signature(node)
         rest = self.data[end:].split(b"\n", 1)[0]
         return end + len(rest) if rest.strip().startswith(b"#") else end
 
     def _end_of_signature(self, node: Function) -> int:
-        """Return where the colon of the signature ends: the first outside brackets and annotations."""
+        """Return the end of the signature's colon: the first colon outside brackets and annotations."""
         after = (node.returns or node).end_lineno or 0, self._column(node.returns) if node.returns else 0
         depth = 0
         for token in tokenize.generate_tokens(io.StringIO(self._text).readline):
@@ -131,10 +135,10 @@ class _Cell:
             depth += (token.string in "([{") - (token.string in ")]}")
             if token.string == ":" and depth == 0 and (not node.returns or token.start >= after):
                 return self._offset(*token.end)
-        raise AuthoringError(f"The signature of {node.name} has no end.")
+        raise AuthoringError(f"The signature of {node.name} has no colon at its end.")
 
     def _end_of_body(self, node: Function) -> int:
-        """Return where the body ends, with the comments that belong to it."""
+        """Return the end of the body, including the indented comments after it."""
         last = node.body[-1].end_lineno or node.lineno
         for number in range(last, len(self._lines)):
             line = self._lines[number]
@@ -149,7 +153,7 @@ class _Cell:
     def _placeholder(self, node: Function, kept: int) -> bytes:
         first = node.body[0]
         line = self._lines[first.lineno - 1][: first.col_offset]
-        if line.strip():  # the body is on the line of the signature
+        if line.strip():  # The body is on the same line as the signature.
             return b"; ..." if kept == self._end(first) else b" ..."
         return b"\n" + line + b"..."
 
@@ -157,7 +161,7 @@ class _Cell:
         return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
 
     def _column(self, node: ast.expr) -> int:
-        """Return the column behind `node` in characters, which is how `tokenize` counts."""
+        """Return the column after `node` in characters, because `tokenize` counts columns in characters."""
         line = self._lines[(node.end_lineno or 1) - 1]
         return len(line[: node.end_col_offset].decode())
 
@@ -167,7 +171,7 @@ class _Cell:
 
 
 def _dots(target: ast.expr) -> str:
-    """Return as many `...` as `target` takes; an empty text when it is more than names."""
+    """Return a `...` for each name in `target`; return "" if `target` contains anything else than names."""
     if isinstance(target, ast.Starred):
         return _dots(target.value)
     if isinstance(target, ast.Tuple | ast.List):
@@ -178,7 +182,11 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Return text of the same shape and its tree; lines that only IPython understands are masked in both."""
+    """Return the syntax tree of `source`, and the text that was parsed, which has the same length.
+
+    If `source` is not Python, lines that only IPython understands are masked in the text and in the tree.
+    Raises AuthoringError if the masked text is not Python, either.
+    """
     try:
         return source, ast.parse(source)
     except SyntaxError:
@@ -190,7 +198,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line` with a magic, a shell command or a `name?` replaced by a name as long."""
+    """Return `line` with a name of the same length in place of a magic, a shell command or a `name?`."""
     found = MAGIC.match(line)
     if not found:
         return line

@@ -1,8 +1,8 @@
-"""What the metadata of a cell says about it; the one place that knows the keys.
+"""The cells of a notebook, and the course's keys in their metadata. No other module uses these keys.
 
 An exercise cell:  {"course": {"exercise": "05.1", "points": 2}}
 Its check cell:    {"course": {"check": "05.1"}}
-A cell that shows an error on purpose carries the tag `raises-exception`.
+A cell that shows an error on purpose has the tag `raises-exception`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from course_pkg.types.fields import Plain
 
 
 class CourseMetadata(TypedDict, total=False):
-    """What the course notes about a cell."""
+    """The course's own metadata of a cell."""
 
     exercise: str
     check: str
@@ -21,15 +21,15 @@ class CourseMetadata(TypedDict, total=False):
 
 
 class CellMetadata(TypedDict, total=False):
-    """The metadata of a cell, as far as the course reads or writes them."""
+    """The metadata of a cell that the course reads or writes."""
 
     course: CourseMetadata
     tags: list[str]
-    recording: bool  # a cell that is added only while the site's panels are recorded
+    recording: bool  # true for a cell that the site adds while it records panels
 
 
 class Output(TypedDict, total=False):
-    """An output of a code cell (nbformat 4); which keys it has depends on `output_type`."""
+    """An output of a code cell (nbformat 4). Its keys depend on `output_type`."""
 
     output_type: str  # "stream", "execute_result", "display_data", "error"
     name: str
@@ -43,7 +43,7 @@ class Output(TypedDict, total=False):
 
 
 class Cell(TypedDict, total=False):
-    """A cell (nbformat 4); `outputs` and `execution_count` are those of a code cell."""
+    """A cell (nbformat 4); only a code cell has `outputs` and `execution_count`."""
 
     id: str
     cell_type: str  # "code", "markdown", "raw"
@@ -76,7 +76,7 @@ class NotebookMetadata(TypedDict, total=False):
 
 
 class Notebook(TypedDict, total=False):
-    """A notebook (nbformat 4), its multi-line strings joined."""
+    """A notebook (nbformat 4); each text is one string, not a list of lines."""
 
     cells: list[Cell]
     metadata: NotebookMetadata
@@ -85,17 +85,17 @@ class Notebook(TypedDict, total=False):
 
 
 def exercise_of(cell: Cell) -> str:
-    """Return the id of the part that this cell is the exercise of, or an empty text."""
+    """Return the id of the part whose exercise is this cell, or "" if the cell is not an exercise."""
     return str(_course(cell).get("exercise", ""))
 
 
 def check_of(cell: Cell) -> str:
-    """Return the id of the part that this cell checks, or an empty text."""
+    """Return the id of the part that this cell checks, or "" if the cell is not a check."""
     return str(_course(cell).get("check", ""))
 
 
 def points_of(cell: Cell) -> int | None:
-    """Return the points of an exercise cell, or None when it does not say."""
+    """Return the points of an exercise cell, or None if its metadata have no points."""
     points = _course(cell).get("points")
     return points if isinstance(points, int) else None
 
@@ -111,13 +111,13 @@ def code_cells(notebook: Notebook) -> list[Cell]:
 
 
 def not_passed(notebook: Notebook) -> dict[str, str]:
-    """Return what is stored for each check that has not passed: its report, by the id of the part."""
+    """Return the stored report of each check that has not passed, by the id of the part."""
     reports = {check: _plain_text(cell) for cell in code_cells(notebook) if (check := check_of(cell))}
     return {check: text for check, text in reports.items() if not text.startswith(f"{check} passed")}
 
 
 def _plain_text(cell: Cell) -> str:
-    """Return the cell's outputs that have a form as plain text, without what was only printed."""
+    """Return the plain text of the cell's results, without the text that the cell printed."""
     texts = (output.get("data", {}).get("text/plain", "") for output in cell["outputs"])
     return "\n".join(str(text) for text in texts if text)
 

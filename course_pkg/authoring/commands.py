@@ -1,4 +1,4 @@
-"""What `course sync` and `course test` take."""
+"""The commands `course sync` and `course test`, and their options."""
 
 from __future__ import annotations
 
@@ -27,9 +27,12 @@ def _sync(options: SimpleNamespace) -> int:
 
 
 def _sync_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("--check", action="store_true", help="change nothing; show what is out of step")
+    parser.add_argument("--check", action="store_true", help="change nothing; list the files to update")
     parser.add_argument(
-        "--execute", nargs="*", metavar="CHAPTER", help="first run the solutions of these chapters, or all"
+        "--execute",
+        nargs="*",
+        metavar="CHAPTER",
+        help="first run the solutions of these chapters, or of all chapters",
     )
 
 

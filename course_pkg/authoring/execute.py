@@ -1,4 +1,4 @@
-"""Run notebooks from the top, several at once, each in a fresh kernel, and keep what they show."""
+"""Runs notebooks from the top, several at the same time, each in a new kernel, and stores their outputs."""
 
 from __future__ import annotations
 
@@ -24,23 +24,24 @@ from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.errors import AuthoringError
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # s; a chapter that makes its reader wait longer needs another cell
-PER_CORE = 3  # notebooks at once: most of the time a notebook waits, for nodes to start and for answers
-A_CELL = 2.0  # s; how a cell counts beside the deadline of a check
+CELL_TIMEOUT = 120  # s for one cell; no reader should have to wait longer
+# The notebooks that run at the same time, per core. A notebook mostly waits for nodes and for responses.
+PER_CORE = 3
+A_CELL = 2.0  # s; the assumed time of a cell, for the estimate of a notebook's time
 
 Finished = Callable[[str, Notebook], None]
 
 
 def workers_here(notebooks: int) -> int:
-    """Return how many of `notebooks` notebooks to run at once on this machine."""
+    """Return how many notebooks to run at the same time on this machine, out of `notebooks` notebooks."""
     return max(1, min(notebooks, PER_CORE * (os.cpu_count() or 1)))
 
 
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
-    """Run the solutions of `chapters`, such as ["05"], or all, and store them with what they show.
+    """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
 
-    Raises AuthoringError with the errors of all solutions that could not be run to their end, and with the
-    reports of all checks that have not passed; the files of these solutions stay as they were.
+    Raises AuthoringError if a solution does not run to its end, or if one of its checks does not pass. The
+    message contains all errors and reports. The files of these solutions do not change.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
     stored = {name: read(path) for name, path in paths.items()}
@@ -58,12 +59,13 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run `notebooks` by name, several at once; call `finished` with each that has run to its end.
+    """Run `notebooks`, which are given by name, several at the same time.
 
-    Returns the errors of the others, by name. An interrupt (KeyboardInterrupt) ends all kernels.
+    Calls `finished` with the name and the outputs of each notebook that ran to its end. Returns the errors of
+    all other notebooks, by name. An interrupt (KeyboardInterrupt) ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
-    # In the main thread nbclient would take SIGINT over, for one of its kernels only.
+    # In the main thread, nbclient would handle SIGINT itself, and interrupt only one of the kernels.
     with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
         task = loop.create_task(_run_all(notebooks, finished, progress))
         try:
@@ -92,15 +94,15 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return the message about a check that does not accept the solution."""
+    """Return the message about a check that has not passed, with its report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 
 
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
-    """Return the names in an order in which no long notebook begins last.
+    """Return the names in descending order of the estimated time, so that no long notebook begins last.
 
-    A notebook's time grows with its cells and with the deadlines of its checks.
+    The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
 
     def estimate(name: str) -> float:
@@ -111,7 +113,7 @@ def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
 
 
 async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
-    """Return `notebook` as it ran in a fresh kernel with a master and folders of its own."""
+    """Run a copy of `notebook` in a new kernel with its own master and folders, and return the copy."""
     node = nbformat.from_dict(notebook)
     fresh: Notebook = node
     strip(fresh)
@@ -133,10 +135,10 @@ async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
 
 @contextmanager
 def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
-    """Give a notebook an empty folder to work in, and an environment in which nothing was done before.
+    """Yield an empty folder for a notebook, and an environment that has no state of earlier notebooks.
 
-    Temporary files, results and logs go into folders beside it, so that several notebooks can run at once.
-    No master is named in the environment: the notebook's own set-up starts a private one.
+    Temporary files, results and logs have separate folders, so that several notebooks can run at the same
+    time. The environment names no master, because the first cell of a notebook starts a private master.
     """
     with tempfile.TemporaryDirectory(prefix="course-notebook-", ignore_cleanup_errors=True) as folder:
         work, temporary = Path(folder, "work"), Path(folder, "tmp")
@@ -145,7 +147,7 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
         private = {
             "TMPDIR": temporary,
             "COURSE_STATE": Path(folder, "state"),
-            "COURSE_WORKSPACE": Path(folder, "workspace"),  # chapters call it ../workspace
+            "COURSE_WORKSPACE": Path(folder, "workspace"),  # the path ../workspace in the chapters
             "ROS_LOG_DIR": Path(folder, "log"),
         }
         environment = {**os.environ, **{name: str(path) for name, path in private.items()}}
@@ -154,12 +156,15 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
 
 
 def _by_files(folder: Path) -> Config:
-    """Have the kernel talk through files in `folder`: another program can take a port before it does."""
+    """Return settings for a kernel that uses sockets in `folder`.
+
+    With TCP, another program could open the chosen port before the kernel does.
+    """
     return Config(KernelManager={"transport": "ipc", "connection_file": str(folder / "kernel.json")})
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
-    """Name the cell that stopped the run."""
+    """Return a message with the cell that stopped the run, and its error."""
     failed = [
         cell["id"]
         for cell in code_cells(notebook)

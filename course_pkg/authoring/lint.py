@@ -1,4 +1,4 @@
-"""What is wrong with a solution notebook, each with the notebook and the cell that it is about."""
+"""Finds the problems of a solution notebook, and names the notebook and the cell of each."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def problems(name: str, notebook: Notebook) -> list[str]:
 
 
 def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
-    """Hold that every exercise has one check, below it, and that no id is used twice."""
+    """Yield an error if an exercise has no check below it, or if an id is used twice."""
     exercises: list[str] = []
     checks: list[str] = []
     for cell in notebook["cells"]:
@@ -29,11 +29,11 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
         if (exercise or check) and cell["cell_type"] != "code":
             yield cell["id"], "only a code cell can be an exercise or a check"
         if exercise in exercises or check in checks:
-            yield cell["id"], f"part {exercise or check} already stands in an earlier cell of this kind"
+            yield cell["id"], f"an earlier cell of this kind has the id {exercise or check}, too"
         if check and check not in exercises:
             yield cell["id"], f"check {check} has no exercise cell above it"
         if check and f'check("{check}")' not in cell["source"]:
-            yield cell["id"], f'the cell does not say check("{check}")'
+            yield cell["id"], f'the cell does not call check("{check}")'
         exercises += [exercise] if exercise else []
         checks += [check] if check else []
     for exercise in sorted(set(exercises) - set(checks)):
@@ -41,7 +41,7 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
 
 
 def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[str, str]]:
-    """Hold that every exercise has its points, its check, and something to take out."""
+    """Yield an error if an exercise has no points, no check, or no answer that can be removed."""
     for cell in code_cells(notebook):
         if not (exercise := exercise_of(cell)):
             continue
@@ -51,11 +51,14 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
         if exercise not in parts:
             yield cell["id"], f"no check is declared for {exercise}"
         elif points is not None and points != parts[exercise].points:
-            yield cell["id"], f"{points} points here, {parts[exercise].points} in the check: make them equal"
+            yield (
+                cell["id"],
+                f"the cell has {points} points and its check has {parts[exercise].points}; make them equal",
+            )
         try:
             given = handed_out(exercise, cell["source"])
             if given.strip() == cell["source"].strip():
-                yield cell["id"], "there is nothing in this exercise to take out"
+                yield cell["id"], "this exercise contains no answer that can be removed"
             elif given.startswith("%%") and _first(given) != _first(cell["source"]):
                 yield cell["id"], f"the check hands out a cell that begins with {_first(given)}"
         except AuthoringError as error:
@@ -67,9 +70,9 @@ def _first(source: str) -> str:
 
 
 def _errors(notebook: Notebook) -> Iterator[tuple[str, str]]:
-    """Hold that an error in an output is there on purpose."""
+    """Yield an error if a cell without the tag `raises-exception` shows an error."""
     for cell in code_cells(notebook):
         for output in cell["outputs"]:
             if output["output_type"] == "error" and not may_raise(cell):
                 words = f"{output['ename']}: {output['evalue']}"
-                yield cell["id"], f"ends with {words}; tag it raises-exception if it is meant to"
+                yield cell["id"], f"ends with {words}; add the tag raises-exception if this is intended"

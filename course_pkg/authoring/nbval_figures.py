@@ -1,6 +1,7 @@
-"""A plug-in of pytest: nbval compares the text of a figure, and leaves its SVG out.
+"""A plug-in of pytest that makes nbval ignore the SVG of a figure. nbval still compares the figure's text.
 
-A figure shows measured times, so its SVG differs in every run. nbval itself leaves only PNG and JPEG out.
+A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
+and JPEG.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ SKIPPED = "image/svg+xml"
 
 
 def pytest_collectstart(collector: pytest.Collector) -> None:
-    """Add SVG to what nbval does not compare in this notebook (nbval's documented way)."""
+    """Add SVG to the types that nbval ignores in this notebook. nbval documents this attribute."""
     attributes = vars(collector)
     if "skip_compare" in attributes:
         attributes["skip_compare"] += (SKIPPED,)

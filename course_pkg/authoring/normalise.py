@@ -1,6 +1,6 @@
-"""A notebook without what differs from run to run and from front end to front end.
+"""Removes everything from a notebook that differs between runs or between front ends.
 
-Addresses, ports, times and process ids in the text of an output stay: they are the author's words.
+Addresses, ports, times and process ids in the text of an output stay, because they are part of the chapter.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ METADATA: NotebookMetadata = {
 
 
 def tidy(notebook: Notebook) -> None:
-    """Normalise `notebook` in place; doing it twice changes nothing more."""
+    """Normalise `notebook` in place. A second call changes nothing."""
     notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
     title = notebook["metadata"].get("title")
     notebook["metadata"] = {**METADATA, "title": title} if title else {**METADATA}
@@ -43,13 +43,13 @@ def tidy(notebook: Notebook) -> None:
 
 
 def strip(notebook: Notebook) -> None:
-    """Take every output and execution count out of `notebook`."""
+    """Remove every output and every execution count from `notebook`, in place."""
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid, unique id, which is the same in each run."""
+    """Give each cell a valid and unique id, which is the same after each run."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)
@@ -81,7 +81,7 @@ def _kept(metadata: CellMetadata) -> CellMetadata:
 
 
 def _number(cell: Cell, number: int) -> None:
-    """Give a cell that was run the number of its place, so that a run with a detour leaves no trace."""
+    """Set the execution count of an executed cell to its position, even if cells ran in another order."""
     if cell["execution_count"] is None and not cell["outputs"]:
         return
     cell["execution_count"] = number
@@ -92,7 +92,7 @@ def _number(cell: Cell, number: int) -> None:
 
 def _output(output: Output) -> Output:
     if output["output_type"] == "error" and output["traceback"][:1] != [HEADER]:
-        # IPython's own traceback names the files of one machine; that of the course names cells.
+        # IPython's own traceback names files of this machine. The course's traceback names only cells.
         output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
     if "data" in output:
         output["data"] = {kind: data for kind, data in output["data"].items() if kind != VIEW}
@@ -101,7 +101,7 @@ def _output(output: Output) -> Output:
 
 
 def _merged(outputs: list[Output]) -> list[Output]:
-    """Join the chunks in which one stream happened to arrive."""
+    """Join neighbouring chunks of the same stream, because their number differs from run to run."""
     merged: list[Output] = []
     for output in outputs:
         last = merged[-1] if merged else Output()

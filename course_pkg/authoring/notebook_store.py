@@ -1,4 +1,4 @@
-"""The solutions, which authors write, and the notebooks, which are derived from them."""
+"""The solutions, which authors write, and the students' notebooks, which are derived from the solutions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,10 @@ class NotebookStore:
         self.root = root or Path(course_pkg.__file__).resolve().parent.parent
 
     def solutions(self, chapters: Sequence[str] = ()) -> list[Path]:
-        """Return the solutions of `chapters`, such as ["05"], or all of them."""
+        """Return the paths of the solutions of `chapters`, such as ["05"], or of all chapters.
+
+        Raises AuthoringError if a chapter has no solution.
+        """
         found = sorted((self.root / "solutions").glob("[0-9][0-9]_*.ipynb"))
         unknown = set(chapters) - {path.name[:2] for path in found}
         if unknown:
@@ -34,7 +37,7 @@ class NotebookStore:
         return [path for path in found if not chapters or path.name[:2] in chapters]
 
     def stale(self) -> Iterator[tuple[Path, str]]:
-        """Yield each file that is not what it has to be, and the text that it has to hold."""
+        """Yield each file that is out of date, and the text that it should have."""
         for path in self.solutions():
             solution = read(path)
             tidy(solution)
@@ -42,27 +45,27 @@ class NotebookStore:
             yield from _if_different(self.root / "notebooks" / path.name, text_of(derived(solution)))
 
     def orphans(self) -> list[Path]:
-        """Return the notebooks whose solution is gone."""
+        """Return the students' notebooks that have no solution any more."""
         names = {path.name for path in self.solutions()}
         derived = sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
         return [path for path in derived if path.name not in names]
 
     def problems(self) -> list[str]:
-        """Return what is wrong with the solutions themselves."""
+        """Return the problems of all solutions, each with its notebook and cell."""
         return [text for path in self.solutions() for text in problems(path.stem, read(path))]
 
 
 def sync(*, check: bool = False, root: Path | None = None) -> int:
-    """Bring solutions and notebooks into step, or with `check` only say what is out of step.
+    """Normalise the solutions, derive the notebooks from them, and return 0.
 
-    Return 0 when nothing was out of step and nothing is wrong; raise AuthoringError with the whole list
-    otherwise.
+    If `check` is true, this function writes nothing, and raises AuthoringError with a list of the files that
+    are out of date. It also raises AuthoringError with a list of all problems if a solution has a problem.
     """
     store = NotebookStore(root)
     stale, orphans = list(store.stale()), store.orphans()
     if check and (stale or orphans):
         names = [str(path.relative_to(store.root)) for path, _ in stale] + [str(path) for path in orphans]
-        raise AuthoringError("\n".join(["out of step; type `course sync`:", *names]))
+        raise AuthoringError("\n".join(["These files are out of date; type `course sync`:", *names]))
     for path, text in stale:
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, "utf-8")
@@ -71,12 +74,12 @@ def sync(*, check: bool = False, root: Path | None = None) -> int:
         path.unlink()
         sys.stdout.write(f"removed {path.relative_to(store.root)}, which has no solution\n")
     if found := store.problems():
-        raise AuthoringError("\n".join(["the solutions need a hand:", *found]))
+        raise AuthoringError("\n".join(["The solutions have problems; correct them:", *found]))
     return 0
 
 
 def derived(solution: Notebook) -> Notebook:
-    """Return what a student gets: no outputs, and no answers in the exercise cells."""
+    """Return the student's notebook: without outputs, and without answers in the exercise cells."""
     notebook = copy.deepcopy(solution)
     strip(notebook)
     for cell in code_cells(notebook):
@@ -86,25 +89,29 @@ def derived(solution: Notebook) -> Notebook:
 
 
 def read(path: Path) -> Notebook:
-    """Return the notebook at `path`, its texts joined."""
+    """Return the notebook at `path`; each text in it is one string.
+
+    Raises AuthoringError if the file cannot be read, or is not a notebook of format 4.
+    """
     try:
         data = json.loads(path.read_text("utf-8"))
-        notebook: Notebook = rejoin_lines(nbformat.from_dict(data))  # nbformat.reads would repair it unasked
+        # nbformat.reads is not used here, because it repairs a broken notebook without a message.
+        notebook: Notebook = rejoin_lines(nbformat.from_dict(data))
     except (OSError, ValueError, TypeError, AttributeError, KeyError) as error:
         raise AuthoringError(f"{path.name} is not a notebook: {error!r}") from error
     if notebook.get("nbformat") != 4:
         raise AuthoringError(
-            f"{path.name} is a notebook of another format: save it with a front end of today."
+            f"{path.name} does not have the notebook format 4. Open it in a current JupyterLab, and save it."
         )
     return notebook
 
 
 def text_of(notebook: Notebook) -> str:
-    """Return the file that holds `notebook`; raise AuthoringError when no front end would read it."""
+    """Return the text of the file for `notebook`. Raises AuthoringError if its format is invalid."""
     try:
         nbformat.validate(notebook)
     except nbformat.ValidationError as error:
-        raise AuthoringError(f"The notebook breaks the format: {error.message}") from error
+        raise AuthoringError(f"The format of the notebook is invalid: {error.message}") from error
     return str(nbformat.writes(nbformat.from_dict(notebook))).rstrip("\n") + "\n"
 
 

@@ -1,4 +1,4 @@
-"""Pictures beside the panels of a stored notebook, and pictures that stay while nothing changed."""
+"""Adds still pictures to the panels of a stored notebook, and keeps a stored picture if nothing changed."""
 
 from __future__ import annotations
 
@@ -12,11 +12,15 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-MADE_BY = "code"  # the key of a digest in the metadata of a measured picture
+MADE_BY = "code"  # the key in the metadata of a measured picture; its value is a digest of the code
 
 
 class _Stored(NamedTuple):
-    """A measured picture as it was stored, with the digest of the code that made it, and its other forms."""
+    """A stored picture with measured times.
+
+    `made_by` is the digest of the code that made the picture, and `others` are the data of the same output in
+    other MIME types.
+    """
 
     picture: Plain
     made_by: str
@@ -24,11 +28,12 @@ class _Stored(NamedTuple):
 
 
 def add_pictures(executed: Notebook, stored: Notebook) -> None:
-    """Give each panel of `executed` its still picture, in place; its metadata still hold the panels' states.
+    """Add a still picture to each panel of `executed`, in place.
 
-    A plot and the picture of a panel that shows a recording hold measured times, so they would differ after
-    each run. Such a picture of `stored` stays, as long as the output's other forms and all the code that
-    made it are the same: that of the notebook up to its cell, and that which draws the panel.
+    The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
+    show a recording, contain measured times, so they differ after each run. Such a picture is taken from the
+    notebook `stored` if three things are the same: the code of the notebook up to this cell, the code that
+    draws the panel, and the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}
@@ -51,11 +56,11 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 
 
 def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
-    """Note what made a measured picture; take the stored one instead if the same made it."""
+    """Store the digest of the code in the output; use the old picture if its digest and data are the same."""
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)
     if same:
-        old.remove(same)  # a cell may show several plots that have the same text
+        old.remove(same)  # A cell may show several plots with the same text, so use each old plot only once.
         output["data"][SVG] = same.picture
 
 

@@ -1,6 +1,6 @@
-"""A plug-in of pytest: each notebook that nbval runs gets its own master, folder, workspace and results.
+"""A plug-in of pytest that gives each notebook of nbval its own master, folder, workspace and results.
 
-So notebooks can run at the same time, on several workers of pytest-xdist with `--dist loadfile`.
+Therefore several workers of pytest-xdist can run notebooks at the same time, with `--dist loadfile`.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ OPENED = pytest.StashKey[ExitStack]()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_setup(item: pytest.Item) -> Generator[None]:
-    """Change environment and folder before nbval starts the kernel, which it does for the first cell.
+    """Change the environment and the folder before the first cell, because then nbval starts the kernel.
 
-    nbval starts a kernel in the folder of its notebook. So the notebook has another path for that moment.
+    nbval starts the kernel in the folder of the notebook. Therefore the notebook has another path during this
+    step.
     """
     notebook = item.parent
     if not hasattr(item, "cell") or not isinstance(notebook, pytest.File) or OPENED in notebook.stash:

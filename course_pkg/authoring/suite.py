@@ -1,4 +1,4 @@
-"""`course test`: the tools that read the code, and the tests, at the same time."""
+"""`course test`: runs the tools that read the code, and at the same time the tests."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ TOOLS = {
     "imports": "lint-imports",
     "dead code": "vulture",
 }
-SLOWEST = ("--durations", "40", "--durations-min", "4")  # named at the end of each whole run
-A_CORE = 2  # pytest workers for each core: most tests wait, for nodes, browsers and builds
+SLOWEST = ("--durations", "40", "--durations-min", "4")  # list the slowest tests at the end of a whole run
+A_CORE = 2  # pytest workers per core; two, because most tests wait for nodes, browsers or builds
 
 
 @dataclass
 class Tool:
-    """One tool that reads the code: its command, and what came of it."""
+    """One tool that reads the code: its command and its result."""
 
     name: str
     command: str
@@ -54,19 +54,17 @@ class Tool:
 
 
 def run_suite(arguments: Sequence[str]) -> int:
-    """Run the tools and the tests, all of them even if one fails; return 0 if all passed.
+    """Run all tools and all tests, even if one of them fails; return 0 if all passed.
 
-    `--changed` runs what a change since the last passed run can affect, `--slow` the long series. Other
-    `arguments` go to pytest; then no tool runs.
+    `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
+    the slow tests. Other `arguments` are passed to pytest; then no tool runs.
 
-    Raises SetupError where the environment has no tools, as conda's has none.
+    Raises SetupError if the environment does not contain the tools, such as an environment of conda.
     """
     places = Places.of()
     if not (places.venv / "bin" / "ruff").exists():
         lock = places.checkout / "course_pkg" / "setup" / "locks" / "test.txt"
-        raise SetupError(
-            f"The tests need more than environment.yml has. Type: python -m pip install -r {lock}"
-        )
+        raise SetupError(f"The tools for the tests are not installed. Type: python -m pip install -r {lock}")
     own = {"--changed", "--slow"} & set(arguments)
     others = [word for word in arguments if word not in own]
     tools = [] if others or "--slow" in own else [Tool(*each) for each in TOOLS.items()]
@@ -95,5 +93,5 @@ def _run_tests(places: Places, arguments: Sequence[str]) -> int:
 
 
 def repeat_command(test: str) -> str:
-    """Return the command line that runs one test again, given by its id."""
+    """Return the command line that runs the test with the id `test` again."""
     return f"./course test {shlex.quote(test)}"

@@ -1,4 +1,4 @@
-"""Validate stored notebooks: nbval runs each of them and compares what it shows with what is stored."""
+"""Validates stored notebooks: nbval runs each notebook, and compares its outputs with the stored outputs."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ PLUGINS = (
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval over `notebooks`, `workers` at once, and return how that ended.
+    """Run nbval with `notebooks` on `workers` workers, and return its exit status and output.
 
-    Each notebook runs on a master of its own. It stays on one worker (`--dist loadfile`), because nbval
-    cannot share a kernel between two. It is run as a copy in an empty folder, because nbval starts the kernel
-    in the notebook's folder. Without `compare`, a notebook only has to run to its end: its outputs are not
-    compared with the stored ones. Raises subprocess.TimeoutExpired after `timeout` s.
+    Each notebook has its own master. It stays on one worker (`--dist loadfile`), because two workers cannot
+    share a kernel of nbval. nbval starts the kernel in the folder of the notebook, so it gets a copy of the
+    notebook in an empty folder. If `compare` is false, nbval does not compare outputs, and each notebook only
+    has to run to its end. Raises subprocess.TimeoutExpired after `timeout` s.
     """
     with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
         copies = [_copied(path, Path(folder)) for path in notebooks]
@@ -49,7 +49,7 @@ def _copied(notebook: Path, folder: Path) -> Path:
 
 
 def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) -> list[str]:
-    """Return the command of `validate`; no configuration of the repository's own tests takes part in it."""
+    """Return the command of `validate`. It does not use the configuration of the repository's own tests."""
     parallel = ["-n", str(workers), "--dist", "loadfile"] if workers > 1 else ["-p", "no:xdist"]
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval" if compare else "--nbval-lax"),

@@ -16,21 +16,21 @@ PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets
 
 
 class SavedPanel(NamedTuple):
-    """A panel of the course: its folder in `course_pkg.panels`, and the traits that a page reads."""
+    """A panel of the course: the name of its folder in `course_pkg.panels`, and the traits for a page."""
 
     name: str
     state: dict[str, Plain]
 
 
 class SavedPanels:
-    """The panels of an executed notebook, as nbclient saves them in its metadata."""
+    """The panels of an executed notebook, which nbclient saves in the notebook's metadata."""
 
     def __init__(self, notebook: Notebook) -> None:
         widgets = notebook["metadata"].get("widgets", {})
         self._models = widgets[STATES]["state"] if STATES in widgets else {}
 
     def of(self, output: Output) -> SavedPanel | None:
-        """Return the panel that an output shows; None for another output, and for any other widget."""
+        """Return the panel that `output` shows, or None if it shows no panel of the course."""
         view = output.get("data", {}).get(VIEW)
         if not isinstance(view, Mapping):
             return None

@@ -1,9 +1,10 @@
-"""Faults of services, nodes and masters, really caused and undone: the cases of the lab.
+"""Faults of services, nodes and masters, which are really caused on the graph and then undone.
 
     with caused("stale") as stage:
         seen = stage.symptom()
 
-`fault` describes one; `program` and `stage` run it; `catalogue` holds all of them.
+The module `fault` describes one fault, `program` and `stage` run it, and `catalogue` lists all faults. The
+panel BreakIt shows the faults to students as cases.
 """
 
 from typing import TYPE_CHECKING

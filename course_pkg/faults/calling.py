@@ -1,4 +1,4 @@
-"""Faults in a call: how it is made, and what has become of the server."""
+"""Faults in a call: mistakes of the client, and servers that have ended or do not respond."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _broken = partial(
     group="calling",
     chapter="12",
     visitor=VISITOR,
-    story="The door's service has worked all day. Now a client calls it once more.",
+    story="The door's service has worked all day. Now a client calls it again.",
 )
 
 SLOW_KEEPER = keeper().replace(
@@ -48,7 +48,7 @@ from std_srvs.srv import SetBool, SetBoolResponse
 
 def handle(request):
     if multiprocessing.parent_process():
-        threading.Timer(0.1, os._exit, [1]).start()  # the first one crashes after its first answer
+        threading.Timer(0.1, os._exit, [1]).start()  # the first server crashes after its first response
     return SetBoolResponse(True, "open" if request.data else "shut")
 
 def serve():
@@ -59,7 +59,7 @@ def serve():
 first = multiprocessing.get_context("fork").Process(target=serve)
 first.start()
 first.join()
-serve()  # and is started again
+serve()  # the second server replaces it
 """
 
 KEEPS_CALLING = """\
@@ -105,7 +105,7 @@ for thread in threads:
 for thread in threads:
     thread.join(0.4)
 print("\\n".join(wrong[:3]))
-print("some answers went to the wrong thread, or nowhere:", bool(wrong) or any(t.is_alive() for t in threads))
+print("some responses went to another thread or got lost:", bool(wrong) or any(t.is_alive() for t in threads))
 """
 
 
@@ -114,16 +114,19 @@ def _freeze(stage: Stage) -> None:
 
 
 def _hog(stage: Stage) -> None:
-    """Connect to the server and say nothing, as a port scan or a hanging client does."""
+    """Connect to the server and send nothing, as a port scan or a hanging client does."""
     stage.serve(keeper())
     uri = MasterClient(stage.uri).lookup_service(stage.door) or ""
     stage.later(socket.create_connection(("127.0.0.1", port_of(uri)), timeout=2.0).close)
 
 
 def _misname(stage: Stage) -> None:
-    """Serve under a host name that leads nowhere; so nobody can ask whether the server answers."""
+    """Start a server with a host name that cannot be resolved.
+
+    Because of this name, no other process can connect to the server, so this function does not test it.
+    """
     master = MasterClient(stage.uri)
-    # With the name localhost, rospy refuses other names with its own message before it looks them up.
+    # If the client's host name is localhost, rospy refuses all other names before it looks them up.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)
@@ -141,11 +144,11 @@ CALLING: tuple[Fault, ...] = (
         look="gone unavailable",
         story="A client calls the door's service.",
         visitor=VISITOR.replace("/lab/door", "/lab/dor"),
-        diagnosis="The client calls a name that no node provides: client and server spell it differently.",
+        diagnosis="No node provides this service: client and server spell its name differently.",
         remedy="Compare the name in the client with `rosservice list`.",
         reason=(
-            "`unavailable` means that no node provides a service of this name. The server runs, but its"
-            " service name has one more letter."
+            "`unavailable` means that no node provides a service of this name. The server runs, but the "
+            "name of its service has one more letter."
         ),
     ),
     _well(
@@ -159,8 +162,8 @@ CALLING: tuple[Fault, ...] = (
         ),
         remedy="Wait longer than the server needs to start, or try again later.",
         reason=(
-            "wait_for_service() ended after one second: `rosnode list` shows the node, and `rosservice "
-            "list` does not show the service yet."
+            "wait_for_service() ended after one second. At that time, `rosnode list` shows the node, but "
+            "`rosservice list` does not show the service yet."
         ),
         unlike=("no_service",),
     ),
@@ -183,8 +186,8 @@ CALLING: tuple[Fault, ...] = (
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=0)', "import std_srvs.srv"),
         diagnosis="wait_for_service() gets a timeout of 0, which it does not accept.",
-        remedy="Give it some seconds, or omit the wait and catch the exception of the call.",
-        reason="`timeout must be non-zero` is a ValueError in the client: no request was sent.",
+        remedy="Use a timeout of some seconds, or do not wait, and catch the exception of the call.",
+        reason="`timeout must be non-zero` is a ValueError in the client. No request was sent.",
     ),
     _python(
         name="too_few",
@@ -192,8 +195,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The call has more or fewer positional values than the request has fields.",
         remedy="Give one value for each field, or name the fields.",
         reason=(
-            "The exception is a TypeError and not a ServiceException: the request could not be created,"
-            " so nothing was sent. `except rospy.ServiceException` would not catch it."
+            "The client could not create the request, so it sent nothing. The exception is a TypeError, "
+            "which `except rospy.ServiceException` does not catch."
         ),
     ),
     _python(
@@ -225,8 +228,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The call omits a field, which therefore has the value False or 0. No error reports this.",
         remedy="Give each field a value, by name.",
         reason=(
-            "An omitted field has the zero of its type. The server cannot distinguish it from an "
-            "intended False."
+            "An omitted field has the value False, 0 or an empty string. The server cannot distinguish it "
+            "from an intended False."
         ),
     ),
     _python(
@@ -235,8 +238,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="A value in the call has another type than its field.",
         remedy="Convert the value to the type of its field before the call.",
         reason=(
-            "The request was created but could not be packed: the exception is a SerializationError in "
-            "the client, not a ServiceException."
+            "The client created the request, but could not pack it for sending. The exception is a "
+            "SerializationError in the client, and not a ServiceException."
         ),
     ),
     _broken(
@@ -247,10 +250,10 @@ CALLING: tuple[Fault, ...] = (
         play=serving('return SetBoolResponse(True, "open")'),
         visitor=VISITOR.replace("SetBool", "Trigger").replace("(True)", "()"),
         diagnosis="Client and server use different service types.",
-        remedy="Compare `rosservice type` and `rossrv md5`, and use one definition on both sides.",
+        remedy="Compare `rosservice type` and `rossrv md5`, and use the same type in client and server.",
         reason=(
             "`md5sums do not match`: the server compares a checksum of the definition before it reads a"
-            " request. Here one side uses Trigger and the other SetBool."
+            " request. Here the client uses Trigger, and the server uses SetBool."
         ),
     ),
     _broken(
@@ -268,12 +271,12 @@ CALLING: tuple[Fault, ...] = (
     _broken(
         name="died",
         look="gone connection",
-        play=running("import os\n" + keeper("os._exit(1)  # the motor takes the power supply down")),
+        play=running("import os\n" + keeper("os._exit(1)  # the motor causes a power failure")),
         diagnosis="The server received the request, and ended before it sent the response.",
-        remedy="Start the server again. Repeat the call if doing the work twice does no harm.",
+        remedy="Start the server again. Repeat the call only if the work may be done twice.",
         reason=(
-            "`unable to receive data from sender`: the connection was open, and closed while the client"
-            " waited. The client cannot know how much of the work was done."
+            "`unable to receive data from sender`: the connection was closed while the client waited for the "
+            "response. The client cannot know how much of the work the server has done."
         ),
         unlike=("stale",),
     ),
@@ -281,7 +284,7 @@ CALLING: tuple[Fault, ...] = (
         name="stopped",
         look="wait call",
         play=_freeze,
-        diagnosis="The server's process is stopped: it exists and does nothing.",
+        diagnosis="The server's process is stopped: it still exists, but does nothing.",
         remedy="Continue the process with `kill -CONT`, or with `fg` if Ctrl-Z has stopped it.",
         reason=(
             "The operating system still accepts connections for the process, so wait_for_service() "
@@ -293,11 +296,11 @@ CALLING: tuple[Fault, ...] = (
         name="hogged",
         look="wait call",
         play=_hog,
-        diagnosis="A client that has connected and sends nothing blocks all other clients of the server.",
+        diagnosis="Another client has connected and sends nothing, which blocks all other clients.",
         remedy="End that client. To prevent it, let the server read each header on a separate thread.",
         reason=(
             "rospy reads the header of each connection on the one thread that accepts connections. "
-            "`rosnode ping` uses another thread and gets an answer, but no probe of the service does. "
+            "`rosnode ping` uses another thread and gets an answer, but a probe of the service gets none. "
             "prepare_node() of the course avoids this."
         ),
         hangs=True,
@@ -315,9 +318,9 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The client keeps a connection to a server that is gone, and never opens a new one.",
         remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
         reason=(
-            "A persistent proxy looks the service up once. After the restart, each call fails with "
-            "another message: first about the transport, then a broken pipe, then 'tell'. The proxy "
-            "never calls the new server."
+            "A persistent proxy looks the service up only once, so it never calls the new server. After the "
+            "restart, each call fails with a different message: about the transport, a broken pipe, and then "
+            "'tell'."
         ),
     ),
     _broken(

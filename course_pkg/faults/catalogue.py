@@ -1,4 +1,4 @@
-"""All faults, and finding one by its name."""
+"""The list of all faults, and functions that select faults by name or group."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def names() -> list[str]:
 
 
 def named(name: str) -> Fault:
-    """Return the fault of this name. Raises UnknownFault."""
+    """Return the fault called `name`. Raises UnknownFault if there is no such fault."""
     return _only(select(name), name)
 
 
 @contextmanager
 def caused(name: str) -> Iterator[Stage]:
-    """Cause the fault of this name for the block of a `with`; it is undone when the block ends.
+    """Cause the fault called `name` for the block of a `with`, and undo it when the block ends.
 
-    Raises UnknownFault, and NodeFailed where the fault could not be caused.
+    Raises UnknownFault if there is no such fault, and NodeFailed if the fault could not be caused.
     """
     stage = Stage(named(name))
     stage.cause()
@@ -46,7 +46,10 @@ def caused(name: str) -> Iterator[Stage]:
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:
-    """Return the faults of these names and groups, all for none. Raises UnknownFault."""
+    """Return the faults with the `chosen` names and groups, or all faults if `chosen` is empty.
+
+    Raises UnknownFault if a name is neither a fault nor a group.
+    """
     found = [_found(name) for name in chosen] if chosen else [every_fault()]
     return tuple(dict.fromkeys(each for some in found for each in some))
 
@@ -55,7 +58,7 @@ def _found(name: str) -> tuple[Fault, ...]:
     found = tuple(each for each in every_fault() if name in (each.name, each.group))
     if not found:
         raise UnknownFault(
-            f"There is no fault {name!r} in the lab. There are the groups {', '.join(GROUPS)}, and the "
+            f"There is no fault {name!r}. Choose one of the groups {', '.join(GROUPS)}, or one of the "
             f"faults {', '.join(names())}."
         )
     return found

@@ -1,4 +1,4 @@
-"""Faults of the master, and of the way to it."""
+"""Faults of the master, and of the connection to it."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="No master runs, and init_node() keeps trying to reach one.",
         remedy="Start a master, or correct ROS_MASTER_URI.",
         reason=(
-            "`Unable to register with master node … Will keep trying` is printed once, and then nothing"
-            " more. The program has not reached its call yet."
+            "The program prints `Unable to register with master node … Will keep trying` only once. It has "
+            "not reached its call yet."
         ),
         hangs=True,
     ),
@@ -76,17 +76,17 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="No master runs, so the program cannot read a parameter.",
         remedy="Start a master. Catch ConnectionRefusedError if the master may be missing.",
         reason=(
-            "get_param() raises the socket's ConnectionRefusedError, although a default is given: the "
-            "default is only for a parameter that is not set."
+            "get_param() raises the socket's ConnectionRefusedError. The default value does not help, "
+            "because it is only for a parameter that is not set."
         ),
     ),
     _asked(
         name="restarted_master",
         look="gone unavailable",
-        story="The door's service has worked all day. Now a client calls it once more.",
+        story="The door's service has worked all day. Now a client calls it again.",
         play=_restart_master,
         diagnosis="The master was restarted and does not know the server, which still runs.",
-        remedy="Start the server again: rospy does not register it a second time.",
+        remedy="Start the server again, because rospy does not register it with the new master.",
         reason=(
             "The server's process works, but the new master has an empty list. rospy registers a "
             "service once, when it is created."
@@ -124,8 +124,8 @@ MASTERS: tuple[Fault, ...] = (
         story="A student starts a master without roscore.",
         play=_own_master,
         visitor="$ rosmaster --core -p MASTER_PORT",
-        diagnosis="The port is taken, and the new master's process stays without doing anything.",
-        remedy="End this process, and find out which program uses the port before you start another.",
+        diagnosis="Another program uses the port, and the new master's process runs without doing anything.",
+        remedy="End this process, and find out which program uses the port before you start another master.",
         reason=(
             "rosmaster prints `[Errno 98] Address already in use` and never ends. So a running process "
             "does not prove that the master answers."
@@ -136,11 +136,11 @@ MASTERS: tuple[Fault, ...] = (
         name="malformed_uri",
         look="wait start",
         play=_malform,
-        diagnosis="ROS_MASTER_URI is not a valid address, and init_node() still keeps trying.",
+        diagnosis="ROS_MASTER_URI is not a valid address, but init_node() keeps trying to reach a master.",
         remedy="Write the whole address: http://localhost:11311.",
         reason=(
-            "Without http:// at the beginning it is not an address, and init_node() treats it like a "
-            "master that has not started yet. The tools show that master and server work."
+            "An address begins with http://. Without it, init_node() behaves as if the master had not "
+            "started yet. The tools show that master and server work."
         ),
         hangs=True,
     ),
@@ -151,6 +151,6 @@ MASTERS: tuple[Fault, ...] = (
         visitor=BARE,
         diagnosis="ROS_MASTER_URI is not a valid address, so the call cannot begin.",
         remedy="Write the whole address: http://localhost:11311.",
-        reason="`invalid master URI` is a ValueError, and not a ServiceException.",
+        reason="The call raises a ValueError, `invalid master URI`, and not a ServiceException.",
     ),
 )

@@ -122,7 +122,7 @@ thread = threading.Thread(target=rospy.init_node, args=["visitor"])
 thread.start()
 thread.join()
 rospy.init_node("visitor")
-print("a second try says nothing; initialized:", rospy.core.is_initialized())
+print("a second call prints no error; initialized:", rospy.core.is_initialized())
 """
 
 
@@ -158,7 +158,7 @@ NODES: tuple[Fault, ...] = (
         remedy="Keep the name, or restart the kernel to use another one.",
         reason=(
             "A second init_node() with the same arguments does nothing, and with other arguments it "
-            "raises an error. A process is one node, and only once."
+            "raises an error. A process can be only one node."
         ),
     ),
     _fault(
@@ -171,8 +171,8 @@ NODES: tuple[Fault, ...] = (
         diagnosis="init_node() is called on a thread that is not the main thread.",
         remedy="Restart the kernel, and call init_node() on the main thread first.",
         reason=(
-            "init_node() sets signal handlers, which Python permits only on the main thread. At that "
-            "point it has already stored that it was called, so a second call does nothing."
+            "init_node() sets signal handlers, which Python permits only on the main thread. Before this "
+            "error, rospy has already stored that init_node() was called. So a second call does nothing."
         ),
     ),
     _asked(
@@ -195,7 +195,7 @@ NODES: tuple[Fault, ...] = (
         name="same_name",
         look="gone unavailable",
         chapter="01",
-        story="The door's service has worked all day. Now a client calls it once more.",
+        story="The door's service has worked all day. Now a client calls it again.",
         play=_twin,
         diagnosis="Another node has started with the server's node name, which ended the server.",
         remedy="Give each node its own name, and start the server again.",
@@ -223,26 +223,26 @@ NODES: tuple[Fault, ...] = (
         name="first_message",
         look="quiet topic",
         chapter="02",
-        story="A program rings the bell once by a message. The door's node should have received it.",
+        story="A program rings the bell with one message. The door's node should have received the message.",
         play=running(LISTENER),
         visitor=RINGS_ONCE,
         diagnosis="The message was published before a subscriber was connected, and is lost.",
         remedy="Wait for the connection before you publish, or latch the topic.",
         reason=(
-            "A publisher registers with the master, the master informs the subscribers, and these "
-            "connect. This takes some milliseconds, and messages that are published in the meantime are"
-            " lost."
+            "A publisher registers with the master, the master informs the subscribers, and then the "
+            "subscribers connect. This takes some milliseconds. Messages that are published during this time "
+            "are lost."
         ),
     ),
     _fault(
         name="topic_types",
         look="quiet topic",
         chapter="02",
-        story="A program rings the bell by ten messages. The door's node should have received them.",
+        story="A program rings the bell with ten messages. The door's node should have received them.",
         play=running(LISTENER),
         visitor=RINGS_OTHERWISE,
         diagnosis="Publisher and subscriber use different types for one topic.",
-        remedy="Compare them with `rostopic info`, and use one type on both sides.",
+        remedy="Compare the types with `rostopic info`, and use the same type in both nodes.",
         reason=(
             "The publisher refuses the connection, and the subscriber gets no error. Only the "
             "publisher's log may contain a line about it."
@@ -257,7 +257,7 @@ NODES: tuple[Fault, ...] = (
         play=_ring,
         visitor=NOTEBOOK,
         diagnosis="A callback prints, and its output appears below the cell that runs at that time.",
-        remedy="Let callbacks store what they receive, and show it in a separate cell.",
+        remedy="Let callbacks store the messages, and print them in a separate cell.",
         reason=(
             "Callbacks run on threads of rospy. A notebook shows their output below the cell that runs "
             "at that time, or below the last one."

@@ -1,10 +1,10 @@
-"""Runs one short program of a case, as `python FILE` would, in a process that waits for a signal to begin.
+"""Runs one short program of a case as `python FILE` does, in a process that waits for a byte to begin.
 
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
-READY is a descriptor to which a byte is written when the interpreter and rospy are loaded, and the exit
-status as another when the code has ended; GO is one from which a byte is read before the code begins. So the
-time to start an interpreter is not measured, and can be spent before the program is needed.
+READY and GO are file descriptors. This program writes a byte to READY when the interpreter and rospy are
+loaded. It then reads a byte from GO, and begins the code. When the code has ended, it writes the exit status
+to READY as one byte. So a case can start the interpreter early, and measure only the time of the code.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ import traceback
 
 
 def main(argv: list[str]) -> int:
-    """Run the code and return its exit status; a traceback begins in the code, not here."""
+    """Run the code, and return its exit status. A traceback shows only lines of the code."""
     ready, go = int(argv[1]), int(argv[2])
     name, code = argv[3:5]
-    del sys.path[0]  # the folder of this file: its other modules are not for the program
-    import rospy  # noqa: F401 -- slow imports come before the first byte
+    del sys.path[0]  # The program must not import the other modules in the folder of this file.
+    import rospy  # noqa: F401 -- slow imports run before the first byte
     import std_srvs.srv  # noqa: F401
 
     sys.argv = [name, *argv[5:]]
@@ -31,7 +31,8 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    os.read(go, 1)  # until it is ended from outside: rospy's own end takes 0.6 s, and longer without a master
+    # Wait here until the case kills this process, because rospy's own shutdown takes 0.6 s or more.
+    os.read(go, 1)
     return status
 
 
@@ -40,7 +41,7 @@ def _run(name: str, code: str) -> int:
         exec(compile(code, name, "exec"), {"__name__": "__main__"})  # noqa: S102 -- a program of the catalogue
     except SystemExit as end:
         return int(end.code or 0)
-    except BaseException as error:  # noqa: BLE001 -- shown as Python shows it
+    except BaseException as error:  # noqa: BLE001 -- printed as Python prints it
         shown = traceback.TracebackException.from_exception(error)
         _cut(shown, name)
         sys.stderr.write("".join(shown.format()))
@@ -49,7 +50,7 @@ def _run(name: str, code: str) -> int:
 
 
 def _cut(shown: traceback.TracebackException, name: str) -> None:
-    """Leave in a traceback the lines of the program itself, and no causes inside rospy."""
+    """Remove all lines of other files from a traceback, and the causes that are inside rospy."""
     shown.stack = traceback.StackSummary.from_list([each for each in shown.stack if each.filename == name])
     shown.__cause__ = shown.__context__ = None
 

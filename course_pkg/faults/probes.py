@@ -1,4 +1,4 @@
-"""The tools with which a student examines a case: real commands, each with a time limit."""
+"""The tools with which a student examines a case. They are real commands with a time limit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from course_pkg.faults.stage import Stage
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.registrations import remove_stale
 
-TIMEOUT = 4.0  # s for a tool; it takes 0.5 s to start
+TIMEOUT = 4.0  # s for a tool, which needs 0.5 s to start
 
 COMMANDS = {
     "services": "rosservice list",
@@ -25,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Use a tool of TOOLS on a case, and return what it shows; it takes at most 10 s."""
+    """Use a tool of TOOLS on a case, and return its output. This takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":
@@ -39,16 +39,16 @@ def probe(stage: Stage, tool: str) -> Seen:
 
 
 def _output(stage: Stage) -> Seen:
-    """Return what the server has printed, and whether its process is there."""
+    """Return the output of the server, and whether its process still runs."""
     keeper = stage.keeper
     if keeper is None:
-        return Seen("the server's output", "Nobody has started a server in this case.", 0.0, 0)
-    state = "Its process is there." if keeper.running else "Its process has ended."
+        return Seen("the server's output", "No server was started in this case.", 0.0, 0)
+    state = "Its process still exists." if keeper.running else "Its process has ended."
     return Seen("the server's output", f"{keeper.output().strip() or '(nothing printed)'}\n{state}", 0.0, 0)
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Do what `rosnode cleanup` does, but only for the nodes of the case."""
+    """Remove stale registrations, as `rosnode cleanup` does, but only of the nodes of this case."""
     try:
         nodes = MasterClient(stage.uri).system_state().nodes
         own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]
@@ -56,5 +56,5 @@ def _cleaned(stage: Stage) -> Seen:
     except GraphError as error:
         return Seen("rosnode cleanup, for the nodes of this case", str(error), 0.0, 1)
     lines = [f"Unregistering {entry.kind} {entry.name} of {entry.node}" for entry in removed]
-    said = "\n".join(lines) or "No entry leads nowhere."
+    said = "\n".join(lines) or "There are no stale registrations."
     return Seen("rosnode cleanup, for the nodes of this case", said, 0.0, 0)

@@ -1,4 +1,4 @@
-"""A short program of a case as a process: started early, released by begin(), watched for a limited time."""
+"""A short program of a case as a process. It starts early, and runs its code after begin()."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
-READY = 15.0  # s for an interpreter and rospy; it takes 0.3 s
-LONGEST = 8000  # bytes of an output that are shown, from its end
+READY = 15.0  # s; the time limit for the start of an interpreter and rospy, which usually takes 0.3 s
+LONGEST = 8000  # bytes; only the last part of a longer output is shown
 INTERVAL = 0.01  # s between polls
-_FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")  # colours, and the title of its window
+_FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")  # the codes for colours and the window's title
 
 
 @dataclass(frozen=True)
 class Seen:
-    """What a program showed: its text, what it printed, how long that took (s), its exit status.
+    """The result of a program: its code or command, its output, its time in s, and its exit status.
 
-    `status` is None if it was still waiting when the time limit was over, negative for a signal.
+    `status` is None if the program still ran at the time limit, and negative if a signal ended the program.
     """
 
     shown: str
@@ -39,12 +39,12 @@ class Seen:
 
     @property
     def waiting(self) -> bool:
-        """Whether it had not ended."""
+        """Whether the program still ran at the time limit."""
         return self.status is None
 
     @property
     def verdict(self) -> str:
-        """How it ended, in a few words."""
+        """How the program ended, as a short text."""
         if self.status is None:
             return f"no answer within {self.seconds:.0f} s; still waiting"
         end = "ended" if self.status == 0 else f"ended with status {self.status}"
@@ -52,15 +52,15 @@ class Seen:
 
 
 class Program:
-    """A Python text or a command, in a process that ends with this one at the latest.
+    """A Python program or a command in a process, which ends at the latest when this process ends.
 
-    A text waits for begin(); a command begins at once.
+    A Python program waits for begin(). A command begins at once.
     """
 
     def __init__(self, shown: str, command: Sequence[str], env: Mapping[str, str]) -> None:
         self.shown = shown
         self._began = time.monotonic()
-        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it lives as long as this object
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- open as long as this object exists
         self._pipes: list[int] = []
         weakref.finalize(self, _close, self._pipes)
         weakref.finalize(self, self._output.close)
@@ -75,7 +75,10 @@ class Program:
         return cls(code, [sys.executable, str(PLAYER), "READY", "GO", name, code, *args], env)
 
     def begin(self) -> None:
-        """Let a text begin, as soon as its interpreter has started. Raises NodeFailed if that ends."""
+        """Begin the code of a Python program, after its interpreter has started.
+
+        Raises NodeFailed if the interpreter ends, or does not start within READY.
+        """
         if self._pipes:
             self._await_byte(READY)
             self._ready = True
@@ -83,14 +86,14 @@ class Program:
             self._began = time.monotonic()
 
     def watch(self, timeout: float) -> Seen:
-        """Return what it shows until it ends, or until `timeout` s after its beginning."""
+        """Wait until the program ends, at most `timeout` s after its beginning, and return its result."""
         wait_until(lambda: self.over, self._began + timeout - time.monotonic(), INTERVAL)
         took = time.monotonic() - self._began
         return Seen(self.shown, self.output(), took, self._status)
 
     @property
     def over(self) -> bool:
-        """Whether its text, or its process, has ended."""
+        """Whether the code of the program, or its process, has ended."""
         if self._status is None:
             if self._ready and select.select([self._pipes[0]], [], [], 0)[0]:
                 end = os.read(self._pipes[0], 1)
@@ -101,36 +104,36 @@ class Program:
 
     @property
     def running(self) -> bool:
-        """Whether its process lives."""
+        """Whether the program's process still exists."""
         return self._process.returncode is None
 
     def output(self) -> str:
-        """Return what it has printed so far, at most its last 8000 characters."""
+        """Return the program's output until now, at most its last 8000 bytes."""
         file = self._output.fileno()
         size = os.fstat(file).st_size
         text = os.pread(file, LONGEST, max(size - LONGEST, 0)).decode("utf-8", "replace")
         return _FOR_A_TERMINAL.sub("", text)
 
     def ports(self) -> frozenset[int]:
-        """Return the ports on which it listens."""
+        """Return the ports on which the program listens."""
         return self._process.listening_ports()
 
     def signal(self, number: int) -> None:
-        """Send it a signal."""
+        """Send the program a signal."""
         self._process.signal(number)
 
     def kill(self) -> None:
-        """Kill it by SIGKILL: it cannot unregister, and what it registered stays."""
+        """Kill the program by SIGKILL. It cannot unregister, so its registrations stay at the master."""
         self._process.signal(signal.SIGKILL)
         self._process.wait(3.0)
 
     def freeze(self) -> None:
-        """Stop it by SIGSTOP, and return when all its threads are stopped."""
+        """Stop the program by SIGSTOP, and return when all its threads are stopped."""
         self._process.signal(signal.SIGSTOP)
         wait_until(lambda: _still(self.pid), 3.0, INTERVAL)
 
     def end(self) -> None:
-        """End it at once, with all processes that it started; a second end changes nothing."""
+        """End the program at once, and all processes that it started. A second call changes nothing."""
         if self.running:
             self._process.end(grace=0)
         _close(self._pipes)
@@ -150,7 +153,7 @@ class Program:
 
     def _await_byte(self, timeout: float) -> None:
         if not select.select([self._pipes[0]], [], [], timeout)[0] or not os.read(self._pipes[0], 1):
-            raise NodeFailed(f"A program of the lab did not start. What it printed: {self.output()}")
+            raise NodeFailed(f"A program of the case did not start. Its output was: {self.output()}")
 
     def _ended_with(self) -> int:
         self._process.wait(3.0)
@@ -159,7 +162,7 @@ class Program:
 
 
 def _still(pid: int) -> bool:
-    """Return whether all threads of a process are stopped; psutil tells the state of the process only."""
+    """Return whether all threads of a process are stopped. psutil returns only the state of the process."""
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]
     except OSError:

@@ -1,4 +1,4 @@
-"""The programs that several cases use: the server /door, and its client."""
+"""The programs that several cases use: the server of /door (`keeper`), and its client (`VISITOR`)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,10 @@ rospy.spin()
 
 
 def keeper(body: str = WELL, **changes: str) -> str:
-    """Return the program that serves /door with this handler body; `changes` maps old text to new text."""
+    """Return the program that provides /door, with `body` as the code of its handler.
+
+    `changes` maps old text of the program to new text.
+    """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
         code = code.replace(old, new)
@@ -39,7 +42,7 @@ def keeper(body: str = WELL, **changes: str) -> str:
 
 
 def running(code: str) -> Callable[[Stage], None]:
-    """Return the cause of a fault in the program that serves /door."""
+    """Return a function that causes a fault: it runs `code`, which provides /door."""
 
     def play(stage: Stage) -> None:
         stage.serve(code)
@@ -48,24 +51,24 @@ def running(code: str) -> Callable[[Stage], None]:
 
 
 def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
-    """Return the cause of a fault in the handler."""
+    """Return a function that causes a fault: it runs a server with `body` as the code of its handler."""
     return running(imports + keeper(body))
 
 
 def nothing(_: Stage) -> None:
-    """Leave the graph as it is."""
+    """Change nothing on the graph."""
 
 
 def kill_server(stage: Stage) -> None:
-    """Start a server, and kill it."""
+    """Start a server, and kill it by SIGKILL."""
     stage.serve(keeper()).kill()
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return a visitor that does something else once it is a node."""
+    """Return a visitor that runs `lines` after it has become a node."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 
 def calling(call: str) -> str:
-    """Return a client that makes another call of /door."""
+    """Return a client that runs `call` in place of its usual call of /door."""
     return VISITOR.replace("print(move_door(True))", call)

@@ -1,4 +1,4 @@
-"""Faults in a server: its handler, and how it is declared."""
+"""Faults in a server: mistakes in its handler, and in the creation of its service."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ moving = threading.Lock()
 
 def handle(request):
     with moving:
-        print("asking the bolt")
+        print("calling the bolt")
         bolt = rospy.ServiceProxy("/lab/bolt", Trigger)()
         return SetBoolResponse(bolt.success, bolt.message)
 
 def handle_bolt(request):
-    print("the bolt is asked")
+    print("the bolt is called")
     with moving:
         return TriggerResponse(True, "the bolt is drawn")
 
@@ -47,7 +47,7 @@ def handle(request):
 rospy.init_node("keeper")
 rospy.Service("/lab/door", SetBool, handle)
 
-# some time later, the cell mended and run again
+# some time later, the student corrects the cell and runs it again
 
 def handle(request):
     return SetBoolResponse(True, "open")
@@ -60,7 +60,7 @@ rospy.spin()
 """
 
 
-# A type of ROS itself whose response has a list as its only field.
+# GetLoggers is a type of ROS whose response has only one field, a list.
 LOGGERS = (
     keeper('return ["rosout", "hinge", "bell"]')
     .replace("std_srvs.srv import SetBool, SetBoolResponse", "roscpp.srv import GetLoggers")
@@ -69,7 +69,7 @@ LOGGERS = (
 
 
 def _two_providers(stage: Stage) -> None:
-    code = keeper('return SetBoolResponse(False, "no door here: this is the wardrobe")', keeper="wardrobe")
+    code = keeper('return SetBoolResponse(False, "this is the wardrobe, not the door")', keeper="wardrobe")
     other = stage.program("wardrobe.py", code)
     stage.serve(keeper())
     stage.serve_too(other)
@@ -90,8 +90,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The handler creates its response and does not return it.",
         remedy="Write return in front of the response.",
         reason=(
-            "A function without return returns None, and rospy reports exactly this. An empty response "
-            "must be returned, too."
+            "A function without return returns None, and the error message says this. A handler must return "
+            "even an empty response."
         ),
     ),
     _replied(
@@ -100,18 +100,19 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The handler raises an unexpected exception.",
         remedy="Read the traceback in the server's output, and correct the line that it names.",
         reason=(
-            "`error processing request` is followed by the message of any exception except "
-            "ServiceException. The client gets the message; the traceback is in the server's output."
+            "After `error processing request`, the client receives the message of the exception. The "
+            "traceback is only in the server's output. This is so for all exceptions except "
+            "ServiceException."
         ),
     ),
     _replied(
         name="refuses",
-        play=serving('raise rospy.ServiceException("somebody stands in the doorway")'),
+        play=serving('raise rospy.ServiceException("a person stands in the doorway")'),
         diagnosis="The handler refuses this request on purpose, and gives the reason.",
-        remedy="Do what the reason asks for, and call again.",
+        remedy="Remove the cause that the message names, and call again.",
         reason=(
-            "A handler that raises ServiceException causes `service cannot process request` with its "
-            "reason. The server works."
+            "The server works. If a handler raises ServiceException, the client receives "
+            "`service cannot process request` and the reason."
         ),
     ),
     _replied(
@@ -119,7 +120,7 @@ SERVING: tuple[Fault, ...] = (
         play=serving("return 90"),
         diagnosis="The handler returns a single value, but the response has several fields.",
         remedy="Return one value for each field: a response, a tuple, a list or a dict.",
-        reason="A single value is allowed only for a response with one field. SetBool's response has two.",
+        reason="A single value is allowed only for a response with one field. Here it has two fields.",
         unlike=("wrong_length",),
     ),
     _replied(
@@ -128,8 +129,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The handler returns a list or a tuple that is too long or too short.",
         remedy="Return as many values as the response has fields, in their order.",
         reason=(
-            "`wrong number of values`: the handler returned three, and SetBool's response has success "
-            "and message."
+            "`wrong number of values`: the handler returned three values, but SetBool's response has only "
+            "the fields success and message."
         ),
     ),
     _replied(
@@ -145,7 +146,7 @@ SERVING: tuple[Fault, ...] = (
         remedy="Put the list into a list, [[…]], or name the field in a dict.",
         reason=(
             "rospy uses the elements of a returned list as the values of the fields. Three values are "
-            "too many for one field; the whole list must be the one value."
+            "too many for one field. The value of this field must be the whole list."
         ),
         unlike=("wrong_length",),
     ),
@@ -154,7 +155,7 @@ SERVING: tuple[Fault, ...] = (
         play=serving('return {"sucess": True, "message": "open"}'),
         diagnosis="The handler returns a dict with a key that is not a field of the response.",
         remedy="Compare the keys with `rossrv show`, and correct the spelling.",
-        reason="The message names both: the key `sucess`, and the response class, which has no such field.",
+        reason="The error message names the key `sucess`, and the response class, which has no such field.",
     ),
     _replied(
         name="wrong_type",
@@ -162,8 +163,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="A field of the response gets a value of another type.",
         remedy="Convert the value to the type of its field before you return it.",
         reason=(
-            "`field success is not a bool`: the response is created without an error, and fails when it"
-            " is packed for sending. So the handler itself raises no exception."
+            "`field success is not a bool`: the handler creates the response without an error. rospy finds "
+            "the error later, when it packs the response for sending."
         ),
     ),
     _replied(
@@ -173,7 +174,7 @@ SERVING: tuple[Fault, ...] = (
         remedy="Give the handler one parameter, the request.",
         reason=(
             "`takes 0 positional arguments but 1 was given`: rospy passes the request to every handler,"
-            " even an empty one."
+            " even if the request has no fields."
         ),
     ),
     _silent(
@@ -197,10 +198,10 @@ SERVING: tuple[Fault, ...] = (
         look="wait call",
         play=serving('print("there is no door: leaving")\nsys.exit(1)', "import sys\n"),
         diagnosis="The handler calls sys.exit(), which ends its thread, so that no response is sent.",
-        remedy="Raise ServiceException to refuse a request, and end programs elsewhere.",
+        remedy="Raise ServiceException to refuse a request, and never call sys.exit() in a handler.",
         reason=(
-            "sys.exit() raises SystemExit, which rospy neither reports nor sends to the client. The "
-            "process still runs: only the handler's thread has ended, and the client waits."
+            "sys.exit() raises SystemExit, which rospy does not print and does not send to the client. The "
+            "process still runs. Only the handler's thread has ended, and the client waits."
         ),
     ),
     _served(
@@ -212,8 +213,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The service is created with its request class instead of its type.",
         remedy="Use SetBool, the type that contains request and response.",
         reason=(
-            "The server's output ends with `has no attribute '_request_class'`: only the type itself "
-            "knows its two classes. The service was never provided."
+            "The server's output ends with `has no attribute '_request_class'`: only the type itself has "
+            "this attribute. So rospy never provided the service."
         ),
     ),
     _served(
@@ -236,8 +237,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="Another node now provides a service of the same name, and receives all calls.",
         remedy="End that node, or rename one of the two services and start the other again.",
         reason=(
-            "A service name has one provider: the node that registered last. No node gets an error. "
-            "`rosservice info` names another node than the door's."
+            "Only one node can provide a service name: the node that registered last. No node gets an error. "
+            "`rosservice info` names a node that is not the door's node."
         ),
     ),
     _silent(
@@ -247,9 +248,9 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="The handler holds a lock while it calls a service that needs the same lock.",
         remedy="Release the lock before the call, or pass the data without a call.",
         reason=(
-            "Each handler waits for the other: the door's handler for the response of the bolt, and the"
-            " bolt's handler for the lock. A service may call another service of its node; holding the "
-            "lock during the call is the mistake."
+            "The door's handler waits for the response of the bolt, and the bolt's handler waits for the "
+            "lock. A handler may call another service of its own node. But during this call, it must not "
+            "hold a lock that the other service needs."
         ),
         unlike=("sleeps",),
     ),

@@ -1,6 +1,7 @@
-"""Where a fault is caused: its programs, its own master if it needs one, and the end of all of it.
+"""A stage causes a fault and undoes it. It has the programs of the fault, and if necessary its own master.
 
-Everything is below one namespace of the running graph, such as /lab; the rest of the graph is not changed.
+All nodes and services of a stage are in one namespace of the running graph, such as /lab. Other parts of the
+graph do not change.
 """
 
 from __future__ import annotations
@@ -29,21 +30,21 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 REAPER = Path(__file__).with_name("reaper.py")
-FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")  # where programs leave files behind
-READY = 10.0  # s for a program of a case to be on the graph; it takes 0.4 s
+FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")  # variables that name folders for files
+READY = 10.0  # s; the time limit until a program is on the graph, which usually takes 0.4 s
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
 
 class Playable(Protocol):
-    """What a stage needs to know of a fault; see Fault."""
+    """The attributes of a Fault that a stage uses. This class exists because `fault` imports this module."""
 
     @property
     def play(self) -> Callable[[Stage], None]:
-        """What causes it."""
+        """The function that causes the fault."""
 
     @property
     def visitor(self) -> str:
-        """What shows it."""
+        """The Python program or the command line that shows the symptom."""
 
     @property
     def is_command(self) -> bool:
@@ -51,59 +52,59 @@ class Playable(Protocol):
 
     @property
     def timeout(self) -> float:
-        """For how many s its symptom is watched."""
+        """The time limit for the visitor in s."""
 
 
 class Stage:
-    """A fault on the running graph, or on a master of its own.
+    """A fault on the running graph, or on its own master.
 
-    It ends with undo(), with this object, or with this process, even by SIGKILL. Raises MasterUnreachable and
-    MasterSilent where there is no master.
+    undo() ends the fault. The fault also ends when this object is deleted, or when this process ends, even by
+    SIGKILL. Raises MasterUnreachable or MasterSilent if there is no master, or if the master does not answer.
     """
 
     def __init__(self, fault: Playable) -> None:
         self.fault = fault
-        self.uri = master_uri()  # of the master on which the fault is
+        self.uri = master_uri()  # the address of the master that the programs of this fault use
         self.namespace = _free_namespace(self.uri)
         self.visitor_env: dict[str, str] = {}
-        self.keeper: Program | None = None  # the program at fault, whose output may be looked at
+        self.keeper: Program | None = None  # the faulty program; a student may read its output
         self._visitor: Program | None = None
         self._resources = _Resources(self.uri, self.namespace)
         self._end = weakref.finalize(self, self._resources.clear)
 
     @property
     def door(self) -> str:
-        """The full name of the service that the case is about."""
+        """The full name of the service of this case."""
         return f"{self.namespace}/door"
 
     def cause(self) -> None:
-        """Cause the fault; when that fails, undo what was done. Raises NodeFailed."""
+        """Cause the fault. If this fails, undo everything, and raise NodeFailed."""
         try:
             self.fault.play(self)
             if not self.fault.is_command:
-                self.expect_visitor()  # not earlier: on a busy machine it would delay the fault itself
+                self.expect_visitor()  # last, because on a busy machine its start would delay the fault
         except BaseException:
             self.undo()
             raise
 
     def symptom(self) -> Seen:
-        """Run the visitor, and return what it shows."""
+        """Run the visitor, and return its result. Raises NodeFailed if it does not start."""
         self.expect_visitor()
         visitor, self._visitor = self._visitor, None
         assert visitor is not None
         visitor.begin()
         seen = visitor.watch(self.fault.timeout)
         visitor.end()
-        with suppress(GraphError):  # of a fault whose master is gone, or does not answer
+        with suppress(GraphError):  # In some faults, the master has ended or does not answer.
             withdraw_below(MasterClient(self.uri, timeout=0.5), f"{self.namespace}/visitor")
         return seen
 
     def undo(self) -> None:
-        """End all of it, and return when the graph is as before; a second undo changes nothing."""
+        """End the fault, and return when the graph is as before. A second call changes nothing."""
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the visitor early, so that symptom() does not have to wait for its interpreter."""
+        """Start the visitor early, so that symptom() does not have to wait for the visitor's interpreter."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -113,64 +114,65 @@ class Stage:
             )
 
     def serve(self, code: str) -> Program:
-        """Run the program that serves /door, and return when it does."""
+        """Run `code` as the server of /door, and return when it answers. Raises NodeFailed if it does not."""
         keeper = self.keep(code)
         self.await_that(lambda: self._answers(keeper), keeper)
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Begin the program that a student may look at, and return at once."""
+        """Begin the program whose output a student may read, and return at once."""
         self.keeper = self.program("keeper.py", code, env)
         self.keeper.begin()
         return self.keeper
 
     def serve_too(self, program: Program) -> None:
-        """Start another program that serves /door, and return when it does."""
+        """Start another program that provides /door, and return when it answers. Raises NodeFailed."""
         program.begin()
         self.await_that(lambda: self._answers(program), program)
 
     def program(self, name: str, code: str, env: dict[str, str] | None = None) -> Program:
-        """Start a Python text, which waits for begin()."""
+        """Start a Python program, which waits for begin()."""
         program = Program.python(name, self.local(code), self.environment(env or {}))
         self._resources.programs.append(program)
         return program
 
     def command(self, line: str, env: dict[str, str] | None = None) -> Program:
-        """Start a command line."""
+        """Start a command line, which begins at once."""
         line = self.local(line)
         program = Program(f"$ {line}", shlex.split(line), self.environment(env or {}))
         self._resources.programs.append(program)
         return program
 
     def own_master(self, port: int | None = None) -> PrivateMaster:
-        """Start a master for this fault alone; what is started from here on is on its graph."""
+        """Start a master only for this fault. All programs that start later use this master."""
         master = PrivateMaster(port).start()
         self._resources.masters.append(master)
         self.uri = master.uri
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Stop a master of this fault's own by SIGSTOP; it goes on before it is ended."""
+        """Stop this fault's own master by SIGSTOP. undo() continues the master before it ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
 
     def later(self, end: Callable[[], object]) -> None:
-        """Call `end` when the fault is undone; it must not hold a reference to this stage."""
+        """Call `end` when the fault is undone. `end` must not hold a reference to this stage."""
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
-        """Return when `condition` is true. Raises NodeFailed when `program` ends first, or after 10 s."""
+        """Return when `condition` is true. Raises NodeFailed if `program` ends before, or after 10 s."""
 
         def settled() -> str:
-            over = program.over  # before the condition, which the last thing that it does may fulfil
+            # Read this before the condition, because the program may fulfil the condition and then end.
+            over = program.over
             return "met" if condition() else "over" if over else ""
 
         if wait_until(settled, READY, INTERVAL) != "met":
-            raise NodeFailed(f"A case of the lab could not be set up. It printed: {program.output()}")
+            raise NodeFailed(f"A case could not be set up. The output of its program: {program.output()}")
 
     def environment(self, more: dict[str, str]) -> dict[str, str]:
-        """Return the environment of its programs: the master of the case, its namespace, its own logs."""
+        """Return the environment of the case's programs: its master, its namespace, and its log folder."""
         own = {
             "ROS_MASTER_URI": self.uri,
             "ROS_NAMESPACE": self.namespace,
@@ -179,7 +181,7 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return a text of the catalogue with the names that it has on this stage."""
+        """Return `text` with the namespace of this stage in place of /lab, and the port of its master."""
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
     def _answers(self, program: Program) -> bool:
@@ -193,7 +195,10 @@ class Stage:
 
 
 class _Resources:
-    """What a stage has to end and remove; it holds no reference to the stage, which may be gone by then."""
+    """The processes and files that a stage has to end and remove.
+
+    This object has no reference to the stage, because it cleans up after the stage is deleted.
+    """
 
     def __init__(self, uri: str, namespace: str) -> None:
         self.programs: list[Program] = []
@@ -202,13 +207,13 @@ class _Resources:
         self._uri = uri
         self._namespace = namespace
         self.folder = Path(tempfile.mkdtemp(prefix="course-lab-"))
-        # If this process is killed, the reaper withdraws what programs left registered that were killed.
+        # If this process is killed, the reaper removes the registrations of programs that were killed.
         self._reaper = SupervisedProcess(
             [sys.executable, "-I", "-S", str(REAPER), uri, namespace, str(self.folder)], env=os.environ
         )
 
     def clear(self) -> None:
-        """End everything; if one step fails, the others are still done."""
+        """End all processes, and remove all files. If one step fails, the next steps still run."""
         while self.ends:
             with suppress(OSError):
                 self.ends.pop()()
@@ -218,14 +223,14 @@ class _Resources:
             self.programs.pop().end()
         while self.masters:
             self.masters.pop().stop()
-        with suppress(GraphError):  # a master that is gone has nothing to withdraw
+        with suppress(GraphError):  # If the master has ended, there are no registrations to remove.
             withdraw_below(MasterClient(self._uri), self._namespace + "/")
         self._reaper.end(grace=0)
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def _free_namespace(uri: str) -> str:
-    """Return a namespace that no node uses: another notebook on this graph may have a lab, too."""
+    """Return a namespace that no node uses, because another notebook on this graph may have a stage, too."""
     taken = [node for node in MasterClient(uri).system_state().nodes if node.startswith("/lab")]
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

@@ -1,1 +1,1 @@
-"""JupyterLab with a ROS master (`course lab`), and any other command with a master (`course run`)."""
+"""Starts a ROS master, and with it JupyterLab (`course lab`) or any other command (`course run`)."""

@@ -1,8 +1,8 @@
-"""Starts the stock JupyterLab: `python -m course_pkg.lab OPTION…` does what `jupyter lab OPTION…` does.
+"""Starts the unchanged JupyterLab: `python -m course_pkg.lab OPTION…` is the same as `jupyter lab OPTION…`.
 
-If node is installed, it starts half a second faster. When jupyterlab is imported, it runs node to read the
-address of the npm registry from Yarn's configuration. Only a build of the front end needs that address, and
-without node on PATH jupyterlab uses the default.
+If Node.js is installed, this start is half a second faster. At its import, jupyterlab runs `node` to read the
+address of the npm registry from Yarn's configuration. Only a build of the front end needs this address. If
+`node` is not on PATH, jupyterlab uses the default address.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import os
 
 
 def main() -> None:
-    """Import jupyterlab while no program can be found, then run it in the usual environment."""
+    """Import jupyterlab with a PATH that contains no programs, and then run it with the usual PATH."""
     path = os.environ.get("PATH", os.defpath)
     os.environ["PATH"] = os.devnull
     from jupyterlab.labapp import main as run

@@ -1,4 +1,4 @@
-"""The arguments of `course lab` and `course run`."""
+"""The commands `course lab` and `course run`, and their options."""
 
 from __future__ import annotations
 

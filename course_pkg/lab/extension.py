@@ -1,4 +1,4 @@
-"""The course's additions to the stock Jupyter server: an extension, and classes for checkpoints and files."""
+"""The course's additions to the Jupyter server: an extension, and classes for checkpoints and files."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from jupyter_server.services.contents.largefilemanager import AsyncLargeFileMana
 from tornado.websocket import WebSocketHandler
 from traitlets import Bool, Unicode
 
-# These are in the repository, but students do not need them. All other files are listed, such as a student's
-# own files and `workspace`.
+# The file browser hides these files of the repository, because students do not need them. It lists all other
+# files, such as a student's own files and `workspace`.
 HIDDEN = (
     *("CHANGELOG.md", "CMakeLists.txt", "CONTRIBUTING.md", "LICENSE", "README.md", "action", "course"),
     *("course_pkg", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml", "setup.py"),
     *("solutions", "srv", "start", "tests"),
 )
-# the server's setting for the class that connects a page with a kernel
+# The server's setting for the class that connects a page with a kernel.
 CONNECTION_CLASS = "kernel_websocket_connection_class"
 
 
 class Connection(Protocol):
-    """The methods that the extension uses of a connection between a page's websocket and a kernel."""
+    """A connection between a page's websocket and a kernel, with the methods that the extension uses."""
 
     websocket_handler: WebSocketHandler
     log: Logger
 
     async def connect(self) -> None:
-        """Begin to pass messages."""
+        """Begin to pass messages between the page and the kernel."""
 
 
 class WebApplication(Protocol):
@@ -41,7 +41,7 @@ class WebApplication(Protocol):
 
 
 class Server(Protocol):
-    """The attributes that the extension uses of the server."""
+    """The server, with the attributes that the extension uses."""
 
     web_app: WebApplication
     log: Logger
@@ -54,9 +54,9 @@ def _jupyter_server_extension_points() -> list[dict[str, str]]:
 def _load_jupyter_server_extension(server: Server) -> None:
     """Set TCP_NODELAY on every kernel websocket, so that a click takes 10 ms instead of 46.
 
-    The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) holds a
-    piece back until the browser has acknowledged the previous one. A browser may wait 40 ms before it does
-    so. A server that has no setting for the class of the connection stays as it is.
+    The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) delays a piece
+    until the browser has acknowledged the previous piece. A browser may wait 40 ms before it sends this
+    acknowledgement. A server without a setting for the class of the connection does not change.
     """
     stock = server.web_app.settings.get(CONNECTION_CLASS)
     if stock is None:
@@ -71,24 +71,24 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
     async def connect(self: Connection) -> None:
         try:
             self.websocket_handler.set_nodelay(True)
-        except Exception as error:  # noqa: BLE001 -- without the option the page works, too, but more slowly
+        except Exception as error:  # noqa: BLE001 -- the page also works without the option, but more slowly
             self.log.warning("course_pkg.lab.extension could not set TCP_NODELAY: %s", error)
         await stock.connect(self)
 
     return type("UndelayedConnection", (stock,), {"connect": connect})
 
 
-class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # of an untyped package
-    """Keeps each notebook's checkpoint under the notebook's own path, in a folder outside the checkout.
+class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
+    """Stores the checkpoints of notebooks in a folder outside the checkout, each under its notebook's path.
 
-    The stock class can use another folder, too, but then a chapter and its solution share a checkpoint,
-    because their files have the same name.
+    Jupyter's own class can use another folder, too. But then a chapter and its solution would share a
+    checkpoint, because their files have the same name.
     """
 
     folder = Unicode(help="the folder of the checkpoints").tag(config=True)
 
     def checkpoint_path(self, checkpoint_id: str, path: str) -> str:
-        """Return the file for a checkpoint of the notebook at `path`, and make its folder.
+        """Return the file for a checkpoint of the notebook at `path`, and create its folder.
 
         Raises tornado.web.HTTPError if `path` leads out of the server's folder.
         """
@@ -100,9 +100,9 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # of an un
 
 
 def kernel_language() -> dict[str, Any]:
-    """Return the language data that ipykernel sends in kernel_info_reply, for this interpreter.
+    """Return the same data about the language as ipykernel in its message kernel_info_reply.
 
-    ipykernel.ipkernel.IPythonKernel has the same values, but its import would delay the server's start.
+    The class ipykernel.ipkernel.IPythonKernel has these data, but its import would delay the server's start.
     """
     return {
         "name": "python",
@@ -115,20 +115,20 @@ def kernel_language() -> dict[str, Any]:
     }
 
 
-class CourseContents(AsyncLargeFileManager):  # type: ignore[misc]  # of an untyped package
-    """The stock files, with two changes for students.
+class CourseContents(AsyncLargeFileManager):  # type: ignore[misc]  # The base class has no types.
+    """Jupyter's access to files, with two changes for students.
 
-    - A list of the root folder leaves out the files of the repository. A file that is not listed can be
-      opened by its path.
-    - A notebook has the language_info of the kernel. The stored notebooks contain only the name of the
-      language. JupyterLab would add the rest when the kernel has started, and then mark the notebook as
-      changed.
+    - The list of the root folder leaves out the files of the repository. A hidden file can still be opened by
+      its path.
+    - A notebook gets the language_info of the kernel. The stored notebooks contain only the name of the
+      language. JupyterLab would add the missing data when the kernel has started, and then mark the notebook
+      as changed.
     """
 
     everything = Bool(False, help="whether all files of the root folder are listed").tag(config=True)
 
     async def get(self, path: str, content: bool = True, **options: Any) -> dict[str, Any]:  # noqa: ANN401 -- passed on
-        """Return the model of a file or folder, as the stock class does."""
+        """Return the model of a file or folder, with the changes for students."""
         model: dict[str, Any] = await super().get(path, content=content, **options)
         if content and not path.strip("/") and not self.everything:
             model["content"] = [each for each in model["content"] if each["name"] not in HIDDEN]

@@ -1,4 +1,4 @@
-"""`course lab`: starts a master and the stock JupyterLab with the course's settings, and ends both."""
+"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 HERE = Path(__file__).parent
-PORTS = (*range(8888, 8938), 0)  # the candidates, as in Jupyter: its own port, one of the next, or any
-READY = 60.0  # time limit in s; the start takes 2 s, and many times as long if the disk cache is empty
+PORTS = (*range(8888, 8938), 0)  # the ports to try, as in Jupyter; 0 means any free port
+READY = 60.0  # s; the time limit for the start, which takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
 KEPT_LINES = 12  # lines of the server's log in an error message
-# The workspace "default" in jupyterlab_server's naming: the name, and the start of its SHA-256.
+# The file name of the workspace "default" in jupyterlab_server: the name, and the start of its SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
 def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) -> int:
-    """Serve JupyterLab until Ctrl-C or SIGTERM; open the notebook at `asked`, or the first chapter.
+    """Run JupyterLab until Ctrl-C or SIGTERM; open the notebook at `asked`, or the first chapter.
 
-    Returns 0, or the server's exit status if the server ends by itself. Raises SetupError for a notebook
-    that JupyterLab cannot open, PortBusy if it cannot listen at the address, CourseError if the server does
+    Returns 0, or the server's exit status if the server ends by itself. Raises SetupError if JupyterLab
+    cannot open the notebook, PortBusy if it cannot listen at the address, and CourseError if the server does
     not start.
     """
     places = Places.of()
@@ -48,7 +48,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
         scratch = Path(folder)
         _write_workspace(scratch / "workspaces", notebook)
         settings = _settings(places, ip, chosen, scratch)
-        # An author works in solutions/ and sees the whole checkout.
+        # An author opens a notebook in solutions/, and needs all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
         if port is not None:
             settings["ServerApp.port_retries"] = 0
@@ -71,9 +71,9 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
 
 
 def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
-    """Return the first of `candidates` on which a program can listen at `ip`; 0 means any port.
+    """Return the first port of `candidates` on which a program can listen at `ip`; 0 means any port.
 
-    Raises PortBusy if there is none.
+    Raises PortBusy if no port is free.
     """
     reason, tried = "no port was given", 0
     for tried in candidates:
@@ -89,7 +89,7 @@ def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
 
 
 class _Address(NamedTuple):
-    """The address at which the server listens, as the server itself reports it."""
+    """The address at which the server listens, and its token, from the server's own file."""
 
     url: str
     token: str
@@ -100,13 +100,13 @@ class _Address(NamedTuple):
 
 
 class _Stop(BaseException):
-    """The exception for a signal that asks this command to end; `except Exception` may not catch it."""
+    """Raised by a signal that ends this command. `except Exception` does not catch it."""
 
 
 @contextmanager
 def _stopping_on_signals() -> Iterator[None]:
     def stop(number: int, _frame: FrameType | None) -> NoReturn:
-        # this command is already ending: a second Ctrl-C changes nothing
+        # This command is already ending, so a second Ctrl-C must change nothing.
         signal.signal(number, signal.SIG_IGN)
         raise _Stop
 
@@ -122,9 +122,9 @@ def _stopping_on_signals() -> Iterator[None]:
 
 @contextmanager
 def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
-    """Run the server; it ends, with its kernels and terminals, when the block or this process ends."""
+    """Run the server during the block. It ends with its kernels and terminals, even if this process dies."""
     folders = {
-        # This server does not use the settings and the files of the user's other Jupyter.
+        # With these folders, the server does not use the settings and files of another Jupyter of the user.
         "JUPYTER_CONFIG_DIR": str(places.cache / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.cache / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
@@ -135,7 +135,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
             [str(places.python), "-m", "course_pkg.lab", *options],
             output=output,
             env={**os.environ, **folders},
-            cwd=places.checkout,  # where the terminals start
+            cwd=places.checkout,  # the folder in which terminals start
             remove=scratch,
         )
         try:
@@ -145,7 +145,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
 
 
 def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
-    """Return JupyterLab's settings, by the names of its traits. Every installed extension stays enabled."""
+    """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled."""
     return {
         "ServerApp.root_dir": places.checkout,
         "ServerApp.ip": ip,
@@ -166,14 +166,18 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 
 
 def _user_settings() -> Path:
-    """Return the folder of the user's own settings for JupyterLab, such as a theme; they are used, too."""
+    """Return the folder of the user's own settings for JupyterLab, such as a theme, which are used, too."""
     given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
     config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")
     return Path(given) if given else Path(config) / "lab" / "user-settings"
 
 
 def _notebook(checkout: Path, asked: str | None) -> str:
-    """Return the notebook to open, relative to the checkout: `asked`, else the first chapter, else ""."""
+    """Return the path of the notebook to open, relative to the checkout.
+
+    This is `asked`, or the first chapter if `asked` is None, or "" if there are no chapters. Raises
+    SetupError if `asked` is not a file in the checkout.
+    """
     if asked is None:
         chapters = sorted((checkout / "notebooks").glob("[0-9][0-9]_*.ipynb"))
         return str(chapters[0].relative_to(checkout)) if chapters else ""
@@ -188,18 +192,18 @@ def _notebook(checkout: Path, asked: str | None) -> str:
 
 
 def _make_workspace() -> None:
-    """Make the folder of the student's own packages; print a message on stderr if it cannot be used."""
+    """Create the folder of the student's own packages; print a message on stderr if it cannot be used."""
     try:
         make_own_workspace()
     except SetupError as error:
-        sys.stderr.write(f"{error} Until you do that, the chapters about building packages do not work.\n")
+        sys.stderr.write(f"{error} Until then, the chapters about building packages do not work.\n")
 
 
 def _write_workspace(folder: Path, notebook: str) -> None:
-    """Write the workspace with which JupyterLab opens: one tab for `notebook`, none of the previous start.
+    """Write the workspace that JupyterLab opens: one tab for `notebook`, and no tabs of an earlier start.
 
-    Each restored tab would start a kernel before the page is usable. The page's address can also contain the
-    notebook and `?reset`, but JupyterLab reads it half a second later than the workspace.
+    Each restored tab would start a kernel before the page is usable. The page's address could also contain
+    the notebook and `?reset`, but JupyterLab reads the address half a second later than the workspace.
     """
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}
@@ -215,12 +219,13 @@ def _write_workspace(folder: Path, notebook: str) -> None:
 
 
 def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
-    """Return the server's address as soon as the server accepts connections.
+    """Wait until the server accepts connections, and return its address.
 
     Raises CourseError if the server ends, or does not listen within READY.
     """
     deadline = time.monotonic() + READY
-    info = scratch / "runtime" / f"jpserver-{server.pid}.json"  # the server writes it just before it listens
+    # The server writes this file just before it listens.
+    info = scratch / "runtime" / f"jpserver-{server.pid}.json"
     while True:
         with suppress(OSError, ValueError):
             seen = json.loads(info.read_text())
@@ -229,16 +234,16 @@ def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
             return address
         if server.wait(LOOK):
             raise CourseError(
-                f"JupyterLab ended with status {server.returncode} as it started:\n{_tail(_log(scratch))}"
+                f"JupyterLab ended with status {server.returncode} during its start:\n{_tail(_log(scratch))}"
             )
         if time.monotonic() > deadline:
             raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(_log(scratch))}")
 
 
 def _start_kernel(address: _Address, notebook: str) -> None:
-    """Start the notebook's kernel while the page loads, so that the page finds it running.
+    """Start the notebook's kernel while the page loads, so that the kernel runs when the page needs it.
 
-    If this fails, the page starts the kernel itself. If that fails, too, the page shows the reason.
+    If this fails, the page starts the kernel itself. If this fails, too, the page shows the reason.
     """
     if not notebook:
         return

@@ -1,4 +1,4 @@
-"""The master of a `course` command: the one at ROS_MASTER_URI if the user has set it, else a private one."""
+"""The master of a `course` command: the master at ROS_MASTER_URI if it is set, otherwise a private master."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.ros.process.roscore import Roscore
 
 @contextmanager
 def master_of_this_command() -> Iterator[None]:
-    """Run the block with a master that answers, and with its address in ROS_MASTER_URI."""
+    """Run the block with a running master, whose address is in ROS_MASTER_URI."""
     if os.environ.get("ROS_MASTER_URI"):
         yield
         return
@@ -21,14 +21,14 @@ def master_of_this_command() -> Iterator[None]:
 
 @contextmanager
 def starting_master(port: int) -> Iterator[Callable[[], object]]:
-    """Set ROS_MASTER_URI and yield immediately, while a master starts on `port`.
+    """Set ROS_MASTER_URI, and start a master on `port` in the background.
 
-    The yielded function waits until the master answers; it raises what Roscore.start() raises.
+    The yielded function waits until the master answers, and raises the exceptions of Roscore.start().
     """
     if os.environ.get("ROS_MASTER_URI"):
         yield lambda: None
         return
-    from concurrent.futures import ThreadPoolExecutor  # here, because `course run` need not spend 5 ms on it
+    from concurrent.futures import ThreadPoolExecutor  # here, because it takes 5 ms and `run` needs none
 
     master = Roscore(port)
     with ThreadPoolExecutor(max_workers=1) as pool, _named(f"http://localhost:{port}"):
@@ -36,7 +36,7 @@ def starting_master(port: int) -> Iterator[Callable[[], object]]:
         try:
             yield start.result
         finally:
-            start.exception()  # wait first: a master that is still starting cannot be stopped
+            start.exception()  # Wait for the end of the start, because stop() works only after it.
             master.stop()
 
 

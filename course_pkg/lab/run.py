@@ -1,4 +1,4 @@
-"""`course run`: runs a command in the environment, with its own master."""
+"""`course run`: runs a command in the course's environment, with a private master."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
 
 def run_command(command: Sequence[str]) -> int:
-    """Run `command`, end the processes that it leaves in the background, and return its status.
+    """Run `command`, end the processes that it leaves in the background, and return its exit status.
 
-    The status is 128 + n if signal n ended the command. Raises GraphError if it cannot be started.
+    The status is 128 + n if signal n ended the command. Raises GraphError if the command cannot be started.
     """
     if list(command) == ["bash"]:
         command = ["bash", "--rcfile", str(BASHRC)]
@@ -29,7 +29,7 @@ def run_command(command: Sequence[str]) -> int:
 
 @contextmanager
 def _signals_held_back() -> Iterator[None]:
-    """Block signals until sigwaitinfo() takes them; no signal is lost, because the command starts later."""
+    """Block signals until sigwaitinfo() receives them. The command starts later, so no signal is lost."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, AWAITED)
     try:
         yield
@@ -41,8 +41,8 @@ def _wait(process: SupervisedProcess) -> int:
     """Wait for `process`, and pass on the signals that only this process receives."""
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
-        # A signal from the terminal has pid 0. The terminal sends it to the command, too, so it is not passed
-        # on.
+        # A signal from the terminal has pid 0. The terminal also sends this signal to the command, so it must
+        # not be passed on.
         if received.si_signo != signal.SIGCHLD and received.si_pid:
             process.signal(received.si_signo)
     return status

@@ -1,1 +1,1 @@
-"""The nodes that several chapters run; CMakeLists.txt makes an executable of each module."""
+"""The nodes that several chapters run. CMakeLists.txt creates an executable for each module."""

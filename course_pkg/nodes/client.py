@@ -1,4 +1,4 @@
-"""The node `client`: calls `getGeometry` with the sides of a box, and prints the response."""
+"""The node `client`: it calls `getGeometry` with the sides of a box, and prints the response."""
 
 from __future__ import annotations
 
@@ -13,21 +13,24 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.srv import geometry
 
-TIMEOUT = 5.0  # s to wait for the server, and again for its answer
+TIMEOUT = 5.0  # s; the limit of the wait for the server, and of the wait for its response
 USAGE = "usage: client LENGTH WIDTH HEIGHT   (three numbers, in metres, such as 1.2 5.2 8.9)"
 
 
 def main() -> None:
-    """Measure the box of the command line; exit with 1 if the call fails, with 2 for wrong arguments."""
+    """Measure the box whose sides are the arguments of the command line.
+
+    Exits with status 1 if the call fails, and with status 2 if the arguments are wrong.
+    """
     sides = read_sides(rospy.myargv(sys.argv)[1:])
     if sides is None:
         sys.exit(_error(USAGE, 2))
     try:
-        print(measure(sides))  # noqa: T201 -- the program's answer
+        print(measure(sides))  # noqa: T201 -- the output of the program
     except (rospy.ROSException, rospy.ServiceException, CourseError) as error:
         sys.exit(_error(str(error), 1))
     except OverflowError:
-        sys.exit(_error(f"{max(sides, key=abs):g} is more than a float32 can hold.", 2))
+        sys.exit(_error(f"{max(sides, key=abs):g} does not fit into a float32. Give a smaller number.", 2))
 
 
 def read_sides(arguments: Sequence[str]) -> tuple[float, float, float] | None:
@@ -42,10 +45,10 @@ def read_sides(arguments: Sequence[str]) -> tuple[float, float, float] | None:
 def measure(sides: tuple[float, float, float]) -> str:
     """Start the node, wait for the service, call it, and return its response as two lines.
 
-    Raises ROSException if no server comes in time, ServiceException if the call fails, CallTimeout, and
-    MasterUnreachable.
+    Raises MasterUnreachable if there is no master, ROSException if the service does not exist within TIMEOUT,
+    CallTimeout if the response does not arrive within TIMEOUT, and ServiceException if the call fails.
     """
-    MasterClient(master_uri()).pid()  # init_node would wait for a master without a limit
+    MasterClient(master_uri()).pid()  # raises an error without a master; init_node would wait for ever
     rospy.init_node("client", anonymous=True)
     prepare_node()
     rospy.wait_for_service("getGeometry", timeout=TIMEOUT)

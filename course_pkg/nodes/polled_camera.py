@@ -1,8 +1,9 @@
 """The node `polled_camera`: returns one picture of the shop for each call.
 
-It serves `request_image` (course_pkg/PolledImage). It subscribes to `counter`, where `shop_camera` publishes
-who is in the shop. While nothing is published there, it shows a random number of customers instead.
-With `~stream` above 0 it also publishes that many pictures per second on `image` (sensor_msgs/Image).
+It provides the service `request_image` (course_pkg/PolledImage). It subscribes to `counter`, on which
+`shop_camera` publishes the customers in the shop. If no messages arrive, the pictures show a random number of
+customers. If `~stream` is above 0, the node also publishes this number of pictures per second on `image`
+(sensor_msgs/Image).
 """
 
 from __future__ import annotations
@@ -21,21 +22,21 @@ from course_pkg.shop.pictures import shop_picture
 from course_pkg.shop.watch import Watch
 from course_pkg.srv import PolledImage, PolledImageRequest, PolledImageResponse
 
-WIDTH, HEIGHT = 320, 240  # pixels, where the request has 0
+WIDTH, HEIGHT = 320, 240  # pixels; the size if the request has 0
 LEAST, MOST = 16, 1280  # pixels
-SILENCE = 1.0  # s after which `counter` counts as silent
+SILENCE = 1.0  # s without a message on `counter`, after which its last message is not used any more
 UNCHANGED = 4.0  # s for which the random number of customers stays the same
 
 
 class PolledCamera:
-    """Draws pictures of the shop."""
+    """Handles requests for pictures of the shop, and publishes a stream of pictures."""
 
     def __init__(self) -> None:
         self._watch = Watch()
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
 
     def knows_the_shop(self) -> bool:
-        """Return whether shop_camera publishes who is there."""
+        """Return whether shop_camera publishes the customers at the moment."""
         return self._watch.silent_for < SILENCE
 
     def handle_request(self, request: PolledImageRequest) -> PolledImageResponse:
@@ -73,22 +74,22 @@ def picture(width: int, height: int, customers: int) -> Image:
 
 def _side(name: str, points: int) -> int:
     if not LEAST <= points <= MOST:
-        raise FieldError(name, points, f"{LEAST} to {MOST} points, or 0 for what the camera likes best")
+        raise FieldError(name, points, f"{LEAST} to {MOST} points, or 0 for the camera's usual size")
     return points
 
 
 def main() -> None:
-    """Serve, and publish, until the node is shut down."""
+    """Provide the service, and publish pictures, until the node is shut down."""
     if not start_node("polled_camera"):
         return
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    wait_until(camera.knows_the_shop, SILENCE / 2)  # otherwise the first picture shows random customers
+    wait_until(camera.knows_the_shop, SILENCE / 2)  # so that the first picture shows the real customers
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)
     rospy.loginfo("Ready to take pictures")
     try:
         camera.stream(rate) if rate else rospy.spin()
-    except rospy.ROSInterruptException:  # shut down while it slept
+    except rospy.ROSInterruptException:  # The node was shut down during a sleep.
         return

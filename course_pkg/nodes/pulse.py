@@ -1,4 +1,4 @@
-"""The node `pulse`: publishes 0, 1, 2, … on the topic `pulse`, with and without subscribers."""
+"""The node `pulse`: publishes 0, 1, 2, … on the topic `pulse`, even if there are no subscribers."""
 
 from __future__ import annotations
 
@@ -23,5 +23,5 @@ def main() -> None:
         publisher.publish(number)
         try:
             rate.sleep()
-        except rospy.ROSInterruptException:  # shut down while it slept
+        except rospy.ROSInterruptException:  # The node was shut down during the sleep.
             return

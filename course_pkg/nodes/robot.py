@@ -1,4 +1,4 @@
-"""The node `robot`: an arm in motion, which publishes its joint states on the topic `joint_states`."""
+"""The node `robot`: a moving arm that publishes its joint states on the topic `joint_states`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RATE = 20.0  # Hz
 
 
 class Joint(NamedTuple):
-    """A joint that swings by `reach` rad to both sides of `middle` rad, once in `period` s."""
+    """A joint that swings between `middle - reach` and `middle + reach` rad, once in `period` s."""
 
     name: str
     middle: float
@@ -23,11 +23,11 @@ class Joint(NamedTuple):
     period: float
 
     def position(self, at: float) -> float:
-        """Return its angle in rad, `at` s after the start of the motion."""
+        """Return the joint's angle in rad, `at` s after the start of the motion."""
         return self.middle + self.reach * math.sin(math.tau * at / self.period)
 
     def velocity(self, at: float) -> float:
-        """Return how fast the angle changes, in rad/s."""
+        """Return the joint's angular velocity in rad/s, `at` s after the start of the motion."""
         return self.reach * math.tau / self.period * math.cos(math.tau * at / self.period)
 
 
@@ -53,7 +53,7 @@ def main() -> None:
         publisher.publish(message)
         try:
             rate.sleep()
-        except rospy.ROSInterruptException:  # shut down while it slept
+        except rospy.ROSInterruptException:  # The node was shut down during the sleep.
             return
 
 

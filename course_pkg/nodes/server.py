@@ -1,4 +1,4 @@
-"""The node `SERVER_NODE`: returns area and volume of a box, as the service `getGeometry`."""
+"""The node `SERVER_NODE`: its service `getGeometry` returns the area and the volume of a box."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.srv import geometry, geometryRequest, geometryResponse
 
 
 def main() -> None:
-    """Serve until the node is shut down."""
+    """Provide the service until the node is shut down."""
     if not start_node("SERVER_NODE"):
         return
     with undisturbed():
@@ -23,7 +23,7 @@ def main() -> None:
 def measure(request: geometryRequest) -> geometryResponse:
     """Return area = width x length (m²) and volume = area x height (m³).
 
-    Raises ServiceException for a side that is negative or not finite.
+    Raises ServiceException if a side is negative or not finite.
     """
     for side in ("length", "width", "height"):
         value = getattr(request, side)

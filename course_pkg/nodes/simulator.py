@@ -1,7 +1,7 @@
-"""The node `simulator`: publishes the mirror image of the robot, while it draws pictures.
+"""The node `simulator`: publishes the mirror image of the robot, and draws pictures at the same time.
 
-It publishes the mirror image of each message of `joint_states` at once on `mirrored_joints`. It also draws
-pictures, and publishes on `~pictures` how many are finished.
+When it receives a message on `joint_states`, it immediately publishes the mirror image on `mirrored_joints`.
+It also draws pictures, and publishes the number of finished pictures on `~pictures`.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ class Simulator:
         self._robot = rospy.Subscriber("joint_states", JointState, self.show, tcp_nodelay=True)
 
     def show(self, message: JointState) -> None:
-        """Publish the mirror image of a valid joint state; rospy calls this on its own thread."""
+        """Publish the mirror image of a valid joint state. rospy calls this method on its own thread."""
         try:
             self._shown.publish(mirrored(message))
         except ValueError as error:
-            rospy.logwarn_throttle(QUIET, "Not shown: %s", error)
+            rospy.logwarn_throttle(QUIET, "Ignored an invalid joint state: %s", error)
 
     def draw(self, seconds: float) -> None:
-        """Draw pictures, one in `seconds` s, until the node is shut down."""
+        """Draw one picture every `seconds` s until the node is shut down."""
         done = 0
         while not self._over.wait(seconds):
             done += 1
@@ -46,7 +46,7 @@ class Simulator:
 
 
 def main() -> None:
-    """Mirror the robot, and draw a picture each `~drawing` (default 0.4) s."""
+    """Mirror the robot, and draw a picture every `~drawing` (default 0.4) s, until the node is shut down."""
     if not start_node("simulator"):
         return
     seconds = number_parameter("~drawing", DRAWING, 0.01, 60.0)
@@ -58,8 +58,8 @@ def main() -> None:
 def mirrored(message: JointState) -> JointState:
     """Return the mirror image of a joint state: each position and each velocity with the opposite sign.
 
-    The header, and with it the time, stays the same. Raises ValueError for an invalid joint state: numbers
-    that are not finite, or more or fewer numbers than joints.
+    The header, which contains the time, stays the same. Raises ValueError if a position or a velocity is not
+    finite, or if the number of positions or velocities differs from the number of joints.
     """
     count = len(message.name)
     return JointState(
@@ -75,5 +75,5 @@ def _negated(what: str, values: Sequence[float], count: int) -> list[float]:
     if len(values) != count:
         raise ValueError(f"{len(values)} {what} for {count} joints")
     if not all(map(math.isfinite, values)):
-        raise ValueError(f"one of the {what} is no finite number")
+        raise ValueError(f"one of the {what} is not a finite number")
     return [-value for value in values]

@@ -1,4 +1,4 @@
-"""What a student has done, and what is next: for a notebook, a terminal, a table and a page.
+"""The progress of a student and the next step, for a notebook, a terminal, a table and an HTML page.
 
-It is made of the student's own record (checking/record.py) and predictions. It is no grade.
+It uses the student's own record of the checks (checking/record.py), and the predictions. It is not a grade.
 """

@@ -1,4 +1,4 @@
-"""`course progress`: its options; it prints the progress, or writes it to a file."""
+"""The command `course progress`: it prints the progress, or writes it to files."""
 
 from __future__ import annotations
 
@@ -36,16 +36,16 @@ def _write(path: Path, content: str) -> None:
         write_atomically(path, content)
     except OSError as error:
         raise ExportFailed(
-            f"{path} cannot be written ({error.strerror}). Give the name of a file in a folder that you can "
-            "write to."
+            f"{path} cannot be written ({error.strerror}). Give the name of a file in a folder in which you "
+            "can write."
         ) from error
     sys.stdout.write(f"{path.resolve()}\n")
 
 
 def _arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("chapter", nargs="?", metavar="CHAPTER", help="only this chapter, such as 05")
-    parser.add_argument("--csv", metavar="FILE", help="write a table to FILE: parts, predictions and choices")
-    parser.add_argument("--html", metavar="FILE", help="write one page to FILE, which needs no other file")
+    parser.add_argument("chapter", nargs="?", metavar="CHAPTER", help="show only this chapter, such as 05")
+    parser.add_argument("--csv", metavar="FILE", help="write a table of parts and predictions to FILE")
+    parser.add_argument("--html", metavar="FILE", help="write a page to FILE that needs no other files")
 
 
 COMMANDS = {

@@ -15,21 +15,21 @@ HEAD = ("Chapter", "Parts", "Passed", "Points", "Predictions")
 
 
 def overview_output(progress: Progress) -> str:
-    """Return all chapters in a table, for the output of a cell."""
+    """Return HTML for the output of a cell: a table of all chapters, and the next steps."""
     return _output(
         [_strong(headline(progress)), chapters_table(progress), steps_html(next_steps(progress))], progress
     )
 
 
 def chapter_output(progress: Progress, steps: Sequence[Step]) -> str:
-    """Return one chapter with its parts in a table, for the output of a cell."""
+    """Return HTML for the output of a cell: a table of one chapter's parts, and the next steps."""
     chapter = progress.chapters[0]
     head = _strong(headline(progress, chapter.number))
     return _output([head, parts_table(chapter), steps_html(steps)], progress)
 
 
 def chapters_table(progress: Progress, *, links: bool = True) -> str:
-    """Return a table with a row for each chapter; with `links`, a title leads to the notebook."""
+    """Return a table with a row for each chapter. If `links` is true, each title links to the notebook."""
     rows = "".join(_row(chapter, links=links) for chapter in progress.chapters)
     return f"{_table('Chapters', HEAD, rows)}<p class='course-muted'>{escape(LEGEND)}</p>"
 
@@ -45,7 +45,7 @@ def parts_table(chapter: ChapterProgress) -> str:
 
 
 def steps_html(steps: Sequence[Step], *, links: bool = True) -> str:
-    """Return what to do next as a paragraph; with `links`, it leads to the notebook."""
+    """Return a paragraph with the next steps. If `links` is true, each step has a link to its notebook."""
     texts = " or ".join(_step(step, links=links) for step in steps)
     return f"<p><strong>Next:</strong> {texts}</p>"
 

@@ -1,4 +1,4 @@
-"""What a student has done, as plain data: parts, chapters, and the whole course."""
+"""The progress of a student as plain data: parts, chapters, and the whole course."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NO_GRADE = "This is your own record of the checks that you ran. It is not a grad
 
 @dataclass(frozen=True)
 class PartProgress:
-    """A part of a chapter, and its record; None for a part that was never checked."""
+    """A part of a chapter, and its record. The record is None if the part was never checked."""
 
     check: str
     goal: str
@@ -24,12 +24,12 @@ class PartProgress:
 
     @property
     def passed(self) -> bool:
-        """Whether a check of the part has passed once; a later check that does not pass changes nothing."""
+        """Whether a check of the part has passed at least once, even if a later check did not pass."""
         return bool(self.record and self.record.passed)
 
     @property
     def earned(self) -> int:
-        """The points of the part if it is passed, else 0."""
+        """The points of the part if it is passed, otherwise 0."""
         return self.possible if self.passed else 0
 
     @property
@@ -41,7 +41,7 @@ class PartProgress:
 
     @property
     def mark(self) -> str:
-        """The state as one letter."""
+        """The state as one character."""
         return "✓" if self.passed else "✗" if self.record else "·"
 
 
@@ -73,26 +73,29 @@ class ChapterProgress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """How many predictions were right, of those that were made before the result was known."""
+        """The numbers of correct predictions and of all compared predictions.
+
+        Only predictions that were made before the result was known are counted.
+        """
         compared = [each for each in self.predictions if each.compared and each.first]
         return sum(each.right for each in compared), len(compared)
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """How many choices were the expected ones, of those that were compared."""
+        """The numbers of correct choices and of all compared choices."""
         compared = [each for each in self.choices if each.compared]
         return sum(each.fit for each in compared), sum(len(each.first) for each in compared)
 
     @property
     def latest(self) -> str:
-        """The time of the last check, prediction or choice, as ISO 8601 in UTC; "" for none."""
+        """The time of the last check, prediction or choice, as ISO 8601 in UTC; "" if there is none."""
         checked = [part.record.checked for part in self.parts if part.record]
         answered = [max(each.answered, each.compared) for each in self.predictions]
         return max([*checked, *answered, *(each.compared for each in self.choices)], default="")
 
     @property
     def next_part(self) -> PartProgress | None:
-        """The first part that is not passed; None if all are."""
+        """The first part that is not passed; None if all parts are passed."""
         return next((part for part in self.parts if not part.passed), None)
 
 
@@ -106,7 +109,7 @@ class LearningPath:
 
 @dataclass(frozen=True)
 class Progress:
-    """The progress in the chapters of the course, or in those that were asked for.
+    """The progress in all chapters, or in some chapters.
 
     `problems` are messages about records that cannot be read.
     """
@@ -117,7 +120,7 @@ class Progress:
 
     @property
     def passed(self) -> tuple[int, int]:
-        """The number of passed parts, and of all parts."""
+        """The numbers of passed parts and of all parts."""
         return sum(each.passed for each in self.chapters), sum(len(each.parts) for each in self.chapters)
 
     @property
@@ -127,12 +130,12 @@ class Progress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """How many predictions were right, of those that were made before the result was known."""
+        """The numbers of correct predictions and of all compared predictions; see ChapterProgress.right."""
         return _sum([each.right for each in self.chapters])
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """How many choices were the expected ones, of those that were compared."""
+        """The numbers of correct choices and of all compared choices."""
         return _sum([each.chosen for each in self.chapters])
 
     @property
@@ -142,7 +145,7 @@ class Progress:
         return max(begun, key=lambda each: each.latest, default=None)
 
     def only(self, number: str) -> Progress:
-        """Return the progress in one chapter."""
+        """Return the progress in the chapter `number`, such as "05"; without chapters if it is unknown."""
         chapters = tuple(each for each in self.chapters if each.number == number)
         return Progress(chapters, self.paths, self.problems)
 

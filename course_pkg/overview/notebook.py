@@ -1,4 +1,4 @@
-"""What a notebook calls: `progress()` for the overview, `predictions("05")` at the end of a chapter."""
+"""The functions that notebooks call: `progress()`, and `predictions("05")` at the end of a chapter."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class Overview:
 
 
 def progress(chapter: str = "") -> Overview:
-    """Return what you have done and what is next: in the whole course, or in a chapter such as "05".
+    """Return your progress and the next steps, in the whole course or in a chapter such as "05".
 
-    It shows the student's own record of the checks, the predictions and the choices. The student can change
-    this record, and it is never a grade. Raises UnknownCheck if there is no such chapter.
+    The overview shows your own record of the checks, the predictions and the choices. You can change this
+    record, and it is never a grade. Raises UnknownCheck if there is no such chapter.
     """
     every = read_progress()
     if not chapter:
@@ -44,20 +44,22 @@ def progress(chapter: str = "") -> Overview:
     one = every.only(number)
     if not one.chapters:
         known = f"{every.chapters[0].number} to {every.chapters[-1].number}"
-        raise UnknownCheck(f"There is no chapter {chapter!r}. Give one from {known}, such as progress('05').")
+        raise UnknownCheck(
+            f"There is no chapter {chapter!r}. Give a number from {known}, such as progress('05')."
+        )
     return Overview(one, number, next_steps(every, number))
 
 
 def predictions(chapter: str = "") -> Predictions:
-    """Return the table of what was predicted and what happened, for one chapter or for all.
+    """Return a table of your predictions and the real results, for one chapter or for all chapters.
 
-    With a chapter, the table ends with the student's progress in it.
+    The table of one chapter ends with your progress in this chapter.
     """
     return Predictions(chapter, row=_row(chapter) if chapter else None)
 
 
 def _row(number: str) -> ChapterRow | None:
-    """Return the progress in a chapter; None where its checks cannot be read, as in a graded notebook."""
+    """Return the progress in a chapter, or None if its checks cannot be read, as in a graded notebook."""
     try:
         progress = read_progress([number])
     except (UnknownCheck, ImportError):

@@ -1,4 +1,4 @@
-"""The progress as one HTML page that needs no other file and no network."""
+"""The progress as one HTML page, which needs no other files and no network."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.overview.model import NO_GRADE, Progress
 from course_pkg.overview.steps import next_steps
 from course_pkg.overview.text import headline
 
-POLICY = "default-src 'none'; style-src 'unsafe-inline'"  # the page loads nothing
+POLICY = "default-src 'none'; style-src 'unsafe-inline'"  # forbids the page to load anything
 PAGE_STYLE = """
 :root { color-scheme: light dark; }
 body { margin: 0 auto; max-width: 60rem; padding: 1rem; font: 1rem/1.5 system-ui, sans-serif;
@@ -27,7 +27,7 @@ h1 { font-size: 1.6rem; } h2 { font-size: 1.2rem; margin-top: 2rem; }
 
 
 def page(progress: Progress) -> str:
-    """Return the whole page: the chapters in a table, then the parts of each chapter."""
+    """Return the whole page: a table of the chapters, and then the parts of each chapter."""
     made = datetime.now(timezone.utc).strftime("%d %B %Y, %H:%M UTC")
     body = (
         "<h1>Progress in the course on ROS 1 services</h1>"

@@ -1,4 +1,4 @@
-"""Reads what a student has done: the record of the checks, the predictions, and the choices."""
+"""Reads the progress of a student: the record of the checks, the predictions, and the choices."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ PATHS = Path(__file__).parents[1] / "chapters" / "paths.json"
 def read_progress(chapters: Sequence[str] = ()) -> Progress:
     """Return the progress in `chapters`, such as ["05"], or in all chapters.
 
-    What cannot be read is left out, and named in the `problems`. Raises UnknownCheck for an unknown chapter.
+    The result leaves out records that cannot be read, and names them in `problems`. Raises UnknownCheck if
+    there is no such chapter.
     """
     parts = {number: parts_of(number) for number in chapters or all_chapters()}
     records, message = StudentRecord().read(part.check for each in parts.values() for part in each)
@@ -41,7 +42,7 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
 
 
 def learning_paths() -> tuple[LearningPath, ...]:
-    """Return the paths through the course; a path with two ends is there twice, with the same name."""
+    """Return the paths through the course. A path with two possible ends is returned twice."""
     every = tuple(all_chapters())
     text = PATHS.read_text("utf-8")
     return tuple(

@@ -1,4 +1,4 @@
-"""What a student does next: the first part that is not passed, or the next chapter of each path."""
+"""The next steps of a student: the first part that is not passed, or the next chapter of each path."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from course_pkg.overview.model import ChapterProgress, Progress
 
 @dataclass(frozen=True)
 class Step:
-    """Something to do next in a notebook; `notebook` is its file name, "" if there is nothing left to do."""
+    """The next step in a notebook. `notebook` is its file name, or "" if there is nothing left to do."""
 
     text: str
     notebook: str = ""
 
 
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
-    """Return what to do next in `chapter`, or in the chapter in which the student worked last.
+    """Return the next steps in `chapter`, or in the chapter in which the student worked last.
 
-    If that chapter is complete, each path may give another step. There is always at least one step.
+    If this chapter is complete, each path may have a different next step. There is always at least one step.
     """
     by_number = {each.number: each for each in progress.chapters}
     current = by_number.get(chapter) or progress.current

@@ -13,11 +13,11 @@ HEAD = (
     *("chapter", "title", "kind", "id", "text", "state", "points", "possible"),
     *("checks", "last_result", "last_time", "first_passed"),
 )
-FORMULA = ("=", "+", "-", "@")  # a spreadsheet takes a cell that begins so for a formula
+FORMULA = ("=", "+", "-", "@")  # A spreadsheet program would run a cell that begins with one of these.
 
 
 def table(progress: Progress) -> str:
-    """Return the table as text. Times are ISO 8601 in UTC; a cell that does not apply is empty."""
+    """Return the table as CSV text. Times are ISO 8601 in UTC. A cell is empty if it has no meaning there."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEAD)
@@ -51,7 +51,7 @@ def _state(prediction: Prediction) -> str:
 
 
 def _cell(value: str | int) -> str | int:
-    """Return one line that no spreadsheet takes for a formula."""
+    """Return the value on one line, with a quote before a text that could be a formula."""
     if isinstance(value, int):
         return value
     line = " ".join(value.split())

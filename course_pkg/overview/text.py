@@ -1,4 +1,4 @@
-"""The progress as text, for a terminal and for a page without HTML."""
+"""The progress as text, for a terminal and for a notebook that shows no HTML."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LEGEND = "✓ passed   ✗ checked, not passed yet   · not checked"
 
 
 def headline(progress: Progress, chapter: str = "") -> str:
-    """Return the totals in one line."""
+    """Return one line with the totals of all chapters, or of `chapter`."""
     counted = f"{of(progress.passed)} parts passed, {of(progress.points)} points"
     answered = ((progress.right, "predictions right"), (progress.chosen, "choices right"))
     counted += "".join(f", {of(pair)} {what}" for pair, what in answered if pair[1])
@@ -22,7 +22,7 @@ def headline(progress: Progress, chapter: str = "") -> str:
 
 
 def overview_text(progress: Progress) -> str:
-    """Return all chapters with a line for each, and what is next."""
+    """Return a text with one line for each chapter, and the next steps."""
     rows = [["", "Chapter", "", "Parts", "Points", "Predictions"], *map(_row, progress.chapters)]
     steps = next_steps(progress)
     lines = [headline(progress), "", *_columns(rows), "", LEGEND, *_steps(steps), *_end(progress)]
@@ -30,7 +30,7 @@ def overview_text(progress: Progress) -> str:
 
 
 def chapter_text(progress: Progress, steps: Sequence[Step]) -> str:
-    """Return one chapter with a line for each part, and what is next."""
+    """Return a text with one line for each part of a chapter, and the next steps."""
     chapter = progress.chapters[0]
     rows = [
         line
@@ -44,12 +44,12 @@ def chapter_text(progress: Progress, steps: Sequence[Step]) -> str:
 
 
 def of(pair: tuple[int, int]) -> str:
-    """Return a count as text: "3 of 5"."""
+    """Return a pair of numbers as text, such as "3 of 5"."""
     return f"{pair[0]} of {pair[1]}"
 
 
 def answers(chapter: ChapterProgress) -> str:
-    """Return how many predictions and choices of a chapter were right; "" if none were compared."""
+    """Return the numbers of correct predictions and choices of a chapter; "" if none were compared."""
     predicted = of(chapter.right) if chapter.right[1] else ""
     chosen = f"{of(chapter.chosen)} choices" if chapter.chosen[1] else ""
     return ", ".join(filter(None, (predicted, chosen)))
@@ -84,7 +84,7 @@ def _end(progress: Progress) -> Iterator[str]:
 
 
 def _wrapped(label: str, text: str) -> list[str]:
-    """Return `text` after `label`, in lines of at most WIDTH; further lines are indented."""
+    """Return `label` and `text` in lines of at most WIDTH characters, indented from the second line on."""
     space = " " * len(label)
     return textwrap.wrap(
         text, WIDTH, initial_indent=label, subsequent_indent=space, break_on_hyphens=False

@@ -1,4 +1,4 @@
-"""A shop with a counter, a camera and a till, and the cases of chapter 03. It needs no rospy."""
+"""The shop of several chapters: its counter, its camera, and the printer of its till. It needs no rospy."""
 
 from typing import TYPE_CHECKING
 

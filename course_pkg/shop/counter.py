@@ -1,4 +1,4 @@
-"""The counter of a shop: when each customer comes and leaves, and who is there now. It needs no ROS."""
+"""The counter of a shop: it knows when each customer comes and leaves. This module needs no ROS."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 from course_pkg.errors import FieldError
 
-MOST = 1000  # customers at a time
-LONGEST = 3600.0  # s
+MOST = 1000  # customers in one call
+LONGEST = 3600.0  # s; the longest delay and the longest stay
 
 
 @dataclass(frozen=True)
 class Visit:
-    """One customer: a number, and when they come to the counter and leave it, in s of one clock."""
+    """The visit of one customer: the customer's number, and the times of coming and leaving in s."""
 
     number: int
     comes: float
@@ -22,16 +22,17 @@ class Visit:
 
 
 class Counter:
-    """The present and future visits; `number` is the number of the next customer."""
+    """The present and the future visits; `number` is the number of the next new customer."""
 
     def __init__(self, number: int = 1) -> None:
         self.number = number
         self._visits: list[Visit] = []
 
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
-        """Return a planned visit of `stay` s for each element of `after`, a time in s from `now`.
+        """Plan a visit of `stay` s for each element of `after`, and return the new visits.
 
-        Earlier plans for the future are dropped. Raises FieldError for impossible times, and changes nothing.
+        `after` contains delays in s from the time `now`. Future visits of earlier calls are removed. Raises
+        FieldError for impossible times; then nothing changes.
         """
         if len(after) > MOST:
             raise FieldError(
@@ -51,11 +52,11 @@ class Counter:
         return tuple(visit.number for visit in self._visits if visit.comes <= now < visit.goes)
 
     def next_change(self, now: float) -> float:
-        """Return when the next customer comes or leaves; infinity if there is none."""
+        """Return the time at which the next customer comes or leaves, or infinity if there is none."""
         times = (time for visit in self._visits for time in (visit.comes, visit.goes) if time > now)
         return min(times, default=math.inf)
 
 
 def _require_seconds(field: str, value: float) -> None:
-    if not 0.0 <= value <= LONGEST:  # false for NaN
+    if not 0.0 <= value <= LONGEST:  # also refuses NaN
         raise FieldError(field, value, f"seconds, from 0 to {LONGEST:g}", f"{value:g} s cannot be waited for")

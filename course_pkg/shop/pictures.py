@@ -1,4 +1,4 @@
-"""Computed pictures of the shop: a colour picture, and the frames of a small grey camera. It needs no ROS."""
+"""Computes pictures of the shop: a colour picture, and the frames of a small grey camera. It needs no ROS."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ COUNTER: Colour = (120, 84, 56)
 TOP: Colour = (160, 118, 82)
 FACE: Colour = (226, 184, 150)
 COATS: tuple[Colour, ...] = ((46, 98, 150), (168, 60, 56), (62, 122, 78), (122, 84, 146), (196, 140, 44))
-MOST = 12  # customers that can be distinguished
-HALF_BREADTH = 0.13  # of a customer, in heights of the picture
+MOST = 12  # the most customers that a picture shows separately
+HALF_BREADTH = 0.13  # half the breadth of a customer, as a fraction of the picture's height
 
-WIDTH, HEIGHT = 160, 120  # points
+WIDTH, HEIGHT = 160, 120  # points; the size of a frame
 DARK = 96  # points below this brightness are dark
-SHARE = 10  # one dark point in 10 means a customer
-BRIGHT, DARK_COAT = 208, 40  # brightness of wall and coat, plus up to SHADE
-SHADE = 12
-HEAD, SHOULDERS = 0.14, 0.2  # half the breadth of a figure, in heights of the frame
+SHARE = 10  # one dark point in 10 means that there is a customer
+BRIGHT, DARK_COAT = 208, 40  # the least brightness of the wall and of a coat
+SHADE = 12  # the brightness of a point is higher by less than this
+HEAD, SHOULDERS = 0.14, 0.2  # half the breadth of a figure, as a fraction of the frame's height
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture as rgb8: `height` rows of `width` points of three bytes, from the top left.
+    """Return the picture in the encoding rgb8: `height` rows of `width` points, from the top left.
 
-    It shows at most MOST customers.
+    Each point has three bytes. The picture shows at most MOST customers.
     """
     return b"".join(
         _picture_row((row + 0.5) / height, width, height, min(customers, MOST)) for row in range(height)
@@ -35,11 +35,12 @@ def shop_picture(width: int, height: int, customers: int) -> bytes:
 
 
 def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
-    """Return the row at `y`, 0 at the top and 1 at the bottom."""
+    """Return the bytes of the row at `y`, which is 0 at the top and 1 at the bottom."""
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))  # so that neighbours leave a gap
+    # The figures are narrower if there are many customers, so that there is a gap between them.
+    squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)
         middle = width * number / (customers + 1)
@@ -49,7 +50,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the breadth of a customer at `y`, in heights of the picture, and the colour there."""
+    """Return half the breadth of a customer at `y`, as a fraction of the picture's height, and the colour."""
     head = 0.08**2 - (y - 0.3) ** 2
     if head > 0:
         return float(head**0.5), FACE
@@ -57,7 +58,7 @@ def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
 
 
 class Frame(Protocol):
-    """The fields of a sensor_msgs/Image that are used here."""
+    """The fields of a sensor_msgs/Image that this module uses."""
 
     encoding: str
     width: int
@@ -66,31 +67,33 @@ class Frame(Protocol):
     data: bytes
 
 
-@lru_cache(maxsize=16)  # the camera asks ten times per second
+@lru_cache(maxsize=16)  # because the camera needs a frame ten times per second
 def frame_points(customers: int) -> bytes:
-    """Return the points of a frame, row by row: a light wall, and a dark figure for each customer."""
+    """Return the points of a frame, row by row: a light wall, with a dark figure for each customer."""
     return b"".join(_frame_row(row, customers) for row in range(HEIGHT))
 
 
 def sees_customer(frame: Frame) -> bool:
     """Return whether a frame shows a customer: at least a tenth of its points are dark.
 
-    Raises ValueError for a malformed frame: not mono8, without points, or with a length that does not fit its
-    height and step.
+    Raises ValueError for a malformed frame: its encoding is not mono8, it has no points, its rows are longer
+    than its step, or its data do not have `height * step` bytes.
     """
     if frame.encoding != "mono8":
         raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")
     if not frame.width or not frame.height or frame.step < frame.width:
-        raise ValueError(f"{frame.width} by {frame.height} points in rows of {frame.step} bytes are no frame")
+        raise ValueError(f"{frame.width} by {frame.height} points do not fit into rows of {frame.step} bytes")
     if len(frame.data) != frame.height * frame.step:
-        raise ValueError(f"{len(frame.data)} bytes, and {frame.height} rows of {frame.step} bytes each")
+        raise ValueError(
+            f"the frame has {len(frame.data)} bytes, but it needs {frame.height} rows of {frame.step} bytes"
+        )
     rows = (frame.data[start : start + frame.width] for start in range(0, len(frame.data), frame.step))
     dark = sum(point < DARK for row in rows for point in row)
     return bool(SHARE * dark >= frame.width * frame.height)
 
 
 def _frame_row(row: int, customers: int) -> bytes:
-    """Return one row; each figure has a head and a coat."""
+    """Return the points of one row, with the figures of all customers."""
     points = bytearray(BRIGHT + _shade(row, column) for column in range(WIDTH))
     for column in _figures(row / HEIGHT, customers):
         points[column] = DARK_COAT + _shade(row, column)
@@ -98,7 +101,7 @@ def _frame_row(row: int, customers: int) -> bytes:
 
 
 def _figures(y: float, customers: int) -> set[int]:
-    """Return the columns of the figures at `y`, 0 at the top and 1 at the bottom."""
+    """Return the columns of all figures at `y`, which is 0 at the top and 1 at the bottom."""
     head = HEAD**2 - (y - 0.3) ** 2
     half = round(HEIGHT * head**0.5) if head > 0 else round(HEIGHT * SHOULDERS) if y >= 0.46 else -1
     middles = [WIDTH * number // (customers + 1) for number in range(1, customers + 1)]

@@ -1,4 +1,4 @@
-"""The printer of a till. It needs no ROS."""
+"""The printer of a till, which is a cash register. This module needs no ROS."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ LINE = 0.01  # s for a line
 
 
 class Printer:
-    """Prints a receipt, one line at a time. It jams if two threads print at once. `lines` are its lines."""
+    """Prints one line at a time, and stores the lines in `lines`. It jams if two threads print at once."""
 
     def __init__(self, paper: int = 1000) -> None:
         self.lines: list[str] = []
-        self.paper = paper  # lines that are left
+        self.paper = paper  # the number of lines that fit on the paper
         self._busy = threading.Lock()
 
     def print(self, text: str) -> None:
-        """Print a line, which takes 10 ms. Raises PrinterFailed if nothing was printed."""
+        """Print a line, which takes 10 ms. Raises PrinterFailed if it cannot print the line."""
         if not self._busy.acquire(blocking=False):
             raise PrinterFailed("paper jam: two lines at once")
         try:

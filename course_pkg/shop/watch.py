@@ -1,6 +1,6 @@
-"""What a program knows about a counter from a camera, and waiting for a customer. It needs no ROS.
+"""The customers that a camera sees at a counter, and waits for a customer. This module needs no ROS.
 
-A Watch gets the numbers of the customers from its camera, an Eye gets frames.
+A Watch receives the numbers of the customers from its camera. An Eye receives frames.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-POLL = 0.25  # s between checks whether the camera is still there
-FRAME_TIMEOUT = 1.0  # s without a good frame, after which an Eye does not know who is there
+POLL = 0.25  # s between checks whether the camera still sends messages
+FRAME_TIMEOUT = 1.0  # s without a valid frame, after which the state of the counter is unknown to an Eye
 
-Time: TypeAlias = "float | genpy.Time"  # of a Watch's clock
+Time: TypeAlias = "float | genpy.Time"  # a time of a Watch's clock
 Frame = TypeVar("Frame")
 
 
@@ -29,7 +29,7 @@ class CameraMessage(Protocol):
 
 
 class Customer(NamedTuple):
-    """A customer at the counter: a number, and when they were first seen, by the clock of the Watch."""
+    """A customer at the counter: the customer's number, and the time at which the Watch saw them first."""
 
     number: int
     arrived: Time
@@ -42,24 +42,24 @@ class Watch:
         self.changed = threading.Condition()
         self._now = now
         self._there: tuple[Customer, ...] = ()
-        self._last = -float("inf")  # time of the camera's last message, in s of time.monotonic()
+        self._last = -float("inf")  # the time of the camera's last message, in s of time.monotonic()
 
     @property
     def silent_for(self) -> float:
-        """Time since the camera's last message, in s; infinity before the first one."""
+        """The time since the camera's last message in s, or infinity before the first message."""
         return time.monotonic() - self._last
 
     @property
     def count(self) -> int:
-        """How many customers are at the counter."""
+        """The number of customers at the counter."""
         return len(self._there)
 
     def hear(self, message: CameraMessage) -> None:
-        """Process a message of the camera."""
+        """Process a message of the camera; this method is the callback of a subscriber."""
         self.see(message.data)
 
     def see(self, numbers: Sequence[int]) -> list[Customer]:
-        """Set the customers at the counter, wake the waiting threads, and return the new customers."""
+        """Set the customers at the counter, notify the waiting threads, and return the new customers."""
         with self.changed:
             self._last = time.monotonic()
             known = {customer.number: customer for customer in self._there}
@@ -71,13 +71,13 @@ class Watch:
             return came
 
     def next(self, after: int = 0) -> Customer | None:
-        """Return the customer with the lowest number above `after`, or None, without waiting."""
+        """Return the customer with the lowest number above `after`, or None. It does not wait."""
         return min((customer for customer in self._there if customer.number > after), default=None)
 
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
-        """Return the next customer as soon as there is one; None after `patience` s.
+        """Wait for a customer with a number above `after`, and return this customer.
 
-        Raises CameraSilent if the camera has sent no message for `silence` s.
+        Returns None after `patience` s. Raises CameraSilent if no message has arrived for `silence` s.
         """
         deadline = time.monotonic() + patience
         with self.changed:
@@ -87,20 +87,24 @@ class Watch:
                 if customer or rest <= 0:
                     return customer
                 self.changed.wait(min(rest, POLL))
-        raise CameraSilent(f"No message from the camera for {silence:g} s.")
+        raise CameraSilent(f"The camera has sent no message for {silence:g} s. Check that its node runs.")
 
 
 class Eye(Generic[Frame]):
-    """What the newest good frame shows; `changed` is notified of each good frame."""
+    """Reads frames, and stores whether the newest valid frame shows a customer.
+
+    `sees` returns whether a frame shows a customer, and raises ValueError for a malformed frame. Each valid
+    frame notifies the condition `changed`.
+    """
 
     def __init__(self, sees: Callable[[Frame], bool]) -> None:
         self.changed = threading.Condition()
         self._sees = sees
         self._seen = False
-        self._last = -float("inf")  # time of the newest good frame, in s of time.monotonic()
+        self._last = -float("inf")  # the time of the newest valid frame, in s of time.monotonic()
 
     def hear(self, frame: Frame) -> None:
-        """Process a frame; a malformed frame is ignored."""
+        """Process a frame, but ignore a malformed frame; this method is the callback of a subscriber."""
         try:
             seen = self._sees(frame)
         except ValueError:
@@ -110,14 +114,14 @@ class Eye(Generic[Frame]):
             self.changed.notify_all()
 
     def look(self) -> bool | None:
-        """Return whether a customer is there; None if no good frame came in the last second."""
+        """Return whether a customer is at the counter; None if no valid frame arrived in the last second."""
         return self._seen if time.monotonic() - self._last <= FRAME_TIMEOUT else None
 
 
 def await_customer(eye: Eye[Frame], patience: float) -> bool:
-    """Return whether a customer is there, as soon as one is, and after at most `patience` s.
+    """Return True as soon as a customer is at the counter, and False after `patience` s without a customer.
 
-    Raises CameraSilent if no good frame came in the second before the end.
+    Raises CameraSilent after `patience` s if no valid frame arrived in the last second.
     """
     with eye.changed:
         found = eye.changed.wait_for(eye.look, timeout=patience)

@@ -1,4 +1,4 @@
-"""The whole course as one document, printed to a PDF by the Chromium of this machine."""
+"""The whole course as one document, which the Chromium of this machine prints to a PDF file."""
 
 from __future__ import annotations
 
@@ -29,18 +29,21 @@ OPTIONS = (
     "--no-first-run",
     "--no-pdf-header-footer",
     "--generate-pdf-document-outline",
-    "--virtual-time-budget=20000",  # ms in which the panels of all chapters are drawn
+    "--virtual-time-budget=20000",  # ms; enough time to draw the panels of all chapters
 )
 LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 
 
 def prefix(chapter: Chapter) -> str:
-    """Return the prefix of a chapter's anchors in the book, which has all chapters on one page."""
+    """Return the prefix of a chapter's anchors. The book needs it because it has all chapters on one page."""
     return f"c{chapter.number}-"
 
 
 def book(renderer: Renderer, bodies: Sequence[tuple[Chapter, Body]], glossary: Glossary) -> Page:
-    """Return the page that holds all chapters; the anchors of each body begin with its `prefix`."""
+    """Return the page that contains all chapters.
+
+    In `bodies`, the anchors of each chapter begin with the chapter's `prefix`.
+    """
     first = {chapter.number: body.headings[0][1] for chapter, body in bodies if body.headings}
     html = renderer.part(
         "book.html.j2",
@@ -54,19 +57,22 @@ def book(renderer: Renderer, bodies: Sequence[tuple[Chapter, Body]], glossary: G
 
 
 def print_book(folder: Path) -> Path:
-    """Print `book.html` in `folder` to `book.pdf` beside it, and return that. Raises SiteError."""
+    """Print `book.html` in `folder` to `book.pdf` in the same folder, and return the path of the PDF file.
+
+    Raises SiteError if this machine has no Chromium, or if Chromium prints no file within TIMEOUT.
+    """
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     if not browser:
-        raise SiteError("No Chromium is on this machine. Open book.html in any browser, and print it there.")
+        raise SiteError("This machine has no Chromium. Open book.html in any browser, and print it there.")
     target = folder.resolve() / "book.pdf"
     target.unlink(missing_ok=True)
     with tempfile.TemporaryDirectory(prefix="course-book-") as profile:
         command = [browser, *OPTIONS, f"--user-data-dir={profile}", f"--print-to-pdf={target}"]
         if os.geteuid() == 0:
-            command.append("--no-sandbox")  # Chromium does not start as root with one
+            command.append("--no-sandbox")  # The root user cannot start Chromium with a sandbox.
         printed = _run([*command, (folder / "book.html").resolve().as_uri()])
     if not target.exists():
-        raise SiteError(f"Chromium printed no book:\n{printed[-2000:]}")
+        raise SiteError(f"Chromium did not print the book. Its output was:\n{printed[-2000:]}")
     return target
 
 

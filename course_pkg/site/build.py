@@ -1,4 +1,4 @@
-"""Builds the site: every chapter a page, a landing page, a glossary, and what they load."""
+"""Builds the site: a page for each chapter, a landing page, a glossary, and the files that they load."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
 from course_pkg.site.search_index import Section, script, sections
 
-LIST = ".course-site"  # in the folder: the files that the site consists of
+LIST = ".course-site"  # a file in the site's folder that lists the files of the site
 ASSETS = Path(__file__).with_name("assets")
 FOOTER = (
-    "These pages fetch nothing and send nothing. What they load lies beside them, with "
-    '<a href="assets/LICENSES.txt">its licences</a>.'
+    "These pages use no network: all files that they load are in the same folder. "
+    '<a href="assets/LICENSES.txt">Licences of these files</a>.'
 )
-NOT_RUN = "Its panels are missing, since the chapter has not run yet."
+NOT_RUN = "The panels are missing, because the chapter has not run yet."
 PANEL_CLASS = 'class="panel"'
 
 
 class PageSource(NamedTuple):
-    """One chapter on its way to a page; `trouble` says why it is not shown as it runs now."""
+    """One chapter that becomes a page. `trouble` says why the page does not show the latest run, if so."""
 
     chapter: Chapter
     source: Path
@@ -46,7 +46,10 @@ class PageSource(NamedTuple):
 
 
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
-    """Write the site, and return which chapters' runs failed: their pages show what was stored."""
+    """Write the site, and return a text for each chapter whose run failed.
+
+    The pages of these chapters show the stored outputs.
+    """
     exporter = Exporter()
     books = list(_books(settings, store or NotebookStore(), runs or Runs(), exporter))
     chapters = [each.chapter for each in books]
@@ -105,7 +108,7 @@ def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) 
 
 
 def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
-    """Return the ways into the notebook itself: (label, address, whether it is a file of the site)."""
+    """Return the links to the notebook itself: (label, address, whether it is a file of the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
         place = quote(f"notebooks/{each.source.name}", safe="")
@@ -119,7 +122,7 @@ def _sections(books: Sequence[PageSource]) -> Iterator[Section]:
 
 
 def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapter, Body]]:
-    """Return the chapters for the book, with separate anchors."""
+    """Return the chapters for the book; the anchors of each chapter have their own prefix."""
     return [
         (each.chapter, exporter.body(each.notebook, prefix(each.chapter), each.source.parent))
         for each in books
@@ -127,12 +130,12 @@ def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapt
 
 
 class Settings(NamedTuple):
-    """What `course site` was told.
+    """The options of `course site`.
 
-    `out` is the folder to write to. With `student`, the pages show the notebooks that students get, otherwise
-    the solutions. `chapters` are those to be run if need be; the others are shown as they ran last, and so
-    are all with `execute` off. `binder` is the address that opens the repository, without the query. With
-    `book`, all chapters stand in one page, too.
+    `out` is the folder to write to. If `student` is true, the pages show the notebooks that students get;
+    otherwise they show the solutions. `chapters` are the chapters to run if they changed. The site shows the
+    last run of all other chapters, and of all chapters if `execute` is false. `binder` is the address that
+    opens the repository, without the query. If `book` is true, one more page contains all chapters.
     """
 
     out: Path
@@ -144,7 +147,10 @@ class Settings(NamedTuple):
 
 
 class Folder:
-    """A site being written: when the block ends well, files of an earlier site that are not in it go."""
+    """The folder of a site that is being written, as a context manager.
+
+    If the block ends without an exception, `Folder` removes the files that only an earlier site had.
+    """
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -152,17 +158,17 @@ class Folder:
         self._written: set[str] = set()
 
     def __enter__(self) -> Folder:
-        """Take hold of the folder. Raises SiteError where it holds something else than a site."""
+        """Prepare the folder. Raises SiteError if it is not usable, or contains files that are not a site."""
         try:
             self._path.mkdir(parents=True, exist_ok=True)
             foreign = not self._list.exists() and any(self._path.iterdir())
         except OSError as error:
             raise SiteError(
-                f"{self._path} cannot be used: {error.strerror}. Name another with --out."
+                f"The folder {self._path} cannot be used: {error.strerror}. Name another folder with --out."
             ) from error
         if foreign:
             raise SiteError(
-                f"{self._path} holds files that are no site. Name an empty or a new folder with --out."
+                f"{self._path} contains files that are not a site. Name an empty or a new folder with --out."
             )
         self._list.touch()
         self._before = set(self._list.read_text("utf-8").split("\n"))

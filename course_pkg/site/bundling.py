@@ -1,6 +1,7 @@
-"""Builds the files that every page loads from the npm registry: `python -m course_pkg.site.bundling`.
+"""Builds the scripts, fonts and licences that every page loads: `python -m course_pkg.site.bundling`.
 
-Node is needed only to change them: the built files are in `assets/`, and a test builds them again.
+The build downloads packages from the npm registry and needs Node. You need Node only if you change these
+files, because the built files are in `assets/`. A test builds them again and compares.
 """
 
 from __future__ import annotations
@@ -18,16 +19,16 @@ HERE = Path(__file__).parent
 BUNDLE = HERE / "bundle"
 ASSETS = HERE / "assets"
 BUILT = ("early.js", "fonts.css", "site.js", "LICENSES.txt")
-AXE = "axe.min.js"  # no page loads it: the tests look the pages over with it
+AXE = "axe.min.js"  # No page loads it. The tests check the pages with it.
 TESTS = Path(__file__).parents[2] / "tests" / "site"
-TIMEOUT = 300  # s for the registry
+TIMEOUT = 300  # s for one npm command, which may download packages
 
 
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
-    """Build the files of these names into `target`, and return them.
+    """Build the files called `names` into the folder `target`, and return their paths.
 
-    It works in a folder of its own: node_modules inside the package would be walked by rosrun. Raises
-    SiteError where npm is missing or fails.
+    The build uses a temporary folder, because rosrun would search a node_modules folder inside the package.
+    Raises SiteError if npm is missing or fails.
     """
     with tempfile.TemporaryDirectory(prefix="course-bundle-") as folder:
         work = Path(shutil.copytree(BUNDLE, Path(folder) / "bundle"))
@@ -39,14 +40,14 @@ def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
 def _npm(folder: Path, *words: str) -> None:
     npm = shutil.which("npm")
     if not npm:
-        raise SiteError("npm is not on this machine; it comes with Node 20 and newer.")
+        raise SiteError("This machine has no npm. Install Node 20 or newer, which includes npm.")
     try:
         result = subprocess.run(
             [npm, *words], cwd=folder, capture_output=True, text=True, timeout=TIMEOUT, check=False
         )
     except subprocess.TimeoutExpired as error:
         raise SiteError(
-            f"npm {words[0]} did not end within {TIMEOUT} s. Can its registry be reached?"
+            f"npm {words[0]} did not end within {TIMEOUT} s. Check that the npm registry can be reached."
         ) from error
     if result.returncode:
         raise SiteError(f"npm {words[0]} failed:\n{result.stderr or result.stdout}")

@@ -1,4 +1,4 @@
-"""What the site says about a chapter before anybody opens it, read out of its notebook."""
+"""What the landing page says about each chapter: its title, time, goals and points, from the notebook."""
 
 from __future__ import annotations
 
@@ -14,34 +14,37 @@ MINUTES = re.compile(r"(?P<minutes>\d+) minutes")
 
 
 class Chapter(NamedTuple):
-    """A chapter as the syllabus lists it. `lead`, `will` and `need` are Markdown, `minutes` 0 if untold."""
+    """A chapter as the syllabus lists it.
 
-    name: str  # of its files: 05_write_a_server
+    `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not state its time.
+    """
+
+    name: str  # the name of its files without their ending, such as 05_write_a_server
     title: str
     lead: str
     will: str
     need: str
     minutes: int
-    points: tuple[int, ...]  # of its exercises
+    points: tuple[int, ...]  # the points of each exercise
 
     @property
     def number(self) -> str:
-        """Its number as two digits."""
+        """The chapter's number as two digits."""
         return self.name[:2]
 
     @property
     def page(self) -> str:
-        """The file of its page."""
+        """The file name of the chapter's page."""
         return f"{self.name}.html"
 
     @property
     def full_title(self) -> str:
-        """Its number and its title, as links name it."""
+        """The chapter's number and title, as they stand in links."""
         return f"{self.number} {self.title}"
 
 
 def chapter_of(name: str, notebook: Notebook) -> Chapter:
-    """Return what the notebook called `name` says about itself in its first cell and its exercises."""
+    """Return the chapter of the notebook called `name`, from the notebook's first cell and its exercises."""
     first = str(notebook["cells"][0]["source"]) if notebook["cells"] else ""
     title = TITLE.match(first)
     labels = {found["label"]: found["text"].strip() for found in LABEL.finditer(first)}

@@ -1,4 +1,4 @@
-"""Looks a site over: whether links lead somewhere, figures have words, and nothing comes from afar."""
+"""Checks a site: links have targets, figures have descriptions, and pages load only files of the site."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ VERBATIM = ("pre", "code", "script", "style", "title")
 
 
 def faults(folder: Path) -> list[str]:
-    """Return what is wrong with the site in `folder`, each with the page that it is on."""
+    """Return every fault of the site in `folder`; each text begins with the name of the page."""
     pages = {path.name: _read(path) for path in sorted(folder.glob("*.html"))}
     return [
         f"{name}: {fault}"
@@ -33,9 +33,7 @@ def _read(path: Path) -> _Reader:
 
 
 def _doubles(page: _Reader) -> Iterator[str]:
-    yield from (
-        f"the id {name!r} stands there {count} times" for name, count in page.ids.items() if count > 1
-    )
+    yield from (f"the id {name!r} is used {count} times" for name, count in page.ids.items() if count > 1)
 
 
 def _dead_links(name: str, page: _Reader, pages: Mapping[str, _Reader], folder: Path) -> Iterator[str]:
@@ -45,13 +43,13 @@ def _dead_links(name: str, page: _Reader, pages: Mapping[str, _Reader], folder: 
             continue
         target = unquote(parts.path) or name
         if not (folder / target).is_file():
-            yield f"the link {link} leads to no file"
+            yield f"the file of the link {link} does not exist"
         elif parts.fragment and target in pages and unquote(parts.fragment) not in pages[target].ids:
-            yield f"the link {link} leads to no place on that page"
+            yield f"the page of the link {link} has no such id"
 
 
 class _Reader(HTMLParser):
-    """What a page holds that can be wrong."""
+    """Collects the ids, the links and the faults of one page."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,7 +60,7 @@ class _Reader(HTMLParser):
         self._fronts = fronts()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note ids, links, figures and what a page loads."""
+        """Note the ids, links and figures of a page, and the files that it loads."""
         given = {name: value or "" for name, value in attrs}
         if "id" in given:
             self.ids[given["id"]] += 1
@@ -74,18 +72,18 @@ class _Reader(HTMLParser):
             self._inside.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Note where verbatim text ends."""
+        """Note the end of an element whose text is not prose, such as <pre>."""
         if self._inside and self._inside[-1] == tag:
             self._inside.pop()
 
     def handle_data(self, data: str) -> None:
-        """Note formulas that Markdown has let be, as in a cell's output: only prose has them."""
+        """Note formulas that are still LaTeX, as in a cell's output: only prose has its formulas rendered."""
         if not self._inside and (found := FORMULA.search(data)):
-            self.faults.append(f"{found[0]} looks like a formula, and stands where none is set")
+            self.faults.append(f"{found[0]} looks like a formula, but is not rendered")
 
     def _link(self, address: str) -> None:
         if not address:
-            self.faults.append("a link leads nowhere")
+            self.faults.append("a link has no address")
         elif not address.startswith("data:"):
             self.links.append(address)
 
@@ -103,7 +101,7 @@ class _Reader(HTMLParser):
         if tag == "script" and source:
             self.links.append(source)
         if urlsplit(source).netloc:
-            self.faults.append(f"it would load {source} from elsewhere")
+            self.faults.append(f"it would load {source} from another computer")
         handlers = [name for name in given if name.startswith("on")]
         if handlers or (tag == "script" and not source and given.get("type") != "text/plain"):
-            self.faults.append(f"a script stands in the page itself: <{' '.join([tag, *handlers])}>")
+            self.faults.append(f"the page contains a script: <{' '.join([tag, *handlers])}>")

@@ -1,4 +1,4 @@
-"""Code as HTML, with as little markup as its colours need: a page is mostly code."""
+"""Code as HTML with colours. It uses as little markup as possible, because a page is mostly code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pygments.lexers import get_lexer_by_name
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
-# What gets a colour, the narrower kind first; the letters are classes in site.css.
+# The kinds of token that get a colour; a subtype stands before its type. The letters are classes in site.css.
 COLOURS = (
     (Comment, "c"),
     (String.Doc, "c"),
@@ -42,13 +42,16 @@ FILES = {
 
 
 class Highlighter:
-    """Colours cells and fenced blocks; a lexer is made once for each language."""
+    """Adds colours to cells and to fenced blocks. It creates the lexer of each language only once."""
 
     def __init__(self) -> None:
         self._lexers: dict[str, Lexer] = {}
 
     def cell(self, source: str) -> str:
-        """Return a code cell as HTML: Python, or what its magic in the first line says that it holds."""
+        """Return a code cell as HTML.
+
+        The cell contains Python, unless a magic in its first line names another language.
+        """
         magic = MAGIC.match(source)
         if not magic:
             return self.block(source, "ipython3")
@@ -56,7 +59,7 @@ class Highlighter:
         return f"<i class=k>{escape(first, quote=False)}</i>" + self.block(rest, _language(magic))
 
     def block(self, source: str, language: str) -> str:
-        """Return `source` as HTML, coloured where its language is known."""
+        """Return `source` as HTML. It has colours if Pygments knows `language`."""
         lexer = self._lexer(language)
         coloured = ((_colour(kind), text) for kind, text in lexer.get_tokens(source.rstrip("\n")))
         return "".join(_runs(coloured)).rstrip("\n")
@@ -87,7 +90,7 @@ def _colour(kind: _TokenType) -> str:
 
 
 def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
-    """Join neighbours of one colour; blanks have none."""
+    """Join neighbouring tokens of the same colour into one element; blanks get no element."""
     for name, run in groupby(coloured, key=lambda pair: pair[0]):
         text = escape("".join(text for _, text in run), quote=False)
         yield f"<i class={name}>{text}</i>" if name else text

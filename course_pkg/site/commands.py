@@ -1,4 +1,4 @@
-"""`course site`: its options; it writes the site, checks it, prints it as a book, and lists the problems."""
+"""`course site`: it writes the site, checks it, prints it as a book, and lists the problems."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ def _site(options: SimpleNamespace) -> int:
 
 def _site_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "chapters", nargs="*", metavar="CHAPTER", help="run only these, if they changed (all)"
+        "chapters", nargs="*", metavar="CHAPTER", help="run only these chapters, if they changed (all)"
     )
-    parser.add_argument("--out", metavar="DIR", help="the folder to write to (one in the cache; it is named)")
+    parser.add_argument("--out", metavar="DIR", help="the folder to write to (a folder in the cache)")
     parser.add_argument("--student", action="store_true", help="show the notebooks without answers")
     parser.add_argument(
-        "--check", action="store_true", help="then report dead links and missing descriptions"
+        "--check", action="store_true", help="report dead links and missing descriptions afterwards"
     )
-    parser.add_argument("--pdf", action="store_true", help="then print all chapters as a book, with Chromium")
+    parser.add_argument("--pdf", action="store_true", help="also print all chapters as a book, with Chromium")
     parser.add_argument("--stored", dest="execute", action="store_false", help="run no notebook")
-    parser.add_argument("--binder", metavar="URL", help="the address under which Binder opens the repository")
+    parser.add_argument("--binder", metavar="URL", help="the address at which Binder opens the repository")
 
 
 COMMANDS = {
@@ -52,7 +52,7 @@ COMMANDS = {
 }
 
 
-BINDER = "COURSE_BINDER"  # the address that opens the repository, up to the branch
+BINDER = "COURSE_BINDER"  # the variable with the address that opens the repository, including the branch
 
 
 def run_site(
@@ -65,9 +65,9 @@ def run_site(
     pdf: bool = False,
     binder: str | None = None,
 ) -> int:
-    """Write the site, print where it is, and return 0.
+    """Write the site, print the path of its first page, and return 0.
 
-    Raises SiteError if a chapter could not be run, or if `check` finds a problem.
+    Raises SiteError if the run of a chapter failed, or if `check` is true and finds a problem.
     """
     folder = Path(out) if out else Places.of().cache / "site" / ("student" if student else "pages")
     address = (os.environ.get(BINDER, "") if binder is None else binder).rstrip("/")
@@ -84,5 +84,5 @@ def run_site(
         sys.stdout.write(f"{print_book(folder)}\n")
     sys.stdout.write(f"{(folder / 'index.html').resolve()}\n")
     if problems:
-        raise SiteError("\n".join(["the site is written, but it has problems:", *problems]))
+        raise SiteError("\n".join(["The site is written, but it has problems:", *problems]))
     return 0

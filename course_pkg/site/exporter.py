@@ -1,4 +1,4 @@
-"""A notebook as the body of a page, by nbconvert's exporter and a template of our own."""
+"""A notebook as the body of a page, rendered by nbconvert's exporter with the course's own template."""
 
 from __future__ import annotations
 
@@ -60,27 +60,27 @@ SOMEWHERE = {
     "td": {"colspan", "rowspan"},
     "th": {"colspan", "rowspan", "scope"},
 }
-VERDICT = ["border-left"]  # the property by which a report shows how it went
-PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style that calls nothing
+VERDICT = ["border-left"]  # the CSS property with which a report shows whether the check passed
+PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style without a CSS function such as url()
 PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/=\s]*")
 HERE = Path(__file__).parent
 PARTS = {"include_code": True, "include_input": True, "include_output": True, "include_markdown": True}
 SHOWN = [PANEL, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
 TITLE = re.compile(r"\s*<svg\b[^>]*>\s*<title>([^<]+)</title>")
 TEXT = re.compile(r"<text\b[^>]*>([^<]+)</text>")
-NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # at the ticks of an axis
+NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # a label at a tick of an axis
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
 
 
 class Body(NamedTuple):
-    """The body of a page, and its headings: (level, anchor, text)."""
+    """The body of a page, and the headings in it: (level, anchor, text)."""
 
     html: str
     headings: list[tuple[int, str, str]]
 
 
 class Exporter(HTMLExporter):
-    """Exports the cells alone; `frame.html` puts a page around them. Cleans every output."""
+    """Exports only the cells of a notebook, and cleans every output. `frame.html.j2` adds the page frame."""
 
     template_data: ClassVar[Path] = HERE / "template"
 
@@ -91,7 +91,7 @@ class Exporter(HTMLExporter):
         self._prose = Prose(self.highlight.block)
 
     def default_filters(self) -> Iterator[tuple[str, Callable[..., object]]]:
-        """Yield nbconvert's filters and what our template needs besides."""
+        """Yield nbconvert's filters, and then the filters that the course's template adds."""
         yield from super().default_filters()  # type: ignore[no-untyped-call]
         yield "clean", Sanitizer()
         yield "code", self.highlight.cell
@@ -103,7 +103,7 @@ class Exporter(HTMLExporter):
 
     @property
     def default_config(self) -> Config:
-        """Say which kinds of output a page can show, the best first; scripts are none of them."""
+        """The settings with the MIME types that a page can show, the best first. Scripts are excluded."""
         own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)
@@ -112,8 +112,8 @@ class Exporter(HTMLExporter):
     def body(self, notebook: Notebook, prefix: str = "", folder: Path = Path()) -> Body:
         """Return the cells of `notebook` as HTML; anchors begin with `prefix`.
 
-        `folder` is the one that the notebook is in: from there it names its figures. Raises SiteError for a
-        figure that is missing.
+        `folder` is the folder of the notebook. The paths of its figures are relative to this folder. Raises
+        SiteError if a figure is missing.
         """
         numbers = count(1)
 
@@ -122,13 +122,14 @@ class Exporter(HTMLExporter):
 
         self._prose = Prose(self.highlight.block, prefix, shown)
         resources = {"global_content_filter": PARTS, "prefix": prefix, "states": []}
-        # from_notebook_node copies a notebook three times, for preprocessors, and parses the page once more.
+        # nbconvert's from_notebook_node would copy the notebook three times for preprocessors, and parse the
+        # page again. Rendering the template directly avoids this work.
         text = self.template.render(nb=_showable(notebook), resources=resources)
         return Body(text.strip(), self._prose.headings)
 
 
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
-    """Return a copy of `notebook` without the outputs that no page can show; nbconvert would warn of them."""
+    """Return a copy of `notebook` without outputs that no page can show; nbconvert would warn about them."""
     node: nbformat.NotebookNode = nbformat.from_dict(notebook)
     for cell in (cell for cell in node["cells"] if cell["cell_type"] == "code"):
         cell["outputs"] = [each for each in cell["outputs"] if _has_a_form(each)]
@@ -140,13 +141,13 @@ def _has_a_form(output: Output) -> bool:
 
 
 def packed(states: Sequence[Mapping[str, Plain]]) -> str:
-    """Return the states of a page's panels, in their order, as JSON in zlib's format in base64."""
+    """Return the states of a page's panels, in their order: as JSON, compressed by zlib, in base64."""
     text = json.dumps(states, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> str:
-    """Return a picture that the page carries in itself; as <img>, no script in an SVG can run."""
+    """Return a picture as an <img> whose data are in the page. A script in such an SVG cannot run."""
     code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
     about = metadata.get(kind, {})
     size = "".join(f' {name}="{int(about[name])}"' for name in ("width", "height") if name in about)
@@ -158,7 +159,7 @@ def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> 
 def description(svg: str) -> str:
     """Return the title of a panel's picture, or the labels of a plot, for a reader who cannot see it.
 
-    The labels of a plot are those of its axes, its title and its legend; no numbers.
+    The labels of a plot are its title and the labels of its axes and its legend, without the numbers.
     """
     if title := TITLE.match(svg):
         return html.unescape(title[1]).strip()
@@ -168,13 +169,16 @@ def description(svg: str) -> str:
 
 
 def terminal(text: str) -> str:
-    """Return what a terminal printed: its colours kept, its other controls carried out or dropped."""
+    """Return the output of a terminal as HTML.
+
+    Colours stay. A carriage return overwrites its line, as in a terminal. Other control codes are removed.
+    """
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")
 
 
 class Sanitizer:
-    """Lets through text, its structure, pictures that it carries along, and links that lead somewhere."""
+    """Removes all HTML except text, its structure, pictures whose data are in the page, and links."""
 
     def __init__(self) -> None:
         self._cleaner = Cleaner(
@@ -187,7 +191,7 @@ class Sanitizer:
         )
 
     def __call__(self, html: str) -> str:
-        """Return `html` without whatever could run, fetch or look like a part of the page."""
+        """Return `html` without anything that could run code, load a file or look like a part of the page."""
         return str(self._cleaner.clean(html))
 
 

@@ -1,8 +1,9 @@
-"""The figures that a notebook's Markdown names, as a page carries them: in itself, as it loads no other file.
+"""The figures of a notebook's Markdown as HTML. The page contains their data, because it loads no other file.
 
-A drawing (SVG) becomes a part of the page, so that its text can be selected and found. It follows the page's
-colours if it draws its text with `currentColor` and its white ground as `<rect class="ground" …>`, which the
-page does not fill. Any other drawing keeps a white ground, also in dark mode.
+A drawing (SVG) becomes a part of the page, so that a reader can select and find its text. A drawing uses the
+page's colours if it draws its text with `currentColor` and its white background as
+`<rect class="ground" …>`, which the page leaves empty. Any other drawing keeps a white background, even in
+dark mode.
 """
 
 from __future__ import annotations
@@ -21,17 +22,20 @@ SHAPES = ("circle", "ellipse", "line", "path", "polygon", "polyline", "rect", "t
 DRAWN = frozenset(
     (*SHAPES, "svg", "g", "defs", "marker", "clipPath", "linearGradient", "radialGradient", "stop")
 )
-SAID = ("title", "desc")  # the description beside the drawing's name in Markdown replaces them
-WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the drawing
+SAID = ("title", "desc")  # The description in the Markdown replaces these elements.
+WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the same drawing
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
-SMALLEST = 0.75  # of a drawing's own width; in a narrower window it is scrolled, or its text is too small
+# The least width of a drawing, as a part of its own width. In a narrower window it gets a scroll bar, because
+# its text would become too small.
+SMALLEST = 0.75
 
 
 def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     """Return the figure `url` of a notebook in `folder` as HTML.
 
-    The ids in a drawing begin with `prefix`, which tells a page's drawings apart. Raises
-    SiteError if a page cannot carry it: its file is missing, or it has no description.
+    The ids in a drawing begin with `prefix`, so that the ids of a page's drawings differ. Raises SiteError if
+    the figure's file is missing or has another format, if the figure has no description (`alt`), or if a
+    drawing contains a script or another element that a page does not allow.
     """
     if not alt.strip():
         raise SiteError(f"The figure {url} has no description. Write one: ![description]({url}).")
@@ -39,18 +43,18 @@ def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        raise SiteError(f"There is no figure {url}, as seen from {folder}.") from error
+        raise SiteError(f"There is no figure {url} in {folder}. Correct the path in the Markdown.") from error
     if path.suffix == ".svg":
         return _drawing(path, content, alt, prefix)
     if path.suffix not in KINDS:
-        raise SiteError(f"The figure {url} is neither a drawing (.svg) nor a picture ({', '.join(KINDS)}).")
+        raise SiteError(f"The figure {url} must be a drawing (.svg) or a picture ({', '.join(KINDS)}).")
     data = base64.b64encode(content).decode()
     return f'<img src="data:image/{KINDS[path.suffix]};base64,{data}" alt="{attribute(alt)}">'
 
 
 def _drawing(path: Path, content: bytes, alt: str, prefix: str) -> str:
     try:
-        root = ElementTree.fromstring(content)  # noqa: S314 -- a file of the course, and not a student's
+        root = ElementTree.fromstring(content)  # noqa: S314 -- a file of the course, not of a student
     except ElementTree.ParseError as error:
         raise SiteError(f"The figure {path} cannot be read: {error}.") from error
     width = _width(root)
@@ -73,15 +77,19 @@ def _width(root: ElementTree.Element) -> float:
 
 
 def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
-    """Name an element as HTML does, and make its id the page's only one. Raises SiteError for a script."""
+    """Give an element its HTML name and an id that is unique on the page.
+
+    Raises SiteError if a page does not allow this element, such as a script, or if one of its attributes runs
+    code or loads a file.
+    """
     element.tag = element.tag.removeprefix(NAMESPACE)
     if element.tag not in DRAWN:
-        raise SiteError(f"The figure {path} has a <{element.tag}>. A page carries only {_listed()}.")
+        raise SiteError(f"The figure {path} has a <{element.tag}>. A page allows only {_listed()}.")
     for name, value in list(element.attrib.items()):
         if name == "id":
             element.set(name, prefix + value)
         elif name.lower().startswith("on") or (name.endswith("href") and not value.startswith("#")):
-            raise SiteError(f'The figure {path} has {name}="{value}". A page runs and loads nothing from it.')
+            raise SiteError(f'The figure {path} has {name}="{value}". A figure may not run or load anything.')
         elif name.endswith("href"):
             element.set(name, f"#{prefix}{value[1:]}")
         else:

@@ -19,7 +19,11 @@ HERE = Path(__file__).parent
 
 
 class Entry(NamedTuple):
-    """A word, what it means, and the page and the name of the section that explains it, where one does."""
+    """A term, its meaning, its anchor, and where a chapter explains it.
+
+    `page` is the address of the section that explains the term, and `where` names its chapter. Both are empty
+    if no chapter explains the term.
+    """
 
     term: str
     meaning: str
@@ -29,27 +33,27 @@ class Entry(NamedTuple):
 
 
 class Glossary:
-    """All entries, in the order of the alphabet."""
+    """All entries, in alphabetical order."""
 
     def __init__(self, entries: Sequence[Entry]) -> None:
         self.entries = sorted(entries, key=lambda entry: entry.term.lower())
 
     @classmethod
     def of(cls, texts: Sequence[tuple[Chapter, Notebook, Sequence[Heading]]]) -> Glossary:
-        """Return the glossary, its links leading into the chapters given."""
+        """Return the glossary, whose links lead to the chapters in `texts`."""
         written: dict[str, str] = json.loads((HERE / "glossary.json").read_text("utf-8"))
         return cls([_entry(term, meaning, texts) for term, meaning in written.items()])
 
     def page(self, renderer: Renderer) -> Page:
         """Return the glossary as a page."""
-        return Page("glossary.html", "glossary", "Glossary", "The words of the course.", self.text(renderer))
+        return Page("glossary.html", "glossary", "Glossary", "The terms of the course.", self.text(renderer))
 
     def text(self, renderer: Renderer) -> Markup:
-        """Return the page of the glossary."""
+        """Return the text of the glossary, without the frame of a page."""
         return renderer.part("glossary.html.j2", entries=self.entries)
 
     def sections(self) -> Iterator[Section]:
-        """Yield what the search looks through."""
+        """Yield the entries as sections for the search index."""
         for entry in self.entries:
             yield Section("Glossary", f"glossary.html#{entry.anchor}", entry.term, entry.meaning)
 
@@ -63,7 +67,7 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the section in which `term` is first in bold or in italics."""
+    """Return the heading of the first section that has `term` in bold or italics, or None."""
     coming = iter(headings)
     current = None
     marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)

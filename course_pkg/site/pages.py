@@ -1,4 +1,4 @@
-"""Complete pages: the frame around a text, which is the same on every page."""
+"""Complete pages: each has the same frame around its own text."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from course_pkg.site.search_index import Heading
 HERE = Path(__file__).parent
 PATHS = HERE.parent / "chapters" / "paths.json"
 COURSE = "Who waits for whom?"
-# Nothing loads but what carries the page's own mark, and nothing connects anywhere. Attributes may
-# hold styles: the panels and their drawings use them.
+# A page loads only scripts and style sheets that have its nonce, and it opens no connections. Styles in
+# attributes are allowed, because the panels and their drawings use them.
 POLICY = (
     "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; "
     "style-src-attr 'unsafe-inline'; img-src data:; font-src data:; "
@@ -29,10 +29,10 @@ POLICY = (
 
 
 class Page(NamedTuple):
-    """What differs from page to page; `html` is the part between header and footer."""
+    """The parts of a page that differ from page to page; `html` is the part between header and footer."""
 
     file: str
-    kind: str  # chapter, landing or glossary
+    kind: str  # chapter, landing, glossary or book
     title: str
     description: str
     html: Markup
@@ -44,14 +44,14 @@ class Page(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """The chapters of a path in their order, and their total time as text."""
+    """The chapters of a learning path in their order, and their total time as text."""
 
     chapters: Sequence[Chapter]
     hours: str
 
 
 class LearningPath(NamedTuple):
-    """A selection of chapters that needs no other chapter; it may offer a choice of how it ends."""
+    """A selection of chapters that needs no other chapter. A path with two possible ends has two choices."""
 
     name: str
     about: str
@@ -60,7 +60,7 @@ class LearningPath(NamedTuple):
 
 
 class Renderer:
-    """Prints pages, all from the same templates and with the same list of chapters."""
+    """Renders pages from the same templates and with the same list of chapters."""
 
     def __init__(self, chapters: Sequence[Chapter], assets: str, footer: str) -> None:
         self._environment = Environment(
@@ -83,25 +83,25 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return a template filled in; texts are escaped, Markup is not."""
+        """Return the template filled with `values`; a str is escaped, Markup is not."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
-        """Return the whole page."""
-        # The author of an output cannot know a nonce that is computed from the whole page.
+        """Return the HTML of the whole page, with its frame."""
+        # The nonce is computed from the whole page, so code in a stored output cannot contain it.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
         return str(self.part("frame.html.j2", page=page, nonce=nonce, policy=policy))
 
 
 def _inline(html: str) -> Markup:
-    """Take the paragraph off a text of one."""
+    """Remove the <p> tags from a text that has only one paragraph."""
     one = html.count("<p>") == 1
     return Markup(html.removeprefix("<p>").removesuffix("</p>") if one else html)  # noqa: S704 -- Prose escapes
 
 
 def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
-    """Return the page that a reader opens first."""
+    """Return the landing page, which a reader opens first."""
     systems = json.loads((HERE / "systems.json").read_text("utf-8"))
     by_number = {chapter.number: chapter for chapter in chapters}
     for system in systems:
@@ -118,7 +118,7 @@ def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
 
 
 def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
-    """Return the paths through these chapters; a path without numbers takes all of them."""
+    """Return the learning paths through `chapters`; a path that lists no chapters contains all of them."""
     by_number = {chapter.number: chapter for chapter in chapters}
     found = []
     for path in json.loads(PATHS.read_text("utf-8")):
@@ -136,5 +136,5 @@ def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
 
 
 def drawing() -> Markup:
-    """Return the drawing of the two ways to talk."""
+    """Return the drawing that compares a topic with a service."""
     return Markup((HERE / "template" / "waiting.svg").read_text("utf-8"))  # noqa: S704 -- a file of ours

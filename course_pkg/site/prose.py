@@ -1,4 +1,4 @@
-"""Markdown as the pages show it: no raw HTML, headings that can be linked to, links that lead to pages."""
+"""Markdown as HTML for the pages: raw HTML is escaped, headings get anchors, and links lead to pages."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 
 
 class Prose:
-    """Renders the Markdown of one page; its headings get anchors of their own.
+    """Renders the Markdown of one page, and gives each heading an anchor.
 
-    `highlight` returns code of a language as HTML, and `figure` a figure, by its address and description.
+    `highlight` receives code and its language, and returns HTML. `figure` receives the address and the
+    description of a figure, and returns HTML. Anchors begin with `prefix`.
     """
 
     def __init__(
@@ -39,7 +40,7 @@ class Prose:
         return str(self._render(source)).strip()
 
     def heading(self, html: str, level: int) -> str:
-        """Note a heading, and return its anchor."""
+        """Add a heading to `headings`, and return its anchor, which is unique on the page."""
         text = words(html)
         anchor = self._prefix + _anchor(text)
         anchor = next(name for name in _numbered(anchor) if name not in self._taken)
@@ -63,7 +64,7 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        tag = "th" if head and text.strip() else "td"  # the corner of a table heads nothing
+        tag = "th" if head and text.strip() else "td"  # An empty corner cell is not a header.
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"
 
@@ -86,32 +87,32 @@ class _Renderer(HTMLRenderer):
 
 
 def _no_figure(url: str, _alt: str) -> str:
-    raise SiteError(f"The figure {url} is named where a page shows none.")
+    raise SiteError(f"The figure {url} cannot be shown in this text. Move it to a cell of a chapter.")
 
 
 def page_of(url: str) -> str:
-    """Return where a link of a notebook leads on the site: a chapter is a page."""
+    """Return the address on the site for a link of a notebook: a link to a chapter leads to its page."""
     notebook = NOTEBOOK.fullmatch(url)
     return f"{notebook['name']}.html{notebook['anchor'] or ''}" if notebook else url
 
 
 def mathml(formula: str, display: Literal["inline", "block"]) -> str:
-    """Return a formula in LaTeX as MathML, which needs no script. Raises SiteError for what is no formula."""
-    from latex2mathml.converter import convert  # few pages have one
+    """Return a LaTeX formula as MathML, which needs no script. Raises SiteError for an invalid formula."""
+    from latex2mathml.converter import convert  # imported here, because few pages have a formula
 
     try:
         return str(convert(formula.strip(), display=display))
-    except Exception as error:  # its errors have no class in common
+    except Exception as error:  # latex2mathml's exceptions have no common base class.
         raise SiteError(f"The formula ${formula}$ cannot be read: {type(error).__name__} {error}") from error
 
 
 def words(html: str) -> str:
-    """Return the text of a piece of HTML."""
+    """Return the text of a piece of HTML, without its tags."""
     return unescape(TAG.sub("", html))
 
 
 def attribute(text: str) -> str:
-    """Return `text` escaped for the quotes of an attribute."""
+    """Return `text` escaped for the value of an HTML attribute in quotes."""
     return escape(text, quote=True)
 
 

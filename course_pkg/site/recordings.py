@@ -1,10 +1,13 @@
-"""What is recorded of a panel while its notebook runs, so that the site's page has something to show.
+"""Records panels while their notebook runs, so that the page of the site can show real responses.
 
-The file `recordings.json` of the chapter holds a plan for a cell, by the cell's id. `record` lists the
-requests that a service panel makes, or the cases of BreakIt with the tools to use in each; the page answers
-from them. `pick` names the service where the cell names none. `watch` says for how many seconds a panel does
-what it otherwise does only while a page shows it. Meanwhile the notebook's own node makes the `calls`: the
-name of a service, its type, and the fields of the request.
+The file `recordings.json` of a chapter has plans for some cells, by the id of the cell. The keys of a plan:
+
+- `record`: the requests that a service panel sends, or the cases of BreakIt with the tools to use in each
+  case. The page answers with the recorded responses.
+- `pick`: the name of the service, if the code of the cell does not name a service.
+- `watch`: the seconds for which the panel works as if a page showed it.
+- `calls`: the calls that the notebook's own node makes during this time. Each has the name of a service, its
+  type, and the fields of the request.
 """
 
 from __future__ import annotations
@@ -26,7 +29,7 @@ PANEL = "application/vnd.course-panel+json"
 
 
 class Plan(TypedDict, total=False):
-    """What is recorded of one panel."""
+    """What to record of one panel."""
 
     pick: str
     record: Sequence[Plain]
@@ -35,23 +38,23 @@ class Plan(TypedDict, total=False):
 
 
 class Panel(Protocol):
-    """What a plan uses of a panel; each panel has the methods that its plans need."""
+    """The methods of a panel that a plan may use; each panel has only the methods that its plans need."""
 
     def received(self, kind: str, content: Mapping[str, Plain]) -> None:
-        """Handle a message of the front end."""
+        """Handle a message that the front end would send."""
 
     def record(self, requests: Sequence[Plain]) -> None:
-        """Record the responses."""
+        """Send the requests, and record their responses."""
 
     def shown(self) -> None:
-        """Begin the work of a panel that a page shows."""
+        """Start the work that a panel does while a page shows it."""
 
     def hidden(self) -> None:
-        """End that work."""
+        """Stop the work that `shown` started."""
 
 
 def plans(name: str) -> dict[str, Plan]:
-    """Return the plans of the notebook called `name`, by cell."""
+    """Return the plans of the notebook called `name`, by the id of the cell."""
     path = folder_of(name[:2]) / "recordings.json"
     planned: dict[str, Plan] = json.loads(path.read_text("utf-8")) if path.exists() else {}
     return planned
@@ -69,16 +72,16 @@ def with_recordings(name: str, notebook: Notebook) -> Notebook:
 
 
 def without_recordings(notebook: Notebook) -> Notebook:
-    """Return `notebook` without the cells that were added."""
+    """Return `notebook` without the cells that `with_recordings` added."""
     return {**notebook, "cells": [cell for cell in notebook["cells"] if "recording" not in cell["metadata"]]}
 
 
 def record_panel(panel: Panel, plan: Plan) -> None:
-    """Do what `plan` says, in the notebook's kernel; a service without a server leaves no recording."""
+    """Carry out `plan` in the notebook's kernel. A call of a service without a server is not recorded."""
     if "pick" in plan:
         panel.received("pick", {"service": plan["pick"]})
     if "record" in plan:
-        with suppress(CourseError):  # a student's notebook has no server yet where the solution has one
+        with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
             panel.record(plan["record"])
     if "watch" in plan:
         panel.shown()
@@ -87,22 +90,22 @@ def record_panel(panel: Panel, plan: Plan) -> None:
 
 
 def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, float]]]) -> None:
-    """Let so much time pass, and make the calls in it at equal intervals."""
-    from course_pkg.ros import this_node  # with rospy, which the site does not need otherwise
+    """Wait for `seconds`, and make the calls at equal intervals in this time."""
+    from course_pkg.ros import this_node  # imported here, because only a recording with calls needs rospy
 
     for name, kind, fields in calls:
         time.sleep(seconds / (len(calls) + 1))
         if node := this_node():
-            with suppress(CourseError):  # as above
+            with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
                 node.call(name, kind, **fields)
     time.sleep(seconds / (len(calls) + 1))
 
 
 def _recording(shown: Cell, plan: Plan) -> Cell:
-    """Return a cell that records the panel of the cell above it, and that defines no name.
+    """Return a cell that records the panel of the cell above it, and that defines no variable.
 
-    IPython keeps the panel among its results. The cell cannot use `_`, because a notebook may have a variable
-    of that name.
+    The new cell gets the panel from IPython's list of results, `_oh`. It cannot use `_`, because a notebook
+    may have a variable called `_`.
     """
     added = copy.deepcopy(shown)
     added["id"] = f"recording-{shown['id']}"[:64]

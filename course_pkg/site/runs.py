@@ -1,6 +1,7 @@
-"""Notebooks as they ran: each is run once for its code and for what that runs on, and what it showed is kept.
+"""Runs notebooks for the site, and keeps their outputs.
 
-The stored notebooks cannot serve: they hold no state of a panel, since that differs from run to run.
+A notebook runs again only if its code changed, or a file that its code uses. The site cannot use the outputs
+of the stored notebooks: they contain no states of panels, because these differ from run to run.
 """
 
 from __future__ import annotations
@@ -20,31 +21,32 @@ from course_pkg.setup import CATKIN_FOLDERS, Places
 from course_pkg.setup.stamps import digest
 from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
-# What no notebook runs: a change there is no reason to run one again.
+# No notebook runs the modules in these folders, so a change in them is no reason to run a notebook again.
 IDLE = ("chapters", "site", "grading", "lab", "authoring", "setup")
 RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/setup/locks/course.txt")
 
 
 class Shown(TypedDict):
-    """What a code cell showed, and the number of its run."""
+    """The outputs of a code cell, and its execution count."""
 
     outputs: list[Output]
     execution_count: int | None
 
 
 class Runs:
-    """The runs that are kept for one checkout."""
+    """The stored runs of one checkout."""
 
     def __init__(self, places: Places | None = None) -> None:
         self._places = places or Places.of()
         self._shared = digest(self._package())
 
     def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
-        """Run those notebooks whose code, or what that needs, is new, several at once; keep what they show.
+        """Run the notebooks whose code, or a file that it needs, changed, and keep their outputs.
 
-        Returns the errors of those that could not be run to their end.
+        Several notebooks run at the same time. Returns the errors of the notebooks that did not run to their
+        end.
         """
-        from course_pkg.authoring.execute import run_all  # with nbclient, which nothing else here needs
+        from course_pkg.authoring.execute import run_all  # imported here, because only a run needs nbclient
         from course_pkg.authoring.normalise import tidy
 
         new = {path.stem: path for path in paths if self._kept(path, "key", self._key(path)) is None}
@@ -63,7 +65,10 @@ class Runs:
         return {new[name]: error for name, error in errors.items()}
 
     def latest(self, path: Path) -> Notebook | None:
-        """Return the notebook as it ran last, even with another package; None if its code never ran."""
+        """Return the notebook with the outputs of its last run, or None if its present code never ran.
+
+        The package may have changed since this run.
+        """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))
         return _with(notebook, shown) if shown is not None else None
@@ -85,7 +90,10 @@ class Runs:
         return digest([self._shared, _code(read(path)), planned, *_contents(own)])
 
     def _package(self) -> Iterator[str | bytes]:
-        """Yield whatever a notebook can run, look at or import, except the checks of the chapters."""
+        """Yield the contents of all files that a notebook can run, read or import.
+
+        The checks of the chapters are excluded: `_key` adds the checks of a notebook's own chapter.
+        """
         root = self._places.checkout
         yield sys.version
         yield from ((root / name).read_bytes() for name in RUN_BY)
@@ -102,7 +110,7 @@ def _contents(files: Iterable[Path]) -> Iterator[str | bytes]:
 
 
 def _code(notebook: Notebook) -> str:
-    """Return a digest of what a run depends on. Prose may change without one."""
+    """Return a digest of the code cells. A change of prose does not change it, and needs no new run."""
     return digest(cell["source"] for cell in code_cells(notebook))
 
 

@@ -1,4 +1,4 @@
-"""The front ends of all panels as one classic script, as a page in a folder loads no module."""
+"""The front ends of all panels as one classic script, because a page in a folder cannot load a module."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 
 
 def panels_script(folder: Path = PANELS) -> str:
-    """Return a script that sets `coursePanels`: for each panel's name its front end, `{ render }`.
+    """Return a script that sets `coursePanels`: an object that maps the name of each panel to `{ render }`.
 
-    Every module of the panels becomes a function's scope, once, after the modules that it imports.
+    Each module of the panels becomes the body of one function. It comes after the modules that it imports.
     """
     modules = _Modules(folder)
     found = _fronts(folder)
@@ -28,7 +28,7 @@ def panels_script(folder: Path = PANELS) -> str:
 
 
 def panels_sheet(folder: Path = PANELS) -> str:
-    """Return the sheets of all panels, what they share first."""
+    """Return the style sheets of all panels, and before them the one that all panels share."""
     return "\n".join(_text(path) for path in (folder / "look.css", *sorted(folder.glob("*/*.css"))))
 
 
@@ -42,18 +42,18 @@ def _fronts(folder: Path) -> dict[str, Path]:
 
 
 class _Modules:
-    """The modules of a folder, each given once."""
+    """The modules of a folder. Each module is returned only once."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder.resolve()
         self._given: set[Path] = set()
 
     def name(self, path: Path) -> str:
-        """Return the constant that holds what the module at `path` exports."""
+        """Return the name of the constant for the exports of the module at `path`."""
         return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
 
     def needed(self, path: Path) -> Iterator[str]:
-        """Yield the module at `path` after all that it imports, but none a second time."""
+        """Yield the modules that the module at `path` imports, and then this module; none a second time."""
         path = path.resolve()
         if path in self._given:
             return

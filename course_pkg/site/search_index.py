@@ -1,4 +1,4 @@
-"""What the search looks through: every section of the course as plain text."""
+"""The texts for the search: every section of the course as plain text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,10 @@ class Section(NamedTuple):
 
 
 def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading]) -> Iterator[Section]:
-    """Yield the sections of a chapter, prose and code; `headings` are its own, in their order."""
+    """Yield the sections of a chapter with prose and code.
+
+    `headings` are the headings of this chapter, in their order.
+    """
     coming = iter(headings)
     anchor, title, words = "", page, ""
     for kind, text in _pieces(notebook):
@@ -44,12 +47,12 @@ def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading
 
 
 def script(found: Iterable[Section]) -> str:
-    """Return the script that hands the texts to the search."""
+    """Return the script that passes the texts to the search."""
     return f"courseTexts({json.dumps(list(found), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def plain(markdown: str) -> str:
-    """Return Markdown, or code, without its marks, on one line."""
+    """Return Markdown or code as one line without marks such as `#`, `*` and links."""
     return " ".join(MARKS.sub(" ", LINK.sub(r"\1", markdown)).split())
 
 

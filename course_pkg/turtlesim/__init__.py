@@ -1,4 +1,5 @@
-"""A turtle simulator with the interface of the one in ROS, and programs that drive its turtles.
+"""A turtle simulator with the same topics and services as turtlesim in ROS, and programs for its turtles.
 
-`world` and `canvas` need no ROS; `turtlesim_node`, `turtle_teleop_key` and `draw_square` are programs.
+The modules `world` and `canvas` need no ROS. `turtlesim_node`, `turtle_teleop_key` and `draw_square` are
+programs.
 """

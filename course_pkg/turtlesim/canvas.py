@@ -1,4 +1,4 @@
-"""The canvas that the pens draw on: a square of pixels."""
+"""The canvas on which the turtles' pens draw: a square of pixels."""
 
 from __future__ import annotations
 
@@ -9,22 +9,25 @@ Point = tuple[float, float]
 
 SIDE = 500  # px
 DEPTH = 3  # bytes of a pixel: red, green, blue
-EMPTY = (1.0, 0.0)  # the range of a row outside of a line
+EMPTY = (1.0, 0.0)  # an empty range: the row does not touch the line
 
 
 class Canvas:
-    """500 by 500 pixels. The origin is at the top left, y points down; integers are centres of pixels."""
+    """A canvas of 500 by 500 pixels. The origin is at the top left, and y points down.
+
+    A point with integer coordinates is the centre of a pixel.
+    """
 
     def __init__(self, background: Colour) -> None:
         self._pixels = bytearray()
         self.fill(background)
 
     def fill(self, colour: Colour) -> None:
-        """Make all pixels `colour`."""
+        """Give all pixels the colour `colour`."""
         self._pixels[:] = bytes(colour) * (SIDE * SIDE)
 
     def colour_at(self, point: Point) -> Colour:
-        """Return the colour of the pixel nearest to `point` (px), which may be outside."""
+        """Return the colour of the pixel nearest to `point` (px), which may be outside the canvas."""
         column, row = (min(max(math.floor(each + 0.5), 0), SIDE - 1) for each in point)
         start = (row * SIDE + column) * DEPTH
         red, green, blue = self._pixels[start : start + DEPTH]
@@ -47,18 +50,18 @@ class Canvas:
 
 
 class _Rectangle:
-    """The rectangle of a line with a width and square ends."""
+    """The rectangle that a line with a width and square ends covers."""
 
     def __init__(self, start: Point, end: Point, half: float) -> None:
         along = (end[0] - start[0], end[1] - start[1])
         length = math.hypot(*along)
         ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
-        # Two pairs of parallel edges: for each, a direction and the range between the two edges.
+        # A rectangle has two pairs of parallel edges. Each entry is a direction and the range between a pair.
         self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
         self._start = start
 
     def across(self, y: float) -> tuple[float, float]:
-        """Return where the row at `y` enters and leaves the rectangle; EMPTY if it does not touch it."""
+        """Return the x at which the row at `y` enters and leaves the rectangle; EMPTY if it does neither."""
         x, dy = self._start[0], y - self._start[1]
         left, right = -math.inf, math.inf
         for ux, uy, low, high in self._pairs:

@@ -1,4 +1,4 @@
-"""The node `draw_square`: has turtle1 walk a square, steered by what its pose says."""
+"""The node `draw_square`: drives turtle1 along a square, and uses the turtle's pose to steer."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from course_pkg.ros import prepare_node
 from course_pkg.turtlesim.world import normalized
 
 SIDE = 2.0  # m
-CORNER = math.pi / 2
-SPEED = 1.0  # m/s at most
-TURN = 0.8  # rad/s at most
+CORNER = math.pi / 2  # rad
+SPEED = 1.0  # m/s; the highest velocity
+TURN = 0.8  # rad/s; the highest angular velocity
 TOLERANCE = 0.01  # m or rad
-SLOW = 4.0  # 1/s: the share of the remaining way that is done in a second, to slow down at the end
+SLOW = 4.0  # 1/s; the velocity per metre (or per rad) that is left, so that the turtle slows down at the end
 
 
 @dataclass(frozen=True)
 class Walker:
-    """Where the current side or corner began, and which of the two it is."""
+    """The pose at the beginning of the current side or corner. `turning` is true in a corner."""
 
     x: float
     y: float
@@ -31,21 +31,24 @@ class Walker:
     turning: bool = False
 
     def steer(self, x: float, y: float, theta: float) -> tuple[float, float]:
-        """Return the velocity (m/s) and the turn (rad/s) for where the turtle is; both 0 at the end."""
+        """Return the velocity (m/s) and the angular velocity (rad/s) for a pose of the turtle.
+
+        Both are 0 at the end of the side or corner.
+        """
         if self.turning:
             rest = normalized(self.theta + CORNER - theta)
             return 0.0, _limited(rest, TURN)
         return _limited(SIDE - math.hypot(x - self.x, y - self.y), SPEED), 0.0
 
     def after(self, x: float, y: float) -> Walker:
-        """Return the walker for the next part, from here."""
+        """Return the walker for the next side or corner, which begins at this point."""
         if self.turning:
-            return Walker(x, y, self.theta + CORNER)  # the planned corner, so that small errors do not add up
+            return Walker(x, y, self.theta + CORNER)  # the planned angle, so that small errors do not add up
         return replace(self, turning=True)
 
 
 def main() -> None:
-    """Walk until the node is shut down."""
+    """Drive turtle1 until the node is shut down."""
     rospy.init_node("draw_square")
     prepare_node()
     walking = _Walking(rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1))
@@ -61,7 +64,7 @@ class _Walking:
         self._walker: Walker | None = None
 
     def move(self, pose: Pose) -> None:
-        """Publish the velocity for a pose."""
+        """Publish the velocity for a received pose."""
         here = (pose.x, pose.y, pose.theta)
         walker = self._walker or Walker(*here)
         speed, turn = walker.steer(*here)

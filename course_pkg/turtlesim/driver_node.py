@@ -1,4 +1,4 @@
-"""The node that drives turtle1, with services that change how it drives."""
+"""The node that drives turtle1. Its services change the speed, the rate and the direction."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MAX_RATE = 100.0  # messages per second
 
 
 class AdjustableDriver(Toggling):
-    """A driver with a speed that can be changed, and that can stop."""
+    """A driver whose speed can be changed, and which can stop."""
 
     def __init__(self, rate: float) -> None:
         super().__init__(rate)
@@ -31,33 +31,33 @@ class AdjustableDriver(Toggling):
         self.moving = True
 
     def velocity(self) -> tuple[float, float]:
-        """Return the velocity of this moment."""
+        """Return the present velocity in m/s, and the angular velocity in rad/s."""
         forward, turn = super().velocity()
         return (forward and self.speed, turn) if self.moving else (0.0, 0.0)
 
 
 class DriverServices:
-    """Handlers that change a driver; each returns its service's response."""
+    """The handlers of the services that change a driver."""
 
     def __init__(self, driver: AdjustableDriver) -> None:
         self.driver = driver
 
     def change_rate(self, request: ChangeRateRequest) -> ChangeRateResponse:
-        """Change how many velocities are published per second."""
+        """Change the number of velocities per second, and return the old number."""
         if not 0 < request.rate <= MAX_RATE:
-            raise rospy.ServiceException(f"rate is {request.rate:g}, and has to be above 0 and at most 100")
+            raise rospy.ServiceException(f"rate is {request.rate:g}, but must be above 0 and at most 100")
         before, self.driver.rate = self.driver.rate, request.rate
         return ChangeRateResponse(before)
 
     def change_speed(self, request: ChangeSpeedRequest) -> ChangeSpeedResponse:
-        """Change the speed."""
+        """Change the speed in m/s, and return the old speed."""
         if not math.isfinite(request.speed):
-            raise rospy.ServiceException(f"speed is {request.speed:g}, and has to be a finite number")
+            raise rospy.ServiceException(f"speed is {request.speed:g}, but must be a finite number")
         before, self.driver.speed = self.driver.speed, request.speed
         return ChangeSpeedResponse(before)
 
     def start_stop(self, request: SetBoolRequest) -> SetBoolResponse:
-        """Start or stop."""
+        """Start the turtle if the request is true, and stop it otherwise."""
         word = "moving" if request.data else "standing"
         already = self.driver.moving == request.data
         self.driver.moving = request.data
@@ -65,7 +65,7 @@ class DriverServices:
 
 
 def serve(services: DriverServices, *names: str) -> None:
-    """Serve the named services of a driver."""
+    """Provide the services `names`, which change a driver."""
     available = {
         "toggle_forward": (Empty, services.driver.handle_toggle),
         "change_rate": (ChangeRate, services.change_rate),
@@ -78,7 +78,7 @@ def serve(services: DriverServices, *names: str) -> None:
 
 
 def run(node: str, *services: str) -> None:
-    """Run the node that drives turtle1 and offers these services, until it is shut down."""
+    """Run a node called `node` that drives turtle1 and provides `services`, until it is shut down."""
     rospy.init_node(node)
     prepare_node()
     driver = AdjustableDriver(_rate())
@@ -93,5 +93,5 @@ def _rate() -> float:
     rate = rospy.get_param("~rate", 2.0)
     if isinstance(rate, (int, float)) and 0 < rate <= MAX_RATE:
         return float(rate)
-    rospy.logwarn("~rate is %r, and has to be above 0 and at most 100: taking 2", rate)
+    rospy.logwarn("~rate is %r, but must be above 0 and at most 100. The rate is now 2.", rate)
     return 2.0

@@ -1,4 +1,4 @@
-"""Driving a turtle: a driver returns velocities, and a drive publishes them at the driver's rate."""
+"""Drives a turtle: a driver returns velocities, and `keep_driving` publishes them at the driver's rate."""
 
 from __future__ import annotations
 
@@ -17,44 +17,47 @@ Publish = Callable[[Twist], None]
 
 
 class Driver(Protocol):
-    """An object that decides how a turtle moves; `rate` is the number of velocities per second."""
+    """An object that decides how a turtle moves. `rate` is the number of velocities per second."""
 
     rate: float
 
     def velocity(self) -> tuple[float, float]:
-        """Return how fast to move (m/s) and to turn (rad/s)."""
+        """Return the present velocity in m/s, and the angular velocity in rad/s."""
 
 
 class Toggling:
-    """A driver that goes straight or turns, as in pubvel_toggle; a base class for other drivers."""
+    """A driver that goes straight or turns, as in pubvel_toggle. It is a base class for other drivers."""
 
     def __init__(self, rate: float = 2.0) -> None:
         self.rate = rate
         self.forward = True
 
     def velocity(self) -> tuple[float, float]:
-        """Return the velocity of this moment."""
+        """Return the present velocity in m/s, and the angular velocity in rad/s."""
         return (SPEED, 0.0) if self.forward else (0.0, TURN)
 
     def handle_toggle(self, _request: EmptyRequest) -> EmptyResponse:
-        """Change between going straight and turning: the handler of toggle_forward."""
+        """Change between going straight and turning. This is the handler of toggle_forward."""
         self.forward = not self.forward
         return EmptyResponse()
 
 
 def to_twist(velocity: tuple[float, float]) -> Twist:
-    """Return a velocity (m/s, rad/s) as the message for a turtle's cmd_vel."""
+    """Return a velocity (m/s, rad/s) as a message for the topic cmd_vel of a turtle."""
     message = Twist()
     message.linear.x, message.angular.z = map(float, velocity)
     return message
 
 
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
-    """Publish the driver's velocity `driver.rate` times a second until `over()`; the rate may change."""
+    """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
+
+    The rate may change during this time.
+    """
     last = -float("inf")
     while not over():
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            last = max(last + period, now - SLICE)  # without catching up on missed velocities
+            last = max(last + period, now - SLICE)  # After a delay, missed velocities are not published.
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

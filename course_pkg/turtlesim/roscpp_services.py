@@ -1,8 +1,8 @@
-"""Services and names that behave as those of a roscpp node.
+"""Services and names that behave like those of a roscpp node.
 
-rospy adds "service cannot process request: …" to an error message, and its connection header lacks two
-fields. A roscpp server sends only the error message of its callback, which may be empty, and its header names
-the types of request and response. The protocol: http://wiki.ros.org/ROS/TCPROS.
+rospy adds "service cannot process request: …" to an error message, and its connection header does not name
+the types of request and response. A roscpp server sends only the error message of its callback, which may be
+empty. Its header names the types of request and response. The protocol: http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ FURTHER = re.compile(r"[A-Za-z0-9_/]")
 
 
 class Refused(rospy.ServiceException):
-    """The request is refused; the client gets the error message, which may be empty."""
+    """Refuses a request. The client receives the error message, which may be empty."""
 
 
 def refuse_like_roscpp() -> None:
-    """Have this process refuse connections with roscpp's error messages; call it after init_node()."""
+    """Make this process refuse connections with roscpp's error messages. Call this after init_node()."""
     tcpros_base.start_tcpros_server()
     server = tcpros_base._tcpros_server
     assert server is not None
@@ -41,13 +41,13 @@ def refuse_like_roscpp() -> None:
 
 
 class _Protocol(TCPService):
-    """The connection header of a roscpp server."""
+    """The protocol of a service, with the connection header of a roscpp server."""
 
     def __init__(self, name: str, kind: ServiceClass) -> None:
         TCPService.__init__(self, name, kind)
 
     def get_header_fields(self) -> dict[str, str]:
-        """Return the fields that roscpp sends."""
+        """Return the fields of the connection header that roscpp sends."""
         kind = self.service_class
         return {
             "callerid": rospy.get_name(),
@@ -59,7 +59,7 @@ class _Protocol(TCPService):
 
 
 class RoscppService(ServiceImpl):
-    """A service, registered at once. Its handler returns a response, or raises Refused."""
+    """A service that is registered immediately. Its handler returns a response, or raises Refused."""
 
     def __init__(self, name: str, kind: ServiceClass, handler: Callable[[Request], genpy.Message]) -> None:
         ServiceImpl.__init__(self, name, kind, handler)
@@ -74,7 +74,7 @@ class RoscppService(ServiceImpl):
 
 
 def _accept(sock: socket.socket, address: tuple[str, int], header: dict[str, str]) -> str | None:
-    """Accept a connection, or return why it is refused."""
+    """Accept a connection and return None, or return the error message if the connection is refused."""
     if any(field not in header for field in ("md5sum", "service", "callerid")):
         return "bogus tcpros header. did not have required elements: md5sum, service, callerid"
     name, requested = header["service"], header["md5sum"]

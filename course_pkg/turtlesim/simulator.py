@@ -1,4 +1,4 @@
-"""The simulator on the graph: one thread moves the world, and other threads queue jobs for it."""
+"""The simulator as a node. One thread moves the world, and other threads queue jobs for this thread."""
 
 from __future__ import annotations
 
@@ -19,25 +19,26 @@ from course_pkg.turtlesim.roscpp_services import Refused, RoscppService, name_er
 from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
-FIRST = "turtle1"  # the turtle that is there after a reset
-BUDGET = 0.008  # s of a tick for requests: many requests delay a pose by at most this
-MAX_DELAY = 0.25  # s of missed ticks to catch up with, for example after the machine has slept
+FIRST = "turtle1"  # the turtle that exists after a reset
+BUDGET = 0.008  # s of a tick for requests; so many requests delay a pose by at most this time
+MAX_DELAY = 0.25  # s; older missed ticks are skipped, for example after the machine has slept
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
 Result = TypeVar("Result")
 
 
 class Simulator:
-    """The services of the node, and the loop that moves the world."""
+    """The node's services, and the loop that moves the world."""
 
     def __init__(self) -> None:
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
-        self._changes = threading.RLock()  # held while turtles are added or removed
+        self._changes = threading.RLock()  # a thread holds it while it adds or removes turtles
         for name, value in DEFAULTS.items():
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)
         self._world = World(self._background())
-        self._interfaces: dict[str, TurtleInterface] = {}  # replaced, never changed: run() iterates
+        # This dict is never changed, only replaced, because run() iterates over it on another thread.
+        self._interfaces: dict[str, TurtleInterface] = {}
         turtle = self._world.turtles[FIRST]
         self._announce(turtle)
         self._add(TurtleInterface(turtle, self._world.canvas, self.in_tick))
@@ -71,7 +72,7 @@ class Simulator:
         def run() -> None:
             try:
                 done.set_result(job())
-            except Exception as error:  # noqa: BLE001 -- the thread that waits for the result gets it
+            except Exception as error:  # noqa: BLE001 -- raised in the thread that waits for the result
                 done.set_exception(error)
 
         self._jobs.put(run)
@@ -90,7 +91,7 @@ class Simulator:
         if request.name and (message := name_error(request.name)):
             raise Refused(message)
         if not all_finite(request.x, request.y, request.theta):
-            raise Refused("A turtle cannot be where a number is not finite.")
+            raise Refused("A position or an angle is not finite.")
         place = (request.x, request.y, request.theta)
         with self._changes:
             try:
@@ -99,9 +100,8 @@ class Simulator:
                 rospy.logerr(str(error))
                 raise Refused("") from error
             added = self._in_next_tick(lambda: self._world.add(turtle))
-            interface = TurtleInterface(
-                turtle, self._world.canvas, self.in_tick
-            )  # registers while the tick comes
+            # The interface registers with the master while this thread waits for the next tick.
+            interface = TurtleInterface(turtle, self._world.canvas, self.in_tick)
             added.result()
             self._announce(turtle)
             self._add(interface)
@@ -129,12 +129,13 @@ class Simulator:
         with self._changes:
             removed = self._remove_others()
             done = self._in_next_tick(lambda: self._reset_world(background))
-            for interface in removed:  # while the tick comes: each makes six calls to the master
+            # Closing an interface takes six calls to the master, so this thread does it while it waits.
+            for interface in removed:
                 interface.close()
             done.result()
             turtle = self._world.turtles[FIRST]
             self._announce(turtle)
-            if turtle.name not in self._interfaces:  # it had been killed
+            if turtle.name not in self._interfaces:  # turtle1 had been killed before the reset
                 self._add(TurtleInterface(turtle, self._world.canvas, self.in_tick))
         return EmptyResponse()
 
@@ -144,13 +145,13 @@ class Simulator:
         return removed
 
     def _remove_others(self) -> list[TurtleInterface]:
-        """Remove and return all interfaces but the first turtle's, which keeps its subscribers."""
+        """Remove and return all interfaces except that of turtle1, which keeps its subscribers."""
         removed = [each for name, each in self._interfaces.items() if name != FIRST]
         self._interfaces = {name: each for name, each in self._interfaces.items() if name == FIRST}
         return removed
 
     def _reset_world(self, background: Colour) -> None:
-        """Reset the world."""
+        """Reset the world, and connect the interfaces with the new turtles."""
         self._world.reset(background)
         for name, interface in self._interfaces.items():
             interface.turtle = self._world.turtles[name]
@@ -163,8 +164,11 @@ class Simulator:
         rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
 
     def _background(self) -> Colour:
-        """Return the colour in the parameters; a parameter that is not an integer has its default."""
-        own = rospy.get_param(rospy.get_name(), {})  # all in one call to the master
+        """Return the background colour of the node's parameters.
+
+        The default is used for a parameter that is not an integer.
+        """
+        own = rospy.get_param(rospy.get_name(), {})  # reads all parameters with one call to the master
         given = {**DEFAULTS, **own} if isinstance(own, dict) else DEFAULTS
         red, green, blue = (
             given[name] % 256 if isinstance(given[name], int) else default

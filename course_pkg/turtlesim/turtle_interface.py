@@ -1,9 +1,9 @@
-"""A turtle's topics and services.
+"""The topics and services of a turtle.
 
-With a queue, rospy gives each subscriber of a topic a thread, and each message wakes it: this is most of the
-cost of 1,500 messages per second. Without a queue, a publisher writes each message directly, and a subscriber
-that does not read blocks it. So a turtle writes a message directly if the connection has room, and otherwise
-drops it, as a queue of one message would.
+With a queue, rospy starts a thread for each subscriber of a topic, and each message wakes this thread. At
+1,500 messages per second, this would take most of the processor time. Without a queue, rospy writes each
+message directly, and a subscriber that does not read blocks the publisher. Therefore a turtle writes a
+message directly if the connection has room. Otherwise it drops the message, as a queue of one message does.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ InTick = Callable[[Callable[[], None]], None]
 
 
 class TurtleInterface:
-    """The topics and services of one turtle, until they are closed.
+    """The topics and services of one turtle. They exist until close().
 
-    `in_tick` runs a function between two ticks, and returns when it has ended.
+    `in_tick` runs a function between two ticks, and returns when this function has ended.
     """
 
     def __init__(self, turtle: Turtle, canvas: Canvas, in_tick: InTick) -> None:
@@ -68,12 +68,12 @@ class TurtleInterface:
         try:
             self._pose.publish(Pose(turtle.x, turtle.y, turtle.theta, turtle.speed, velocity.turn))
             self._colour.publish(Color(*turtle.colour))
-        except rospy.ROSException:  # close() may run at the same time
+        except rospy.ROSException:  # Another thread may call close() at the same time.
             if not self._closed:
                 raise
 
     def close(self) -> None:
-        """Unregister the topics and services."""
+        """Unregister the topics and the services."""
         self._closed = True
         for service in self._services:
             service.shutdown()
@@ -84,7 +84,7 @@ class TurtleInterface:
     def _set_velocity(self, message: Twist) -> None:
         forward, sideways, turn = message.linear.x, message.linear.y, message.angular.z
         if not all_finite(forward, sideways, turn):
-            rospy.logwarn_throttle(1.0, f"{self.turtle.name}: a velocity that is no finite number is ignored")
+            rospy.logwarn_throttle(1.0, f"{self.turtle.name}: ignored a velocity that is not finite")
             return
         self.turtle.velocity = Velocity(forward, sideways, turn, time.monotonic())
 
@@ -106,12 +106,12 @@ class TurtleInterface:
 
 def _require_finite(*numbers: float) -> tuple[float, ...]:
     if not all_finite(*numbers):
-        raise Refused("A turtle cannot be where a number is not finite.")
+        raise Refused("A position or an angle is not finite.")
     return numbers
 
 
 def publish_without_waiting(publisher: rospy.Publisher) -> None:
-    """Have `publisher` write its messages directly, and never wait for a subscriber."""
+    """Make `publisher` write its messages directly, without waiting for a subscriber."""
     impl = publisher.impl
     original = impl.add_connection
     impl.queue_size = None
@@ -124,7 +124,7 @@ def publish_without_waiting(publisher: rospy.Publisher) -> None:
 
 
 class _Writer:
-    """Writes to one subscriber's connection, if it has room."""
+    """Writes to the connection of one subscriber, if the connection has room."""
 
     def __init__(self, connection: TCPROSTransport) -> None:
         assert connection.socket is not None
@@ -133,7 +133,7 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`, or drop it; an error of the connection is raised by the write."""
+        """Write `data`, or drop `data` if there is no room. Raises the error of a broken connection."""
         if self._room.poll(0):
             return self._write(data)
         return True

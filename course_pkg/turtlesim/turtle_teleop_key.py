@@ -21,17 +21,15 @@ Drive turtle1 with the arrow keys of this terminal.
   left, right  turn
   q            quit
 """
-STEP = 2.0  # m/s and rad/s, unless ~scale_linear and ~scale_angular say otherwise
+STEP = 2.0  # m/s and rad/s; the default of ~scale_linear and ~scale_angular
 POLL = 0.2  # s between checks whether the node has been shut down
 KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter of an arrow's escape code
 
 
 def main() -> None:
-    """Read keys until q, Ctrl-C, the end of the input, or the end of the node."""
+    """Read keys until the user types q or Ctrl-C, or until the input or the node ends."""
     if not sys.stdin.isatty():
-        sys.exit(
-            "turtle_teleop_key reads single keys: run it in a terminal, by rosrun turtlesim turtle_teleop_key"
-        )
+        sys.exit("turtle_teleop_key reads keys, so run it in a terminal: rosrun turtlesim turtle_teleop_key")
     rospy.init_node("teleop_turtle")
     prepare_node()
     publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
@@ -45,7 +43,7 @@ def main() -> None:
 
 
 def commands(file: int) -> Iterator[tuple[int, int]]:
-    """Yield the direction of each arrow key: forward and turn, -1, 0 or 1."""
+    """Yield (forward, turn) for each arrow key; each number is -1, 0 or 1."""
     typed = ""
     while not rospy.is_shutdown():
         if not select.select([file], [], [], POLL)[0]:
@@ -66,7 +64,7 @@ def _command(code: str) -> list[tuple[int, int]]:
 
 @contextmanager
 def _single_keys(terminal: int) -> Iterator[None]:
-    """Have the terminal send each key at once and without echo, and restore its settings afterwards."""
+    """Make the terminal send each key at once and without echo, and restore its settings afterwards."""
     before = termios.tcgetattr(terminal)
     try:
         tty.setcbreak(terminal)

@@ -1,4 +1,4 @@
-"""The node `turtlesim`: a world of turtles to be driven by topics and services."""
+"""The node `turtlesim`: a world of turtles that topics and services drive."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.turtlesim.simulator import Simulator
 
 
 def main() -> None:
-    """Simulate until the node is shut down."""
+    """Run the simulation until the node is shut down."""
     rospy.init_node("turtlesim")
     prepare_node()
     refuse_like_roscpp()

@@ -1,7 +1,7 @@
-"""The turtles' world: where they are, how they move, what their pens draw. It needs no ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens. It needs no ROS.
 
-Lengths are metres, of which the world is 11.088889 wide and high, the origin at the bottom left. Angles are
-radians, counter-clockwise from the x-axis. One tick is 16 ms.
+Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
+are in radians, counter-clockwise from the x-axis. One tick is 16 ms.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from itertools import count
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # s
-PIXELS = 45.0  # px per metre: the height of a turtle's picture
+PIXELS = 45.0  # px per metre; in turtlesim of ROS, this is the height of a turtle's picture
 WIDTH = (SIDE - 1) / PIXELS  # m
-HOME = WIDTH / 2
-COMMAND_TIMEOUT = 1.0  # s that a velocity command holds
+HOME = WIDTH / 2  # m; x and y of the middle of the world
+COMMAND_TIMEOUT = 1.0  # s; the time for which a velocity command is valid
 BACKGROUND: Colour = (69, 86, 255)
 
 
 class NameTaken(Exception):
-    """There is a turtle of this name."""
+    """A turtle with this name already exists."""
 
 
 class UnknownTurtle(Exception):
@@ -30,7 +30,7 @@ class UnknownTurtle(Exception):
 
 @dataclass(frozen=True)
 class Pen:
-    """What a turtle draws with."""
+    """The pen of a turtle: its colour, its width in px, and whether it draws."""
 
     colour: Colour = (179, 184, 255)
     width: int = 3
@@ -39,7 +39,10 @@ class Pen:
 
 @dataclass(frozen=True)
 class Velocity:
-    """A velocity command: m/s forwards and sideways, rad/s; `since` is when it came (s, any clock)."""
+    """A velocity command: m/s forwards and sideways, and rad/s.
+
+    `since` is the time at which the command arrived, in s of the clock of World.tick().
+    """
 
     forward: float = 0.0
     sideways: float = 0.0
@@ -49,7 +52,7 @@ class Velocity:
 
 @dataclass
 class Turtle:
-    """One turtle. Any thread may set `velocity`; only the world's thread sets the rest."""
+    """One turtle. Any thread may set `velocity`. Only the world's thread sets the other attributes."""
 
     name: str
     x: float = HOME
@@ -57,26 +60,29 @@ class Turtle:
     theta: float = 0.0
     pen: Pen = field(default_factory=Pen)
     velocity: Velocity = field(default_factory=Velocity)
-    colour: Colour = BACKGROUND  # of the canvas under it
+    colour: Colour = BACKGROUND  # the colour of the canvas under the turtle
 
     @property
     def speed(self) -> float:
-        """Its speed in any direction (m/s)."""
+        """The turtle's speed in m/s, in any direction."""
         return math.hypot(self.velocity.forward, self.velocity.sideways)
 
     @property
     def point(self) -> Point:
-        """Where it is on the canvas (px)."""
+        """The turtle's point on the canvas in px."""
         return self.x * PIXELS, (WIDTH - self.y) * PIXELS
 
     def teleport(self, canvas: Canvas, x: float, y: float, theta: float) -> None:
-        """Move there at once and draw a line as the pen says; a y above the world becomes its upper edge."""
+        """Move to (x, y) at once, and draw a line if the pen is down.
+
+        A y above the world becomes the upper edge of the world.
+        """
         before = self.point
         self.x, self.y, self.theta = x, min(y, WIDTH), theta
         self._draw(canvas, before)
 
     def teleport_relative(self, canvas: Canvas, distance: float, angle: float) -> None:
-        """Turn by `angle` (rad), then move `distance` (m) forward at once."""
+        """Turn by `angle` (rad), and then move `distance` (m) forward at once."""
         before = self.point
         self.theta += angle
         self.x += math.cos(self.theta) * distance
@@ -84,7 +90,7 @@ class Turtle:
         self._draw(canvas, before)
 
     def tick(self, canvas: Canvas, now: float) -> str:
-        """Move for 16 ms; return a warning, or ""."""
+        """Move for 16 ms; return a warning if the turtle hits the wall, otherwise ""."""
         if now - self.velocity.since > COMMAND_TIMEOUT:
             self.velocity = replace(self.velocity, forward=0.0, sideways=0.0, turn=0.0)
         before, velocity = self.point, self.velocity
@@ -111,7 +117,7 @@ class Turtle:
 
 
 class World:
-    """All turtles and the canvas that they draw on. It begins with `turtle1` in the middle."""
+    """All turtles, and the canvas on which they draw. A new world has `turtle1` in the middle."""
 
     def __init__(self, background: Colour = BACKGROUND) -> None:
         self.canvas = Canvas(background)
@@ -120,11 +126,14 @@ class World:
         self.spawn(HOME, HOME, 0.0)
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Add a turtle, with the next free name of turtle1, turtle2, … if it is given none."""
+        """Add a turtle, and return it. Raises NameTaken if a turtle with this name exists.
+
+        Without `name`, the turtle gets the next free name of turtle1, turtle2, and so on.
+        """
         return self.add(self.make(x, y, theta, name))
 
     def make(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Return a turtle that is not in the world yet. Raises NameTaken."""
+        """Return a new turtle that is not in the world yet. Raises NameTaken if its name is used."""
         name = name or self._free_name()
         if name in self.turtles:
             raise NameTaken(f"A turtled named [{name}] already exists")
@@ -136,24 +145,24 @@ class World:
         return turtle
 
     def kill(self, name: str) -> Turtle:
-        """Remove a turtle from the world; its lines stay. Raises UnknownTurtle."""
+        """Remove a turtle from the world, and return it; its lines stay. Raises UnknownTurtle."""
         if name not in self.turtles:
             raise UnknownTurtle(f"Tried to kill turtle [{name}], which does not exist")
         return self.turtles.pop(name)
 
     def clear(self, background: Colour) -> None:
-        """Erase all lines."""
+        """Erase all lines, and give the canvas the colour `background`."""
         self.canvas.fill(background)
 
     def reset(self, background: Colour) -> None:
-        """Begin again with one turtle and an empty canvas."""
+        """Begin again with turtle1 in the middle and an empty canvas."""
         self.turtles.clear()
         self._numbers = count(1)
         self.spawn(HOME, HOME, 0.0)
         self.clear(background)
 
     def tick(self, now: float) -> list[str]:
-        """Move every turtle for 16 ms; return warnings."""
+        """Move every turtle for 16 ms, and return the warnings. `now` is the present time in s."""
         warnings = [self.turtles[name].tick(self.canvas, now) for name in sorted(self.turtles)]
         return [warning for warning in warnings if warning]
 
@@ -164,16 +173,16 @@ class World:
 
 
 def all_finite(*numbers: float) -> bool:
-    """Return whether all numbers are finite, as a turtle's position and velocity have to be."""
+    """Return whether all numbers are finite. The position and the velocity of a turtle must be finite."""
     return all(map(math.isfinite, numbers))
 
 
 def normalized(angle: float) -> float:
-    """Return the same direction as an angle from -π (included) to π."""
+    """Return the same direction as an angle from -π to π, where -π is included and π is not."""
     return angle - 2 * math.pi * math.floor((angle + math.pi) / (2 * math.pi))
 
 
 def _near_canvas(point: Point) -> Point:
-    """Return a distant point as one near the canvas, so that drawing takes a bounded time."""
+    """Return a point near the canvas in place of a distant point, so that drawing takes a limited time."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

@@ -1,6 +1,6 @@
-"""The three rules by which an answer, and only the answer, is removed."""
+"""The three rules that remove the answer, and only the answer, from an exercise cell."""
 
-# ruff: noqa: E501 -- sources and what becomes of them stand one above the other
+# ruff: noqa: E501 -- each source stands above its result, so that a reader can compare the two lines
 
 from __future__ import annotations
 
@@ -80,24 +80,24 @@ CASES = {
 
 @pytest.mark.parametrize(("source", "expected"), CASES.values(), ids=CASES)
 def test_rules(source: str, expected: str) -> None:
-    """The answer is removed; the text around it keeps every byte."""
+    """The answer is removed, and no other byte changes."""
     assert blank(source) == expected
 
 
 @pytest.mark.parametrize("source", [source for source, _ in CASES.values()], ids=CASES)
 def test_blanking_twice_changes_nothing_more(source: str) -> None:
-    """A blank exercise does not change, so a derived notebook can be derived again."""
+    """A blank exercise does not change any more."""
     assert blank(blank(source)) == blank(source)
 
 
 @pytest.mark.parametrize("name", [name for name, (source, _) in CASES.items() if "%" not in source])
-def test_what_is_left_is_python(name: str) -> None:
-    """A student who runs an unchanged exercise gets no syntax error."""
+def test_a_blank_exercise_is_valid_python(name: str) -> None:
+    """A student who runs a blank exercise gets no syntax error."""
     ast.parse(blank(CASES[name][0]))
 
 
 @pytest.mark.parametrize("source", ["def f(:\n    return", "%%bash\nls", "%%script true\nx = 1"])
-def test_what_has_no_rule_is_refused(source: str) -> None:
-    """Invalid Python is refused, and so is a magic whose body cannot be left blank."""
+def test_a_cell_without_a_rule_is_refused(source: str) -> None:
+    """`blank` raises an error for invalid Python, and for a magic that no rule covers."""
     with pytest.raises(AuthoringError):
         blank(source)

@@ -1,4 +1,4 @@
-"""A chapter runs in a fresh kernel, and nbval finds the same outputs as the stored ones."""
+"""A chapter runs in a new kernel, and a second run by nbval gives the same outputs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ PLOT = (
 
 
 def solution(root: Path, *cells: Cell) -> Path:
-    """Write a solution of one chapter and return its path."""
+    """Write a solution with `cells` for chapter 05, and return its path."""
     (root / "solutions").mkdir()
     path = root / "solutions" / "05_write_a_server.ipynb"
     path.write_text(json.dumps(book(*cells)))
@@ -42,7 +42,10 @@ def solution(root: Path, *cells: Cell) -> Path:
 
 
 def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After two runs the file is the same, a check passes, and nbval passes; each run has its own master."""
+    """A second run does not change the file, the check passes, and nbval passes.
+
+    Each run has its own master, although the environment names another one.
+    """
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=SERVER), check())
     execute(["05"], tmp_path)
@@ -55,9 +58,9 @@ def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: p
 
 
 def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) -> None:
-    """The SVG holds its labels as text and is the same in every run; nbval compares only the text beside it.
+    """The SVG contains its labels as text, and is the same in every run. nbval compares only the plain text.
 
-    The settings also hold if matplotlib drew a figure before the kernel joined.
+    This is also true if matplotlib drew a figure before the kernel joined the graph.
     """
     set_up = code('from course_pkg import join\nnode = join("chapter_05")', id="set-up")
     path = solution(tmp_path, code(PLOT, id="early"), set_up, code(PLOT, id="plot"))
@@ -80,7 +83,7 @@ def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) ->
 
 
 def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
-    """The error names the cell's id, and the stored file is unchanged."""
+    """The error contains the id of the cell, and the stored file does not change."""
     path = solution(tmp_path, code("1 / 0", id="boom"))
     before = path.read_text()
     with pytest.raises(AuthoringError, match="cell boom stopped the run with ZeroDivisionError"):
@@ -98,14 +101,15 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
     with pytest.raises(SystemExit) as ended:
         main(["sync", "--execute", "05"])
     assert path.read_text() == before
-    first, headline, *report = str(ended.value.code).splitlines()  # a text is printed, and the status is 1
+    # sys.exit with a text prints the text, and the exit status is 1.
+    first, headline, *report = str(ended.value.code).splitlines()
     assert first.startswith("course: 05_write_a_server: check 05.1 has not passed")
     assert headline == "  05.1 not yet: 0 of 2 points"
     assert any("This is width + length" in line for line in report)
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """Whatever a check's cell prints, only a report counts."""
+    """A check passes only with a report of its own part; printed text does not count."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}
@@ -128,7 +132,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """Ctrl-C ends the command and every kernel that it started."""
+    """After Ctrl-C, the command and the kernel that it started end."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

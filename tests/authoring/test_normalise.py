@@ -18,8 +18,8 @@ def stream(words: str, name: str = "stdout") -> dict[str, str]:
     return {"output_type": "stream", "name": name, "text": words}
 
 
-def test_twice_is_once() -> None:
-    """Normalising again gives no diff, and the file is a valid notebook."""
+def test_a_second_normalisation_changes_nothing() -> None:
+    """The file is the same after a second call of `tidy`, and it is a valid notebook."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "execute_result", "data": data, "metadata": {VIEW: {}}, "execution_count": 77}
     cell = code(
@@ -39,8 +39,8 @@ def test_twice_is_once() -> None:
     nbformat.validate(nbformat.reads(once, as_version=4))
 
 
-def test_what_differs_is_gone_and_what_tells_stays() -> None:
-    """Widget ids, timings, patch versions and chunks are removed; the text of outputs and the tags stay."""
+def test_only_parts_that_differ_between_runs_are_removed() -> None:
+    """Widget ids and timings are removed, and chunks are joined; the text of outputs and the tags stay."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "display_data", "data": data, "metadata": {}}
     cell = code("panel", outputs=[stream("a"), stream("b\n"), shown], execution_count=77, tags=["x"])
@@ -57,23 +57,23 @@ def test_what_differs_is_gone_and_what_tells_stays() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """A traceback of the course names cells and no files, so it is stored whole."""
+    """A traceback of the course names cells and no files, so the notebook keeps it."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))
     assert cell["outputs"][0]["traceback"] == lines
 
 
-def test_a_traceback_is_its_last_line() -> None:
-    """An error keeps its message; its frames are removed, because they name files of this machine."""
+def test_another_traceback_is_reduced_to_its_last_line() -> None:
+    """An error keeps its message. Its frames are removed, because they name files of this machine."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))
     assert cell["outputs"][0]["traceback"] == ["E: v"]
 
 
-def test_every_cell_gets_an_id_of_its_own() -> None:
-    """Exercises and checks have the id of their part; valid ids stay; duplicates are numbered."""
+def test_every_cell_gets_a_unique_id() -> None:
+    """Exercises and checks get the id of their part. Valid ids stay, and duplicates get a number."""
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
     notebook["cells"][3]["id"] = "whatever"
     tidy(notebook)
@@ -83,8 +83,8 @@ def test_every_cell_gets_an_id_of_its_own() -> None:
     assert names[3:] == ["exercise-05-1", "check-05-1"]
 
 
-def test_strip_takes_every_output() -> None:
-    """A student's notebook has no outputs."""
+def test_strip_removes_every_output() -> None:
+    """A stripped cell has no outputs and no execution count, but the same source."""
     cell = code("1", outputs=[stream("1")], execution_count=3)
     notebook = book(cell)
     before = copy.deepcopy(cell["source"])

@@ -1,4 +1,4 @@
-"""Panels get still pictures when a solution is stored, and a measured picture stays while nothing changed."""
+"""Panels get still pictures when a solution is stored; a measured picture stays if its code is the same."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TURTLES = {"background": [69, 86, 255], "names": [], "palette": [], "rows": [], 
 
 
 def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") -> Notebook:
-    """Return a notebook as it ran: a cell with a panel, and a cell with a plot."""
+    """Return an executed notebook: a cell with a panel, and a cell with a plot."""
     view = {"text/plain": "Panel()", VIEW: {"model_id": "m"}}
     shown = {"output_type": "execute_result", "data": view, "metadata": {}, "execution_count": 1}
     drawn = {"output_type": "display_data", "data": {"text/plain": "<Figure>", SVG: plot}, "metadata": {}}
@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as it is stored after `before`."""
+    """Return `notebook` as it is stored if the stored notebook was `before`."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)
@@ -36,7 +36,7 @@ def stored(notebook: Notebook, before: Notebook) -> Notebook:
 
 
 def test_a_panel_gets_a_picture_beside_its_text() -> None:
-    """The text stays for nbval, and the view, which names a widget of that kernel, goes."""
+    """The text stays, and a picture is added. The view is removed, because its widget has ended."""
     notebook = stored(executed("<svg>1</svg>"), book())
     (output,) = notebook["cells"][0]["outputs"]
     assert set(output["data"]) == {"text/plain", SVG}
@@ -45,7 +45,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """Two runs give no diff, though the measured times differ."""
+    """A second run of the same code keeps the stored plot, even if its measured times differ."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first
@@ -53,7 +53,7 @@ def test_a_plot_stays_while_nothing_changed() -> None:
 
 @pytest.mark.parametrize("change", ["source", "text", "earlier cell", "no digest"])
 def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
-    """A change of the code up to the cell, or of the output's text, makes a stored plot out of date."""
+    """The new plot replaces the stored plot after a change of the output's text or of the code."""
     first = stored(executed("<svg>1</svg>"), book())
     again = executed("<svg>2</svg>", source="plot(2)" if change == "source" else "plot()")
     if change == "text":
@@ -66,7 +66,7 @@ def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
 
 
 def test_only_a_measured_picture_of_a_panel_stays() -> None:
-    """A question is drawn anew each time; the turtles moved in their own time, so their picture stays."""
+    """The picture of a question is always new. The picture of a recording of turtles stays."""
     for panel, stays in (("prediction", False), ("turtles", True)):
         first = stored(executed("<svg>1</svg>", panel=panel), book())
         first["cells"][0]["outputs"][0]["data"][SVG] = "<svg>old</svg>"
@@ -74,8 +74,8 @@ def test_only_a_measured_picture_of_a_panel_stays() -> None:
         assert (again["cells"][0]["outputs"][0]["data"][SVG] == "<svg>old</svg>") is stays
 
 
-def test_a_widget_of_another_library_gets_none() -> None:
-    """Only the course knows how its own panels look."""
+def test_a_widget_of_another_library_gets_no_picture() -> None:
+    """The course can draw only its own panels."""
     notebook = executed("<svg>1</svg>")
     notebook["metadata"]["widgets"][STATES]["state"]["m"]["state"]["_anywidget_id"] = "another.Widget"
     assert set(stored(notebook, book())["cells"][0]["outputs"][0]["data"]) == {"text/plain"}

@@ -31,12 +31,12 @@ from course_pkg.panels import ServicePanel
 from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look, prepare_node
 from course_pkg.ros.trace.recorder import Recorder
 
-# bounded: the cost of a bounded call beside a plain one. Both call the same server, in turns and in blocks.
-# It prints the medians, their ratio, and their spread.
+# bounded: compares the time of a call through BoundedProxy with that of a call through rospy.ServiceProxy.
+# Both call the same server, alternately in blocks of 20 calls. It prints the medians and their ratio.
 
 
 def bounded_main() -> None:
-    """Measure calls with new connections, calls over persistent ones, and snapshots of a graph."""
+    """Measure calls with new connections, calls with persistent connections, and snapshots of the graph."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     calls = parser.parse_args().calls
@@ -54,7 +54,7 @@ def bounded_main() -> None:
 
 
 def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy, calls: int) -> None:
-    """Print the medians (ms) of both, which take turns."""
+    """Print the medians of both proxies in ms, and their ratio. The proxies alternate."""
     for proxy in (bare, bounded):
         times_of(partial(proxy, 1.2, 5.2, 8.9), 50)
     blocks: tuple[list[float], list[float]] = ([], [])
@@ -66,7 +66,7 @@ def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy,
 
 
 def looks(count: int) -> None:
-    """Print how long a snapshot of a graph of `count` nodes takes."""
+    """Print the time of a snapshot of a graph with `count` nodes."""
     processes = [NodeProcess.rosrun("course_pkg", "pulse", name=f"pulse_{number}") for number in range(count)]
     for number, process in enumerate(processes):
         process.wait_for_service(f"/pulse_{number}/get_loggers", timeout=60)
@@ -79,15 +79,15 @@ def looks(count: int) -> None:
         process.stop()
 
 
-# panel: the cost of a call through the service panel beside a plain rospy proxy, both without a persistent
-# connection. The panel's part is everything between a click and the page: strings to values, the call, the
-# response to lines. Client and server each use one core, and the two ways alternate.
+# panel: compares the time of a call through the service panel with that of a rospy proxy, both without a
+# persistent connection. The panel converts the strings of the form to values, makes the call, and converts
+# the response to lines. Client and server each use one core, and panel and proxy alternate.
 
 PANEL_BAR = 1.15
 
 
 def panel_compare(calls: int) -> tuple[float, float]:
-    """Return the medians (ms) of the bare proxy and of the panel."""
+    """Return the medians of the rospy proxy and of the panel in ms."""
     node = join("bench_panel_call")
     server = node.run("course_pkg", "server")
     server.wait_for_service("/getGeometry", timeout=20)
@@ -108,7 +108,7 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print the ratio of each run; fail if their median misses the bar."""
+    """Print the ratio of each run; return 1 if the median of the ratios misses the bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=3)
@@ -125,15 +125,15 @@ def panel_main() -> int:
     return int(ratio > PANEL_BAR)
 
 
-# robust: pays 200 times with the solution of 12.3, with a fault of the till every third time, and counts the
-# errors. The till is a separate process that is really stopped, killed and restarted, and writes its accounts
-# to a file before it answers. An error is a receipt without an entry in the accounts, a charge that is
-# missing or made twice, a refusal that is not reported, or no receipt at all. A hang is a call that continues
-# 2 s after its deadline.
+# robust: pays 200 times with the solution of 12.3, and counts the errors. The till has a fault at every third
+# payment. The till is a separate process that is really stopped, killed and restarted. It writes each payment
+# to a file before it sends its response. These are errors: a receipt without an entry in the file, a payment
+# that is missing or made twice, a refusal that is not reported, or no receipt at all. A hang is a call that
+# has not ended 2 s after its deadline.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # s for one payment: a killed till needs about one to restart
-GRACE = 2.0  # s after the deadline
+DEADLINE = 15.0  # s for one payment; a killed till needs about 1 s to restart
+GRACE = 2.0  # s after the deadline; a call that still runs then is a hang
 IN_THE_TILL = (
     "dies before it charges",
     "charges and dies",
@@ -147,7 +147,7 @@ FAULTS = (*IN_THE_TILL, *FROM_OUTSIDE)
 
 
 def robust_main() -> int:
-    """Pay, and print the numbers of wrong answers and of hangs; both must be 0."""
+    """Pay many times, and print the numbers of errors and of hangs; return 1 if there are any."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=200)
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -165,17 +165,17 @@ def robust_main() -> int:
             found[outcome] += 1
             found["faults"] += bool(fault)
             if outcome != "right":
-                print(f"call {number}, a till that {fault or 'is well'}: {outcome}")
+                print(f"call {number}, a till that {fault or 'has no fault'}: {outcome}")
         street.close()
         node.leave()
     print(f"{options.calls} calls, {found['faults']} of them with a fault (seed {options.seed})")
     wrong = options.calls - found["right"] - found["hang"]
-    print(f"wrong answers: {wrong}, hangs: {found['hang']}, longest call: {max(times):.1f} s")
+    print(f"errors: {wrong}, hangs: {found['hang']}, longest call: {max(times):.1f} s")
     return int(bool(wrong or found["hang"]))
 
 
 def reference() -> Callable[[str, int, float], int | None]:
-    """Return pay() from the solution of the chapter."""
+    """Return the function pay() from the solution of the chapter."""
     cells = json.loads(SOLUTION.read_text("utf-8"))["cells"]
     names: dict[str, Any] = {
         "rospy": rospy,
@@ -203,14 +203,14 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Pay with a fault, and return "right", "hang", or a description of the error."""
+        """Pay while the till has `fault`, and return "right", "hang", or a description of the error."""
         self._cause(fault, dice)
         results: list[object] = []
 
         def run() -> None:
             try:
                 results.append(pay("/till", cents, DEADLINE))
-            except Exception as error:  # noqa: BLE001 -- whatever came out is the outcome
+            except Exception as error:  # noqa: BLE001 -- each exception is an outcome
                 results.append(error)
 
         thread = threading.Thread(target=run, daemon=True)
@@ -221,7 +221,7 @@ class Street:
         return verdict
 
     def close(self) -> None:
-        """End the till."""
+        """End the till, and the thread that restarts it."""
         self._over.set()
         self._keeper.join(30)
         self._till.stop()
@@ -250,7 +250,7 @@ class Street:
         while time.monotonic() < deadline:
             try:
                 self._till.wait_for_service("/till", timeout=20)
-            except Exception:  # noqa: BLE001 -- it ended just now: the keeper starts another
+            except Exception:  # noqa: BLE001 -- the till has just ended, and the other thread restarts it
                 time.sleep(0.05)
             else:
                 return
@@ -275,14 +275,14 @@ class Street:
 
 
 def books(folder: Path) -> list[dict[str, Any]]:
-    """Return what was charged; an incomplete last line is ignored."""
+    """Return all payments in the till's file, without an incomplete last line."""
     path = folder / "books"
     lines = path.read_text("utf-8").splitlines() if path.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]
 
 
 class Till:
-    """The till in its process: it writes down each request once before it answers."""
+    """The till in its own process. It writes each request to a file once, before it sends the response."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -290,7 +290,7 @@ class Till:
         self._receipts = {entry["id"]: entry["receipt"] for entry in books(folder)}
 
     def charge(self, request: Any) -> ChargeResponse:  # noqa: ANN401 -- a class that catkin generates
-        """Charge, with the planned fault."""
+        """Handle a payment, with the planned fault."""
         with self._lock:
             plan = (self._folder / "plan").read_text("utf-8")
             (self._folder / "plan").write_text("")
@@ -321,19 +321,20 @@ class Till:
 
 
 def serve(folder: Path) -> None:
-    """Run the till."""
+    """Run the node of the till until it is shut down."""
     rospy.init_node("till")
     prepare_node()
     rospy.Service("/till", Charge, Till(folder).charge)
     rospy.spin()
 
 
-# recorder: the cost of the recorder. It measures a call with a new connection, a call over a persistent one,
-# and a published message, with and without recording at both ends; and a single event. Each way has its own
-# processes, which take turns; clients and servers each use one core. Printed is the best run of each, by the
-# lower quartile of its calls, because other load makes times longer and never shorter.
+# recorder: the cost of the recorder. It measures a call with a new connection, a call over a persistent
+# connection, and a published message, with and without recording in both nodes. It also measures a single
+# event. The clients with and without recording alternate, and clients and servers each use one core. The
+# result of a run is the lower quartile of its times, and the best run is printed, because other load makes
+# times longer and never shorter.
 
-RECORDER_BAR, EVENT_BAR = 1.03, 5.0  # of a call with a new connection; microseconds
+RECORDER_BAR, EVENT_BAR = 1.03, 5.0  # the ratio for a call with a new connection; the time of an event in µs
 NODE = """
 import json, os, statistics, sys, time
 import rospy
@@ -369,10 +370,10 @@ rospy.Subscriber("heard", Float64, lambda message: None)
 while not heard.get_num_connections():
     time.sleep(0.01)
 print(json.dumps({
-    "call, a connection each": quick(fresh, calls),
-    "call, a connection kept": quick(kept, calls),
-    "message that nobody hears": quick(lambda: alone.publish(1.0), calls),
-    "message to one": quick(lambda: heard.publish(1.0), calls),
+    "call, new connection": quick(fresh, calls),
+    "call, persistent connection": quick(kept, calls),
+    "message without a subscriber": quick(lambda: alone.publish(1.0), calls),
+    "message to one subscriber": quick(lambda: heard.publish(1.0), calls),
 }))
 """
 )
@@ -380,7 +381,7 @@ Figures = dict[str, float]
 
 
 def recorder_main() -> int:
-    """Print all figures; fail if one misses its bar."""
+    """Print all results; return 1 if one misses its bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=7)
@@ -402,14 +403,14 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server whose calls are recorded or not."""
+    """Start a server. Its calls are recorded if `way` is "recorded"."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server
 
 
 def figures(way: str, core: int, calls: int) -> Figures:
-    """Return the measurement of one process, in s."""
+    """Run one client, and return its times in s."""
     command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     found: Figures = json.loads(done.stdout.splitlines()[-1])
@@ -417,18 +418,18 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the costs; return the ratio for a call with a new connection."""
+    """Print the best times; return the ratio for a call with a new connection."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
         ratios.append(recorded / bare)
         print(f"{name}: bare {bare:.1f} µs, recorded {recorded:.1f} µs, ratio {ratios[-1]:.3f}")
-    print(f"bar for the first: {RECORDER_BAR}")
+    print(f"bar for the ratio of the first: {RECORDER_BAR}")
     return ratios[0]
 
 
 def event() -> float:
-    """Return how long it takes to record the beginning and the end of an event (µs)."""
+    """Return the time in µs to record the beginning and the end of an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):

@@ -1,4 +1,4 @@
-"""The subcommands of a benchmark program, and what several benchmarks measure with."""
+"""Functions that several benchmarks use: subcommands, and measurements of time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NoReturn
 
 
 def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
-    """Run the subcommand that the command line names first; its own options follow."""
+    """Run the subcommand that is the first argument, with the other arguments as its options."""
     name = sys.argv.pop(1) if len(sys.argv) > 1 else ""
     if name not in commands:
         sys.exit(f"usage: {sys.argv[0]} {'|'.join(commands)} [OPTION …]")
@@ -18,19 +18,19 @@ def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
 
 
 def milliseconds(action: Callable[[], object]) -> float:
-    """Return how long `action` takes (ms)."""
+    """Return the duration of `action` in ms."""
     began = time.perf_counter()
     action()
     return 1000 * (time.perf_counter() - began)
 
 
 def times_of(action: Callable[[], object], repeats: int) -> list[float]:
-    """Return how long each of the repeats took (ms)."""
+    """Run `action` several times, and return the duration of each run in ms."""
     return [milliseconds(action) for _ in range(repeats)]
 
 
 def alternate(actions: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:
-    """Return the median time (ms) of each action; they take turns, so that noise affects all alike."""
+    """Return the median duration of each action in ms. The actions alternate, so that noise affects all."""
     times: dict[str, list[float]] = {name: [] for name in actions}
     for _ in range(rounds):
         for name, action in actions.items():

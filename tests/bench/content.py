@@ -1,8 +1,8 @@
-"""What the chapters contain: each figure beside its bar.
+"""Counts objects, names, parts, errors and words in the chapters, and compares each number with its bar.
 
 usage: ./course run python tests/bench/content.py objects|names|parts|errors|prose|all
 
-Everything is read from the authored notebooks in `solutions/`, with their stored outputs.
+It reads the notebooks in `solutions/` with their stored outputs.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from course_pkg.checking.parts import every_part
 
 ROOT = Path(__file__).parents[2]
 ROSPY = {"Service", "ServiceProxy", "Publisher", "Subscriber"}
-OURS = {"serve", "proxy", "call", "advertise", "subscribe"}  # methods of join's result that do the same
+OURS = {"serve", "proxy", "call", "advertise", "subscribe"}  # methods of join's result for the same tasks
 TYPES = ("course_pkg.srv", "course_pkg.msg", "course_pkg.action")
 COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 NAMES_BAR, PARTS_BAR, ERROR_BAR, WORDS_BAR = 18, 95, 12, 38_000
@@ -39,7 +39,10 @@ class Code:
 
 
 def objects_main() -> bool:
-    """Print who creates the objects in the exercises, rospy or the course; return if any is the course's."""
+    """Print how many objects in exercises rospy creates, and how many the course creates.
+
+    Returns whether the course creates any.
+    """
     created = Counter(
         "rospy" if owner == "rospy" else f"the course ({code.place})"
         for code in code_cells()
@@ -54,7 +57,7 @@ def objects_main() -> bool:
 
 
 def names_main() -> bool:
-    """Print which names of course_pkg a student meets in code, types apart; return if over the bar."""
+    """Print the names of course_pkg in code cells, except types; return whether there are too many."""
     found: dict[str, set[str]] = {}
     for code in code_cells():
         for name in {*imported(code.tree), *methods(code.tree), *code.magics}:
@@ -66,7 +69,7 @@ def names_main() -> bool:
 
 
 def parts_main() -> bool:
-    """Print how many graded parts each chapter has; return if there are too few."""
+    """Print the number of graded parts of each chapter; return whether there are too few."""
     parts = Counter(part.check.split(".")[0] for part in every_part())
     print(f"graded parts: {parts.total()} (bar: at least {PARTS_BAR})")
     print("  " + "  ".join(f"{chapter}: {count}" for chapter, count in sorted(parts.items())))
@@ -74,7 +77,7 @@ def parts_main() -> bool:
 
 
 def errors_main() -> bool:
-    """Print how many lines the stored errors have; return if one has too many."""
+    """Print the number of lines of the stored errors; return whether an error has too many lines."""
     lines = {
         f"{path.stem[:2]}[{number}]": len(COLOURS.sub("", "\n".join(output.traceback)).splitlines())
         for path, number, cell in cells("code")
@@ -89,7 +92,7 @@ def errors_main() -> bool:
 
 
 def prose_main() -> bool:
-    """Print how many words of prose each chapter has; return if all together have too many."""
+    """Print the number of words of prose in each chapter; return whether the total is too high."""
     words = Counter[str]()
     for path, _, cell in cells("markdown"):
         words[path.stem[:2]] += len(re.findall(r"[^\W_]+", cell.source))
@@ -99,12 +102,12 @@ def prose_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all of these; return if any bar is missed."""
+    """Print all numbers; return whether any bar is missed."""
     return any([objects_main(), names_main(), parts_main(), errors_main(), prose_main()])
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield the notebook, the number and the cell for each cell of this kind."""
+    """Yield the notebook's path, the cell's number and the cell, for each cell of this kind."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:
@@ -112,7 +115,7 @@ def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
 
 
 def code_cells() -> Iterator[Code]:
-    """Yield the code cells that are Python, also those that write a program."""
+    """Yield the code cells that contain Python, including the cells that write a program."""
     for path, number, cell in cells("code"):
         first = cell.source.partition("\n")[0]
         if first.startswith("%%") and not re.match(r"%%writefile .*\.py$", first):
@@ -125,7 +128,7 @@ def code_cells() -> Iterator[Code]:
             tree = ast.parse("\n".join(plain))
         except SyntaxError:
             if "raises-exception" not in cell.metadata.get("tags", []):
-                print(f"{place} is not read: it is not Python", file=sys.stderr)
+                print(f"{place} is left out, because it is not Python", file=sys.stderr)
             continue
         yield Code(place, tree, tuple(magics), "exercise" in cell.metadata.get("course", {}))
 
@@ -142,7 +145,7 @@ def owners(tree: ast.AST) -> Iterator[str]:
 
 
 def imported(tree: ast.AST) -> Iterator[str]:
-    """Yield the names that code imports from course_pkg, service and message types apart."""
+    """Yield the names that code imports from course_pkg, except service and message types."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "course_pkg":
             if not (node.module or "").startswith(TYPES):
@@ -152,7 +155,7 @@ def imported(tree: ast.AST) -> Iterator[str]:
 
 
 def methods(tree: ast.AST) -> Iterator[str]:
-    """Yield the methods and properties of join's result, which the chapters call `node`."""
+    """Yield the methods and properties of `node` that code uses. In the chapters, `node` is join's result."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "node":
             yield f"node.{node.attr}"

@@ -1,4 +1,4 @@
-"""Grading: its speed, the effect of a kill, the reference solutions, and answers from elsewhere.
+"""Grading: its speed, the effect of a kill, the grades of the solutions, and answers of other authors.
 
 usage: ./course run python tests/bench/grading.py speed|kill|reference|answers [OPTION …]
 """
@@ -35,13 +35,12 @@ from course_pkg.setup import Places
 from tests.checking.workers import WorkerPool
 from tests.grading.submitted import WRONG, hand_in
 
-# speed: the course's grader beside nbgrader, with the arguments `[SUBMISSIONS] [plain] [many[:COUNT]]`.
-# SUBMISSIONS students (30) hand in the notebook of chapter 05; a third of them have one wrong answer each. In
-# one run, `course grade` without nbval, `course grade --validate all`, and `nbgrader autograde` on a notebook
-# with the same cells grade them; the ratio is that of the times for a notebook. `many` also grades 1,000
-# submissions (or COUNT) and measures the memory of all processes of the grader; `plain` compares only points.
-# nbgrader is installed into a folder of the cache, in the version below. The table lists the parts of the
-# time.
+# speed: compares the course's grader with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`.
+# SUBMISSIONS students (default 30) hand in the notebook of chapter 05. A third of them have one wrong answer.
+# Three commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and
+# `nbgrader autograde` with a notebook that has the same cells. The ratio compares the times for one notebook.
+# With `plain`, only the first command runs. With `many`, the grader also grades 1,000 (or COUNT) submissions,
+# and the memory of all its processes is measured. nbgrader is installed into a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
@@ -51,7 +50,7 @@ BAR, MANY_BAR = 10.0, 0.9
 
 
 def speed_main() -> None:
-    """Measure, and print the table."""
+    """Measure the graders, and print a table with the time of each."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 30
     words = sys.argv[2:]
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -76,14 +75,14 @@ def report(what: str, seconds: float) -> None:
 
 
 def timed(work: Callable[[], object]) -> float:
-    """Return the duration of `work`, in s."""
+    """Return the duration of `work` in s."""
     began = time.monotonic()
     work()
     return time.monotonic() - began
 
 
 def handed_in(folder: Path, count: int) -> None:
-    """Write `count` different submissions, every third with a wrong answer."""
+    """Write `count` different submissions. Every third submission has a wrong answer."""
     solution = read(NotebookStore().solutions([CHAPTER])[0])
     for number in range(count):
         notebook = json.loads(json.dumps(solution))
@@ -98,26 +97,27 @@ def handed_in(folder: Path, count: int) -> None:
 
 
 def speed_grade(submissions: Path, out: Path, validate: str) -> None:
-    """Grade with the command that an instructor types."""
+    """Grade the submissions with the command that an instructor types."""
     command = [Places.of().checkout / "course", "grade", submissions, "--out", out, "--validate", validate]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def many(here: Path, few: float, count: int) -> None:
-    """Grade `count` submissions, and compare the time for each and the memory with a small number."""
+    """Grade `count` submissions. Print the throughput compared with few submissions, and the memory."""
     handed_in(here / "many", count)
     with watched() as seen:
         each = timed(lambda: speed_grade(here / "many", here / "many-out", "none")) / count
     report(f"course grade, {count} submissions", each)
     early, late = statistics.median(seen[10:40]), statistics.median(seen[-40:-10])
     print(
-        f"throughput {few / each:.2f} of that of few (bar {MANY_BAR:g}); memory {early:.0f} -> {late:.0f} MiB"
+        f"throughput {few / each:.2f} of that with few submissions (bar {MANY_BAR:g}); "
+        f"memory {early:.0f} -> {late:.0f} MiB"
     )
 
 
 @contextmanager
 def watched() -> Iterator[list[float]]:
-    """Yield the memory (MiB) of all processes below this one, once per second."""
+    """Yield a list to which the memory of all child processes is added once per second, in MiB."""
     seen: list[float] = []
     over = threading.Event()
 
@@ -143,7 +143,7 @@ def _resident(pid: int) -> int:
 
 
 def nbgrader(here: Path, count: int) -> float:
-    """Return the seconds that nbgrader takes for each of `count` notebooks of the same cells."""
+    """Return the time in s that nbgrader needs for each of `count` notebooks with the same cells."""
     python = nbgrader_python()
     course = here / "nbgrader"
     assignment = course / "source" / "ps" / "notebook.ipynb"
@@ -168,7 +168,7 @@ def nbgrader(here: Path, count: int) -> float:
 
 
 def as_assignment() -> dict[str, object]:
-    """Return the notebook with nbgrader's metadata: exercises are answers, check cells are tests."""
+    """Return the notebook with nbgrader's metadata: exercise cells are answers, and check cells are tests."""
     notebook = json.loads(json.dumps(read(NotebookStore().solutions([CHAPTER])[0])))
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
@@ -189,7 +189,7 @@ def as_assignment() -> dict[str, object]:
 
 
 def nbgrader_python() -> Path:
-    """Return the interpreter of an environment with nbgrader, which is created once."""
+    """Return the interpreter of an environment with nbgrader. The environment is created only once."""
     places = Places.of()
     folder = places.cache.parent / "bench-nbgrader"
     python = folder / "bin" / "python"
@@ -203,15 +203,15 @@ def nbgrader_python() -> Path:
     return python
 
 
-# kill: SIGKILL of the grader at random moments, with the arguments `[TIMES]`. Six submissions are graded once
-# without a kill. Then, TIMES times (20), a run is killed after a random time and continued. Its grades must
-# be the same, and no process may be left.
+# kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
+# without a kill. Then a run is killed after a random time and continued, TIMES times (default 20). The grades
+# must be the same each time, and no process may be left.
 
 COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Kill and continue runs, and print how often the grades were right."""
+    """Kill and continue runs, and print how often the grades were the same and no process was left."""
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         here = Path(folder)
@@ -228,8 +228,8 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run, continue it, and return whether the result equals that of an undisturbed run."""
-    moment = random.uniform(0.2, whole)  # noqa: S311 -- a moment, no secret
+    """Kill a run and continue it; return whether its grades are `expected` and no process was left."""
+    moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)
     family = descendants(process.pid)
@@ -240,12 +240,12 @@ def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bo
     grade_without_nbval(submissions, out)
     same = (out / "grades.csv").read_bytes() == expected
     words = f"killed after {moment:5.1f} s: {kept} kept, {len(left)} processes left"
-    print(f"{words}, grades {'the same' if same else 'OTHERS'}", flush=True)
+    print(f"{words}, grades {'the same' if same else 'DIFFERENT'}", flush=True)
     return same and not left
 
 
 def still_there(pids: list[int]) -> list[int]:
-    """Return those of `pids` that still run after 10 s."""
+    """Wait at most 10 s for the processes `pids` to end, and return those that still run."""
     deadline = time.monotonic() + 10.0
     while time.monotonic() < deadline:
         pids = [pid for pid in pids if alive(pid)]
@@ -256,7 +256,7 @@ def still_there(pids: list[int]) -> list[int]:
 
 
 def alive(pid: int) -> bool:
-    """Return whether a process runs and is no zombie."""
+    """Return whether a process runs, and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -264,24 +264,24 @@ def alive(pid: int) -> bool:
 
 
 def start(submissions: Path, out: Path) -> subprocess.Popen[bytes]:
-    """Start the command that an instructor types."""
+    """Start the command `course grade` without nbval, as an instructor does."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none"]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ})
 
 
 def grade_without_nbval(submissions: Path, out: Path) -> None:
-    """Grade all submissions."""
+    """Grade all submissions, and exit if this fails."""
     if start(submissions, out).wait():
         sys.exit("grading failed")
 
 
-# reference: grades the solutions, with the arguments `[RUNS]`. The solution of each chapter is handed in RUNS
-# times (20) and graded like other submissions, several at the same time. Each part must pass each time,
-# because a check that sometimes refuses a right answer takes points from students.
+# reference: grades the solutions. Arguments: `[RUNS]`. The solution of each chapter is handed in RUNS times
+# (default 20) and graded like other submissions, several at the same time. Each part must pass each time,
+# because a check that sometimes refuses a correct answer takes points from students.
 
 
 def reference_main() -> None:
-    """Grade, and print the lost points."""
+    """Grade the solutions, and print each part that did not pass."""
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     lost: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -290,7 +290,7 @@ def reference_main() -> None:
             for path in NotebookStore().solutions():
                 target = hand_in(here / "in", f"s{number:02}", path.name[:2])
                 notebook = json.loads(target.read_text("utf-8"))
-                notebook["cells"][0]["source"] += f"\n{number}"  # or all would be one, and graded once
+                notebook["cells"][0]["source"] += f"\n{number}"  # Equal notebooks are graded only once.
                 target.write_text(json.dumps(notebook), "utf-8")
         grade_without_nbval(here / "in", here / "out")
         graded = 0
@@ -310,13 +310,13 @@ def reference_main() -> None:
     sys.exit(bool(lost))
 
 
-# answers: examines answers that were written from the goals alone, with the arguments `FOLDER [PART …]`. Each
-# file NN.k.py holds the answers to one part, in percent format; a line `# --- next cell` separates cells:
+# answers: checks answers whose authors knew only the goals of the parts. Arguments: `FOLDER [PART …]`. Each
+# file NN.k.py contains the answers to one part, in percent format. A line `# --- next cell` separates cells:
 #
 #     # %% 05.1 right: TITLE
 #     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 #
-# It prints the report of each answer that is not judged as its header says, and the first line of each hint.
+# It prints the report of each wrong answer, and of each answer whose verdict differs from its header.
 
 WRITTEN = re.compile(
     r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
@@ -324,7 +324,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Examine the answers, and print what was judged otherwise; return the number of these."""
+    """Check the answers, and return the number of answers whose verdict differs from their header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

@@ -1,4 +1,4 @@
-"""The size and the order of the code: each figure beside its bar.
+"""The size and the structure of the code: each number with its bar.
 
 usage: ./course run python tests/bench/house.py size|imports|types|functions|hints|all
 
@@ -42,7 +42,7 @@ BARS = {
 
 
 def size_main() -> bool:
-    """Print how much Python there is, and how many modules the fullest folder has; return if over a bar."""
+    """Print the amount of Python, and the modules of the fullest folder; return whether a bar is exceeded."""
     lines = {path: len(path.read_text("utf-8").splitlines()) for path in python_files()}
     folders = Counter(path.parent for path in lines if path.name != "__init__.py")
     fullest, modules = folders.most_common(1)[0]
@@ -57,7 +57,7 @@ def size_main() -> bool:
 
 
 def imports_main() -> bool:
-    """Print what is wrong with the imports; return if over a bar."""
+    """Print the numbers of wrong imports; return whether a bar is exceeded."""
     return any(
         [
             over("import circles", refused("circles")),
@@ -68,14 +68,14 @@ def imports_main() -> bool:
 
 
 def types_main() -> bool:
-    """Print how often the code names Any, imports included; return if over the bar."""
+    """Print how often the code uses Any, including imports; return whether the bar is exceeded."""
     uses = {str(path.relative_to(ROOT)): uses_of_any(path.read_text("utf-8")) for path in python_files()}
     most, count = max(uses.items(), key=lambda item: item[1])
     return over("uses of Any", sum(uses.values()), f"{count} of them in {most}")
 
 
 def functions_main() -> bool:
-    """Print how long the functions are, from `def` to the last line; return if over a bar."""
+    """Print the lengths of functions, from `def` to the last line; return whether a bar is exceeded."""
     paths = [path for path in python_files() if not is_answers(path)]
     lengths = [length for path in paths for length in function_lengths(path.read_text("utf-8"))]
     return any(
@@ -87,7 +87,7 @@ def functions_main() -> bool:
 
 
 def hints_main() -> bool:
-    """Print how many hints no example answer triggers; return if over the bar."""
+    """Print the number of hints that no example answer causes; return whether the bar is exceeded."""
     hints = {chapter: hints_of(chapter) for chapter in chapters()}
     missing = [
         hint
@@ -98,19 +98,19 @@ def hints_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all of these; return if over any bar."""
+    """Print all numbers; return whether any bar is exceeded."""
     return any([size_main(), imports_main(), types_main(), functions_main(), hints_main()])
 
 
 def over(what: str, figure: float, note: str = "") -> bool:
-    """Print a figure beside its bar; return whether it is larger."""
+    """Print a number and its bar; return whether the number is larger than the bar."""
     bar = BARS[what]
     print(f"{what:34}{figure:>10,.10g}  (bar: {bar:,})  {'OVER' if figure > bar else ''}  {note}".rstrip())
     return figure > bar
 
 
 def python_files() -> Iterator[Path]:
-    """Yield the Python files that git knows."""
+    """Yield the Python files that are under version control."""
     listed = subprocess.run(
         ["git", "ls-files", "*.py"], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout
@@ -118,12 +118,12 @@ def python_files() -> Iterator[Path]:
 
 
 def is_answers(path: Path) -> bool:
-    """Return whether the file holds example answers."""
+    """Return whether the file contains example answers."""
     return path.name == "answers.py" and "chapters" in path.parts
 
 
 def refused(contract: str) -> int:
-    """Return how many imports break the contract of import-linter with this id in pyproject.toml."""
+    """Return how many imports break the import-linter contract with the id `contract` in pyproject.toml."""
     command = ["lint-imports", "--contract", contract]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if "Contracts:" not in result.stdout:
@@ -132,7 +132,7 @@ def refused(contract: str) -> int:
 
 
 def uses_of_any(source: str) -> int:
-    """Count the name Any, also in the strings of type aliases."""
+    """Return how often the name Any occurs, including the strings of type aliases."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     names = sum(token.type == tokenize.NAME and token.string == "Any" for token in tokens)
     aliases = re.findall(r': TypeAlias = "(.*)"$', source, re.MULTILINE)
@@ -140,7 +140,7 @@ def uses_of_any(source: str) -> int:
 
 
 def function_lengths(source: str) -> Iterator[int]:
-    """Yield the number of lines of each function, decorators left out."""
+    """Yield the number of lines of each function, without its decorators."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.end_lineno is not None:
             yield node.end_lineno - node.lineno + 1

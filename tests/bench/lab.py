@@ -1,13 +1,15 @@
-"""Measures `./course lab` beside the stock `jupyter lab` of the same environment.
+"""Compares `./course lab` with the unchanged `jupyter lab` of the same environment.
 
 usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
        ./course run python tests/bench/lab.py click [CLICKS]
        ./course run python tests/bench/lab.py kill [TIMES]
 
-`start` prints the time from the command to a page with a rendered notebook and an idle kernel, `click` the
-time from a click to Python and back to the page. Both alternate between the two servers, so that a slow
-minute of the machine affects both. `kill` kills `course lab`, its master and its kernel by SIGKILL, and
-prints which processes were left. `./course test` installs the browser.
+- `start` prints the time from the command to a page with a rendered notebook and an idle kernel.
+- `click` prints the time from a click to Python and back to the page.
+- `kill` kills `course lab`, its master or its kernel by SIGKILL, and prints how many processes were left.
+
+`start` and `click` alternate between the two servers, so that a slow minute of the machine affects both.
+`./course test` installs the browser.
 """
 
 from __future__ import annotations
@@ -35,13 +37,13 @@ from course_pkg.lab.jupyterlab import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
-START_RATIO, START_BAR = 0.75, 3.0  # of stock; s
-CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # of stock; ms
+START_RATIO, START_BAR = 0.75, 3.0  # the ratio to `jupyter lab`, and the absolute time in s
+CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # the ratio to `jupyter lab`, and the absolute time in ms
 WARM_UP = 10  # clicks
-TIMEOUT = 20.0  # s until a process that still runs counts as left behind
+TIMEOUT = 20.0  # s; a process that still runs after this time is left behind
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 FLAGS += ["--disable-background-networking"]
-SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # stock restores the tabs of its previous start
+SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # `jupyter lab` restores old tabs
 IDLE = f"() => document.querySelector('{SHOWN} .jp-Notebook-ExecutionIndicator[data-status=idle]')"
 STEPS = ("address known", "page received", "notebook rendered", "kernel idle")
 CELL = """
@@ -50,7 +52,7 @@ button, label = ipywidgets.Button(description="click"), ipywidgets.Label("0")
 button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
 ipywidgets.VBox([button, label])
 """
-# After this pause the kernel is idle again, as it is between the clicks of a person.
+# After the pause of 60 ms, the kernel is idle again, as it is between the clicks of a person.
 CLICK = """async () => {
     await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
@@ -62,7 +64,7 @@ CLICK = """async () => {
     await changed
     return performance.now() - start
 }"""
-Server = Callable[[Path, Path], AbstractContextManager[str]]  # of a notebook, and of a folder for its state
+Server = Callable[[Path, Path], AbstractContextManager[str]]  # arguments: a notebook, and a folder for state
 
 
 def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -> bool:
@@ -90,7 +92,7 @@ def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -
 
 
 def times_of_start(context: BrowserContext, server: Server, notebook: Path, state: Path) -> list[float]:
-    """Return the seconds from the command to each of STEPS."""
+    """Return the time in s from the command to each of STEPS."""
     began = time.perf_counter()
     with server(notebook, state) as address:
         marks = [time.perf_counter()]
@@ -102,7 +104,7 @@ def times_of_start(context: BrowserContext, server: Server, notebook: Path, stat
 
 
 def until_usable(page: Page) -> list[float]:
-    """Wait for the notebook and its kernel; return the times at which each was ready."""
+    """Wait for the notebook and its kernel, and return the times at which each was ready."""
     page.wait_for_selector(f"{SHOWN} .jp-RenderedMarkdown h1")
     rendered = time.perf_counter()
     page.wait_for_function(IDLE)
@@ -110,7 +112,7 @@ def until_usable(page: Page) -> list[float]:
 
 
 def click(clicks: int = 100) -> bool:
-    """Measure both servers in turn, twice."""
+    """Measure the clicks on each server twice, alternately."""
     notebook = ROOT / "tests" / "bench" / f"click-{os.getpid()}.ipynb"
     cells = [nbformat.v4.new_markdown_cell("# Click"), nbformat.v4.new_code_cell(CELL)]
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -131,7 +133,7 @@ def click(clicks: int = 100) -> bool:
 
 
 def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[float]:
-    """Return the milliseconds of each click on a separate page."""
+    """Open the notebook on a new page, and return the time of each click in ms."""
     with server as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=FLAGS, headless=True
@@ -149,7 +151,7 @@ def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[fl
 
 
 def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str) -> bool:
-    """Print the ratio of the medians, and return whether it and the absolute time meet their bars."""
+    """Print the ratio of the medians and the absolute time; return whether the ratio meets its bar."""
     ratio = medians["course"] / medians["stock"]
     print(f"course lab / stock: {ratio:.2f} (bar {ratio_bar}): {'met' if ratio <= ratio_bar else 'MISSED'}")
     met = medians["course"] <= bar
@@ -172,7 +174,7 @@ def course(notebook: Path, _state: Path) -> Iterator[str]:
 
 @contextmanager
 def stock(notebook: Path, state: Path) -> Iterator[str]:
-    """Run the stock JupyterLab with settings in `state`; yield the notebook's address."""
+    """Run the unchanged JupyterLab with settings in `state`; yield the notebook's address."""
     port = free_port()
     command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
     command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]
@@ -190,11 +192,11 @@ SERVERS: dict[str, Server] = {"stock": stock, "course": course}
 
 
 def kill(times: int = 20) -> bool:
-    """Kill each of the three several times."""
+    """Kill `course lab`, the master and the kernel several times; return whether nothing was left."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     left = 0
     for name, pattern in victims.items():
-        port = free_port()  # the same for each start: a port that is still in use makes the next start fail
+        port = free_port()  # the same port for each start; if it is still in use, the next start fails
         seconds, leftovers = zip(*(killed(port, pattern) for _ in range(times)), strict=True)
         count, slowest = sum(leftovers), max(seconds)
         print(f"SIGKILL of {name}, {times} times: {count} processes or ports left; slowest {slowest:.1f} s")
@@ -203,15 +205,16 @@ def kill(times: int = 20) -> bool:
 
 
 def killed(port: int, pattern: bytes) -> tuple[float, int]:
-    """Kill the process whose command line contains `pattern`, or the command itself, and end the rest.
+    """Kill the process whose command line contains `pattern`, or the command itself if `pattern` is empty.
 
-    Return the seconds until all processes and the port were gone, and how many were left.
+    Then end the command. Returns the time in s until all processes have ended and the port is free, and the
+    number of processes and ports that are left after TIMEOUT.
     """
     with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process))
         if pattern:
-            # The last one is the process itself; its supervisor has the same command line.
+            # The last match is the process itself. The first is its supervisor, with the same command line.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -225,7 +228,7 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:
-    """Return the processes below `process` once a master and a kernel are among them, else an empty list."""
+    """Return the child processes of `process`, or an empty list if there is no master or kernel yet."""
     family = below(process)
     return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []
 

@@ -1,4 +1,4 @@
-"""Nodes: the rates of the turtle simulator, its behaviour under random calls, and the faults of the lab.
+"""Nodes: the rates of the turtle simulator, its behaviour under random calls, and the faults of BreakIt.
 
 usage: ./course run python tests/bench/nodes.py rates|fuzz|faults [OPTION …]
 """
@@ -28,15 +28,17 @@ from course_pkg.ros import NodeProcess, PrivateMaster, join, look
 from tests.faults.surroundings import Surroundings
 from tests.turtlesim.fuzz import Fuzzer, resident, sane
 
-# rates: the cost of the simulator, and how regularly it ticks. Bars: 62.5 Hz within 1 % and a p99 gap of at
-# most 24 ms with 1 and 12 turtles over 20 s; at most 4 % of a core with one turtle and 15 % with 12 that are
-# subscribed to and driven; spawn, teleport and reset answer within 18 ms. It needs an idle machine.
+# rates: the processor time of the simulator, and the regularity of its ticks. It needs an idle machine. Bars,
+# with 1 and with 12 turtles that are driven and have subscribers:
+# - a rate of 62.5 Hz with an error of at most 1 %, and a p99 gap of at most 24 ms, during 20 s
+# - at most 4 % of a core with one turtle, and 15 % with 12
+# - responses of spawn, teleport and reset within 18 ms
 
 TURTLES = 12
 
 
 def rates_main() -> None:
-    """Print every figure beside its bar."""
+    """Print each number and its bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0)
     seconds = parser.parse_args().seconds
@@ -52,7 +54,7 @@ def rates_main() -> None:
 
 
 def measure(simulator: NodeProcess, turtles: int, seconds: float) -> None:
-    """Print rate, gaps and processor time while each turtle has a subscriber and a publisher."""
+    """Print the rate, the gaps and the processor time while each turtle has a subscriber and a publisher."""
     names = [f"/turtle{number}" for number in range(1, turtles + 1)]
     arrivals: deque[float] = deque()
     with ExitStack() as open_:
@@ -81,7 +83,7 @@ def measure(simulator: NodeProcess, turtles: int, seconds: float) -> None:
 
 @contextmanager
 def driving(names: list[str]) -> Iterator[None]:
-    """Drive all turtles in circles, 10 times a second."""
+    """Drive all turtles in circles during the block, with 10 velocities per second."""
     publishers = [rospy.Publisher(f"{name}/cmd_vel", Twist, queue_size=1) for name in names]
     order = Twist()
     order.linear.x, order.angular.z = 2.0, 1.5
@@ -104,7 +106,7 @@ def driving(names: list[str]) -> Iterator[None]:
 
 
 def answers(count: int = 40) -> None:
-    """Print how long the services take."""
+    """Print the median time of a call of each service."""
     spawn, reset = rospy.ServiceProxy("/spawn", Spawn), rospy.ServiceProxy("/reset", Empty)
     teleport = rospy.ServiceProxy("/turtle1/teleport_absolute", TeleportAbsolute)
     calls: dict[str, Callable[[], object]] = {
@@ -115,7 +117,7 @@ def answers(count: int = 40) -> None:
     times: dict[str, list[float]] = {label: [] for label in calls}
     for turn in range(count):
         for label, call in calls.items():
-            time.sleep(0.001 * (turn % 17))  # a call may come at any moment of a tick
+            time.sleep(0.001 * (turn % 17))  # so that the calls come at different moments of a tick
             started = time.monotonic()
             call()
             times[label].append((time.monotonic() - started) * 1000)
@@ -124,18 +126,18 @@ def answers(count: int = 40) -> None:
 
 
 def pid_of(simulator: NodeProcess) -> int:
-    """Return the process that is the node."""
+    """Return the process id of the node."""
     assert look().node("/turtlesim")
     return int(simulator.pid)
 
 
 def processor_time(pid: int) -> float:
-    """Return the processor time (s) that a process has used."""
+    """Return the processor time of a process in s."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: 10,000 random calls and messages for the simulator. It prints whether the node lives, whether its
+# fuzz: 10,000 random calls and messages for the simulator. It prints whether the node still runs, whether its
 # world is consistent, and its memory.
 
 BLOCKS = 10
@@ -159,18 +161,19 @@ def fuzz_main() -> None:
             took, memory = time.monotonic() - started, resident(simulator.pid)
             done = block * options.deeds // BLOCKS
             print(
-                f"{done:6} deeds, {fuzzer.refused} calls refused, {took:.1f} s, {memory:.1f} MiB", flush=True
+                f"{done:6} actions, {fuzzer.refused} calls refused, {took:.1f} s, {memory:.1f} MiB",
+                flush=True,
             )
-    print("the node lived, and its world made sense after each block")
+    print("the node still ran, and its world was consistent, after each block")
 
 
-# faults: how long it takes to cause and undo each fault of the lab, and whether the graph is as before.
-# usage: nodes.py faults [ROUNDS] [FAULT …] For each fault it prints the median and the maximum of both
-# together (s), and how often something was left: a node, topic, service, process, listening port or
-# environment variable. The same run measures the start and end of a plain node, which is the minimum for a
-# fault with a server.
+# faults: how long it takes to cause and undo each fault of BreakIt, and whether the graph is as before.
+# usage: nodes.py faults [ROUNDS] [FAULT …]
+# For each fault it prints the median and the maximum time (s) to cause and undo it. It also prints how often
+# something was left: a node, topic, service, process, listening port or environment variable. For comparison,
+# it measures the start and the end of a plain node, because a fault with a server cannot be faster.
 
-BOUND = 3.0  # s
+BOUND = 3.0  # s; longer rounds are counted
 BARE = """
 import rospy
 from std_srvs.srv import Trigger
@@ -181,7 +184,7 @@ rospy.spin()
 
 
 def one_round(name: str) -> float:
-    """Cause and undo one fault; return the duration, in s."""
+    """Cause and undo one fault, and return the duration in s."""
     began = time.monotonic()
     stage = Stage(named(name))
     stage.cause()
@@ -190,7 +193,7 @@ def one_round(name: str) -> float:
 
 
 def bare_round() -> float:
-    """Start a node, wait for its service, and end it."""
+    """Start a node, wait for its service, and end the node; return the duration in s."""
     began = time.monotonic()
     process = NodeProcess([sys.executable, "-c", BARE])
     process.wait_for_service("/bare")
@@ -199,7 +202,10 @@ def bare_round() -> float:
 
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
-    """Run `turn` for some rounds, print and return the median, the longest, and how often not as before."""
+    """Run `turn` for some rounds; print and return the median and the maximum time in s.
+
+    The third number is how often the state after the round differed from the state before.
+    """
     before, times, changed = Surroundings(), [], 0
     for _ in range(rounds):
         times.append(turn())
@@ -214,7 +220,7 @@ def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float,
 
 
 def faults_main() -> None:
-    """Measure on a private master."""
+    """Measure the faults on a private master, and print the results."""
     rounds = next((int(word) for word in sys.argv[1:] if word.isdigit()), 50)
     chosen = [word for word in sys.argv[1:] if not word.isdigit()]
     with PrivateMaster() as master:

@@ -46,16 +46,17 @@ from tests.browser.chromium import FLAGS
 from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel
 
-# graph: the cost of the graph panel: an update with 20 nodes and 40 topics, and an unchanged graph. It is
-# measured twice: with nodes that do nothing, and with 40 topics that carry messages.
+# graph: the cost of the graph panel: an update with 20 nodes and 40 topics, and the work while the graph does
+# not change. This work is measured with nodes that do nothing, and with messages on 40 topics.
 
 UPDATE_BAR = 150.0  # ms
 IDLE_BAR = 2.0  # % of a core
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
-RATE = 5  # Hz, of each topic
+RATE = 5  # Hz; the rate of each topic
 
-# A node that publishes on some topics and subscribes to others, given by name.
+# A node that publishes on some topics and subscribes to other topics. The arguments contain the topics'
+# names.
 SPEAKER = """
 import sys
 import rospy
@@ -76,7 +77,7 @@ while not rospy.is_shutdown():
 
 
 def graph(turn: int) -> Snapshot:
-    """Return a graph in which the name of one topic differs each time."""
+    """Return a graph in which the name of one topic depends on `turn`."""
     names = [f"/robot_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(f"/topic_{number}_{turn if not number else 0}", "std_msgs/String", (names[number % NODES],),
@@ -92,7 +93,7 @@ def graph(turn: int) -> Snapshot:
 
 
 def update() -> float:
-    """Return the median time (ms) from a new snapshot to a new drawing."""
+    """Return the median time in ms from a new snapshot to a new drawing."""
     model = GraphModel(lambda **_: None)
     times = []
     for turn in range(15):
@@ -106,7 +107,7 @@ def update() -> float:
 def share(
     nodes: list[subprocess.Popen[bytes]], ready: Callable[[GraphPanel], bool]
 ) -> tuple[float, Counter[str]]:
-    """Return the share of a core (%) of a visible panel, and the numbers of its updates."""
+    """Return the share of a core in % that a visible panel uses, and the numbers of its updates."""
     told: Counter[str] = Counter()
     try:
         panel = GraphPanel()
@@ -132,7 +133,7 @@ def share(
 
 
 def idle() -> float:
-    """Return the share of a core (%) while ten nodes do nothing."""
+    """Return the share of a core in % while ten nodes do nothing."""
     nodes = [
         subprocess.Popen(["rosrun", "course_pkg", "server", f"__name:=n{number}"]) for number in range(10)
     ]
@@ -140,7 +141,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the share of a core (%) while 20 nodes use 40 topics, and the numbers of updates."""
+    """Return the share of a core in % while 20 nodes use 40 topics, and the numbers of updates."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -158,7 +159,7 @@ def _heard(panel: GraphPanel) -> int:
 
 
 def graph_main() -> int:
-    """Print the figures; fail if one misses its bar, or if new numbers caused a new drawing."""
+    """Print the results; return 1 if one misses its bar, or if new numbers caused a new drawing."""
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
         os.environ["ROS_HOSTNAME"] = "localhost"
@@ -170,14 +171,13 @@ def graph_main() -> int:
     return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or told["drawing"] > 0)
 
 
-# timeline: what the timeline costs in a browser: drawing 2,000 events for the first time, and moving along
-# them.
-# `./course test` installs the browser that it needs. Moving is measured with all events in view and with an
-# eighth of them; each frame waits for the browser to have painted the one before.
+# timeline: the time of the timeline panel in a browser: for the first drawing of 2,000 events, and for moving
+# the view. The view is moved with all events visible, and with an eighth of them. Each frame waits until the
+# browser has painted the previous frame. `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
 DRAW_BAR, PAN_BAR = 500.0, 30.0  # ms; frames per second
-REPEATS, TIMELINE_WATCH = 9, 2000  # ms of moving
+REPEATS, TIMELINE_WATCH = 9, 2000  # the number of drawings; the duration of the motion in ms
 PANELS = Path(__file__).parents[2] / "course_pkg" / "panels"
 DRAW = """async (state) => {
     const url = URL.createObjectURL(new Blob([state._esm], {type: "text/javascript"}))
@@ -217,7 +217,7 @@ PAN = """async (watch) => {
 
 
 def timeline_main() -> int:
-    """Print the figures; fail if one misses its bar."""
+    """Print the results; return 1 if one misses its bar."""
     files = {"_esm": module(PANELS / "timeline/timeline.js"), "recorded": state(recording())}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
@@ -234,20 +234,20 @@ def timeline_main() -> int:
         browser.close()
     size = len(json.dumps(files["recorded"])) / 1000
     middle = statistics.median(drawn)
-    print(f"drawing {EVENTS} events: median {middle:.0f} ms, bar {DRAW_BAR:.0f} ms; state {size:.0f} kB")
+    print(f"drawing of {EVENTS} events: median {middle:.0f} ms, bar {DRAW_BAR:.0f} ms; state {size:.0f} kB")
     for label, rate in rates.items():
-        print(f"moving with {label} in view: {rate:.0f} frames a second, bar {PAN_BAR:.0f}")
+        print(f"moving with {label} in view: {rate:.0f} frames per second, bar {PAN_BAR:.0f}")
     return int(middle > DRAW_BAR or min(rates.values()) < PAN_BAR)
 
 
 def first_drawing(page: Page, files: dict[str, object]) -> float:
-    """Return how long it takes from the beginning to the first picture on the page (ms)."""
+    """Return the time in ms from the beginning to the first picture on the page."""
     page.evaluate("window.again?.()")
     return float(page.evaluate(DRAW, files))
 
 
 def moving(page: Page) -> float:
-    """Return how many frames a second are drawn while the timeline is dragged back and forth."""
+    """Return the frames per second while the mouse moves the timeline to and fro."""
     frames = page.evaluate(PAN, TIMELINE_WATCH)
     slow = sorted(frames)[int(0.95 * len(frames))]
     print(f"  frames: median {statistics.median(frames):.1f} ms, 95 % within {slow:.1f} ms")
@@ -255,7 +255,7 @@ def moving(page: Page) -> float:
 
 
 def recording() -> Recording:
-    """Return a recording of a topic at 80 Hz and of calls of 0.1 s."""
+    """Return a recording with messages at 80 Hz, and with calls that take 0.1 s each."""
     events: list[Event] = []
     for number in range(int(80 * LENGTH)):
         at, key = number / 80, f"message {number}"
@@ -271,7 +271,7 @@ def recording() -> Recording:
 
 
 def call(number: int, at: float) -> list[Event]:
-    """Return a call."""
+    """Return the events of the call with this number, which begins at `at` s."""
     key, who, whom = f"call {number}", "/customer", "/cashier"
     parts = (
         (LOOKUP, 0, 1e-3),
@@ -287,14 +287,13 @@ def call(number: int, at: float) -> list[Event]:
     return [*mine, Event(HANDLER, whom, "/detect", at + 2.2e-3, at + 0.0999, who, key, f"Thread-{number}")]
 
 
-# topic: what a topic panel costs the kernel that shows it, how often it tells the page, and how it keeps a
-# rate.
-# A real kernel shows the panel; the page is a client that reads what the kernel sends it.
+# topic: the processor time of a topic panel, the number of its updates, and the accuracy of its rate. A real
+# kernel shows the panel. A client that reads the kernel's messages replaces the page.
 
 TOPIC_WATCH = 10.0  # s
 TOPIC_BAR = 5.0  # % of a core at 100 Hz
-UPDATES = 10.0  # a second, at most
-DRIFT = 2.0  # % of a rate
+UPDATES = 10.0  # updates per second, at most
+DRIFT = 2.0  # %; the largest error of a rate
 
 SHOW = """
 import os
@@ -324,7 +323,7 @@ for number in range(10**9):
 
 
 def run(client: BlockingKernelClient, code: str) -> str:
-    """Run code in the kernel and return what it printed."""
+    """Run code in the kernel, and return its printed output."""
     printed: list[str] = []
     reply = client.execute_interactive(
         code,
@@ -337,7 +336,7 @@ def run(client: BlockingKernelClient, code: str) -> str:
 
 @contextmanager
 def talker(rate: float) -> Iterator[None]:
-    """Publish at a rate from a separate process."""
+    """Publish at `rate` Hz from a separate process during the block."""
     process = subprocess.Popen([sys.executable, "-c", TALKER, str(rate)])
     try:
         time.sleep(3)
@@ -348,13 +347,13 @@ def talker(rate: float) -> Iterator[None]:
 
 
 def spent(pid: int) -> float:
-    """Return the processor time of a process (s)."""
+    """Return the processor time of a process in s."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
-    """Return the share of a core of each process (%), updates a second to the page, and kB a second."""
+    """Return each process's share of a core in %, the updates per second to the page, and their kB/s."""
     before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
     while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
         try:
@@ -369,7 +368,7 @@ def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], f
 
 
 def drain(client: BlockingKernelClient) -> None:
-    """Delete the updates so far."""
+    """Read and ignore all waiting updates."""
     while True:
         try:
             client.get_iopub_msg(timeout=0.05)
@@ -378,7 +377,7 @@ def drain(client: BlockingKernelClient) -> None:
 
 
 def topic_main() -> int:
-    """Print the figures; fail if one misses its bar."""
+    """Print the results; return 1 if one misses its bar."""
     missed = 0
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"], os.environ["ROS_HOSTNAME"] = master.uri, "localhost"
@@ -413,18 +412,17 @@ def topic_main() -> int:
     return int(missed > 0)
 
 
-# types: what it costs to open the type browser: with what this machine has, and with hundreds of types
-# more.
-# The peer is `rossrv list`, which lists the same service types in a terminal.
+# types: the time to open the type browser, with the types of this machine, and with hundreds of additional
+# types. It is compared with `rossrv list`, which lists the same service types in a terminal.
 
-TYPES_BAR = 100.0  # ms to open, after the import, with what the distribution has
+TYPES_BAR = 100.0  # ms for opening with the types of this machine, after the import
 PACKAGES, TYPES = 60, 10
 RUNS = 9
 MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package>"
 
 
 def fill(folder: Path) -> None:
-    """Write packages with service and message types."""
+    """Write PACKAGES packages into `folder`, each with TYPES service types and TYPES message types."""
     for number in range(PACKAGES):
         root = folder / f"bulk_{number}"
         for half, text in (("srv", "geometry_msgs/Pose goal\n---\nbool done\n"), ("msg", "float64 x\n")):
@@ -435,12 +433,12 @@ def fill(folder: Path) -> None:
 
 
 def median_of(action: Callable[[], object]) -> float:
-    """Return the median time (ms) of an action."""
+    """Return the median time of an action in ms."""
     return statistics.median(times_of(action, RUNS))
 
 
 def report(what: str) -> float:
-    """Print the figures for the present path, and return the time to open a browser with a type."""
+    """Print the times with the present ROS_PACKAGE_PATH; return the time of the first opening in ms."""
     first = time.perf_counter()
     TypeBrowser("std_srvs/SetBool")
     first = 1000 * (time.perf_counter() - first)
@@ -452,20 +450,20 @@ def report(what: str) -> float:
 
 
 def types_main() -> int:
-    """Print the figures; fail if the first browser misses its bar."""
+    """Print the results; return 1 if the first opening misses its bar."""
     with PrivateMaster() as master, tempfile.TemporaryDirectory() as folder:
         os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
         first = report("this machine")
         fill(Path(folder))
         os.environ["ROS_PACKAGE_PATH"] = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
-        report(f"{PACKAGES * TYPES} services and as many messages more")
-    print(f"bar for the first: {TYPES_BAR:.0f} ms")
+        report(f"with {PACKAGES * TYPES} more services and messages")
+    print(f"bar for the first opening: {TYPES_BAR:.0f} ms")
     return int(first > TYPES_BAR)
 
 
-# turtles: what watching five turtles costs.
-# Bars: at least 50 frames a second drawn, at most 20 KiB a second on the websocket, at most 3 % of a core
-# for the kernel. Needs an idle machine, and the browser that `./course test` installs.
+# turtles: the cost of a turtle panel with five moving turtles. It needs an idle machine. `./course test`
+# installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the websocket, and at most 3
+# % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join
@@ -490,7 +488,7 @@ while not rospy.is_shutdown():
         publisher.publish(order)
     rate.sleep()
 '''
-# The supervisor of a node ends it with the kernel; a plain process would outlive the bench.
+# NodeProcess has a supervisor, which ends the process when the kernel ends.
 from course_pkg.ros import NodeProcess
 driver = NodeProcess([sys.executable, "-c", program])
 os.getpid()
@@ -498,7 +496,7 @@ os.getpid()
 
 
 def turtles_main() -> None:
-    """Print the three figures."""
+    """Print the frames per second, the bytes per second, and the kernel's processor time."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0)
     seconds = parser.parse_args().seconds
@@ -512,7 +510,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list with one number: the bytes that the page's websockets have received."""
+    """Return a list whose only element is the number of bytes that the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:
@@ -523,7 +521,7 @@ def counted(page: Page) -> list[int]:
 
 
 def measure(page: Page, received: list[int], seconds: float) -> None:
-    """Print frames, bytes and processor time during some seconds of driving."""
+    """Print the frames, the bytes and the processor time while the turtles move for `seconds` s."""
     turtles = panel(page, "Turtle panel")
     pid = int(page.locator(".jp-OutputArea-output").last.inner_text())
     page.wait_for_timeout(3000)
@@ -531,7 +529,7 @@ def measure(page: Page, received: list[int], seconds: float) -> None:
     started = time.monotonic()
     page.wait_for_timeout(seconds * 1000)
     took = time.monotonic() - started
-    print(f"frames {(_frames(turtles) - frames) / took:.1f} a second (≥ 50)")
+    print(f"frames {(_frames(turtles) - frames) / took:.1f} per second (≥ 50)")
     print(f"websocket {(received[0] - bytes_) / took / 1024:.1f} KiB/s (≤ 20)")
     print(f"kernel {100 * (_processor_time(pid) - load) / took:.1f} % of a core (≤ 3)")
 

@@ -1,4 +1,4 @@
-"""Set-up: a fresh machine, the import of the package, and the build of a C++ chapter.
+"""Set-up: the first start on a new machine, the import of the package, and the builds of the C++ chapter.
 
 usage: ./course run python tests/bench/setup.py fresh|imports|cpp [OPTION …]
 """
@@ -18,13 +18,16 @@ from pathlib import Path
 
 from commands import run_command
 
-# fresh: prints how long a first `./course run rosservice list` takes on a fresh Debian, set-up included.
-# usage, as root, with debootstrap installed: /usr/bin/python3 tests/bench/setup.py fresh [RUNS [CODENAME]]
-# A pristine system is made once, from the mirror that this machine's apt uses, and copied for each run.
+# fresh: prints how long the first `./course run rosservice list` takes on a new Debian system, with the
+# set-up.
+# usage: /usr/bin/python3 tests/bench/setup.py fresh [RUNS [CODENAME]]
+# It has to be run as root, and needs debootstrap. It creates a new system once, from the mirror that this
+# machine's apt uses, and copies this system for each run.
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s
-# What a machine needs to be told of its surroundings: where packages come from, and whose certificates hold.
+# The new system needs these files of this machine: addresses of package mirrors, name servers and
+# certificates.
 SURROUNDINGS = (
     "/etc/apt/sources.list",
     "/etc/apt/sources.list.d",
@@ -48,7 +51,7 @@ INSIDE = 'mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && exec chr
 
 
 def fresh_main() -> int:
-    """Measure each run in a copy of its own."""
+    """Measure each run in its own copy of a new system, and print the median."""
     runs = int(sys.argv[1]) if sys.argv[1:] else 3
     codename = sys.argv[2] if sys.argv[2:] else "bookworm"
     if os.geteuid() or not shutil.which("debootstrap"):
@@ -76,7 +79,7 @@ def fresh_main() -> int:
 
 
 def fresh_measure(pristine: Path, system: Path) -> float:
-    """Return the seconds of a first start in a copy of `pristine`."""
+    """Return the duration in s of a first start in `system`, which becomes a copy of `pristine`."""
     subprocess.run(["cp", "-a", pristine, system], check=True)
     checkout = system / "home" / "course"
     checkout.mkdir(parents=True)
@@ -101,14 +104,14 @@ def fresh_measure(pristine: Path, system: Path) -> float:
 
 
 def inside(system: Path, script: str) -> None:
-    """Run `script` in `system`, in a mount namespace that ends with it."""
+    """Run `script` in `system`, in a mount namespace that ends with the script."""
     env = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
     env |= {name: os.environ[name] for name in (*KEPT, *(it.upper() for it in KEPT)) if name in os.environ}
     subprocess.run(["unshare", "--mount", "sh", "-c", INSIDE, system, script], env=env, check=True)
 
 
 def mirror(codename: str) -> str:
-    """Return where this machine's apt takes `codename` from; another release is taken from the same place."""
+    """Return the mirror that this machine's apt uses for `codename`, or for its own release."""
     targets = [
         "apt-get",
         "indextargets",
@@ -123,7 +126,7 @@ def mirror(codename: str) -> str:
 
 
 def tell_surroundings(system: Path) -> None:
-    """Copy into `system` what it needs to reach the same mirrors as this machine."""
+    """Copy the files into `system` that it needs to reach the same mirrors as this machine."""
     for name in SURROUNDINGS:
         source, target = Path(name), system / name[1:]
         if source.is_dir():
@@ -135,7 +138,7 @@ def tell_surroundings(system: Path) -> None:
             shutil.copy(source, target)
 
 
-# imports: what `import course_pkg`, and a notebook's imports, cost beyond rospy.
+# imports: the time that `import course_pkg` and the imports of a notebook need in addition to rospy.
 
 ROUNDS = 21
 IMPORTS_BAR = 60.0  # ms
@@ -152,14 +155,14 @@ STATEMENTS = {
 
 
 def import_time(statement: str) -> float:
-    """Return how long a fresh interpreter takes to run `statement`, in ms."""
+    """Return the time in ms that a new interpreter needs for `statement`."""
     start = time.perf_counter()
     subprocess.run([sys.executable, "-c", statement], check=True)
     return (time.perf_counter() - start) * 1000
 
 
 def imports_main() -> None:
-    """Take turns, so that a busy moment hits all alike, and print medians beyond the peer."""
+    """Measure each import alternately with that of rospy, and print the medians of the differences."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)
@@ -170,9 +173,8 @@ def imports_main() -> None:
     print(f"bar for course_pkg: {IMPORTS_BAR:.0f} ms")
 
 
-# cpp: prints how long chapter 13's builds take from cold, and what one file costs by itself.
-# The files and the commands are those of the solution's own cells, in a workspace that is made anew each
-# time.
+# cpp: prints the duration of chapter 13's builds in a new workspace, and the duration of one file's
+# compilation. The files and the commands are those of the cells in the solution.
 
 SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("11_*.ipynb"))
 CPP_BAR = 15.0  # s
@@ -180,7 +182,7 @@ WRITING = re.compile(r"%%writefile (?P<more>-a )?(?P<path>src/cpp_services/\S+)\
 
 
 def cpp_main() -> int:
-    """Measure each run in a workspace of its own."""
+    """Measure each run in a new workspace, and print the medians."""
     runs = int(sys.argv[1]) if sys.argv[1:] else 3
     print(f"{os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start")
     rounds = [cpp_measure() for _ in range(runs)]
@@ -195,17 +197,19 @@ def cpp_main() -> int:
 
 
 def cpp_measure() -> tuple[list[float], float]:
-    """Return the seconds of each build from cold, and those of the compiler for one of the files."""
+    """Return the duration of each build in a new workspace, and of the compiler for one file, in s."""
     with tempfile.TemporaryDirectory(prefix="course-cpp-") as folder:
         seconds = list(built(Path(folder)))
-        from course_pkg.workspace.cpp_support import compile_command  # `fresh` runs without the course
+        from course_pkg.workspace.cpp_support import (
+            compile_command,
+        )  # here, because `fresh` runs without the course
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)
 
 
 def built(folder: Path) -> Iterator[float]:
-    """Do what the cells do, and yield the seconds of each build."""
+    """Write the files and run the commands of the cells, and yield the duration of each build in s."""
     from course_pkg.authoring.cells import code_cells
     from course_pkg.authoring.notebook_store import read
 
@@ -222,7 +226,7 @@ def built(folder: Path) -> Iterator[float]:
 
 
 def timed(command: list[str], folder: str) -> float:
-    """Return how long a command takes, in s; end the whole where it fails."""
+    """Run a command, and return its duration in s. If it fails, exit with its output."""
     started = time.perf_counter()
     done = subprocess.run(
         command, cwd=folder, env={**os.environ, "PWD": folder}, capture_output=True, text=True, check=False

@@ -31,10 +31,10 @@ from course_pkg.site.runs import Runs
 from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
-# pages: the site: how fast it is built, what its pages weigh, how soon the first panel is there.
-# `./course site` must have run every chapter before. The speed is held against `jupyter nbconvert --to
-# html` of the same 14 executed notebooks, in turns; where the course has fewer chapters, some are built
-# twice.
+# pages: the duration of a build of the site, the size of its pages, and the time until the first panel is
+# drawn. `./course site` must have run every chapter before. The build is compared with `jupyter nbconvert
+# --to html` of the same 14 executed notebooks; both alternate. If the course has fewer chapters, some are
+# built twice.
 
 PAGES = 14
 ROUNDS = 5
@@ -56,7 +56,7 @@ window.firstPanel = new Promise((resolve) => new MutationObserver((_changes, obs
 
 
 def pages_main() -> None:
-    """Measure, and print."""
+    """Measure builds, sizes and panels, and print the results."""
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         root = Path(folder)
         write_notebooks(root)
@@ -66,7 +66,7 @@ def pages_main() -> None:
 
 
 def write_notebooks(root: Path) -> None:
-    """Write 14 executed notebooks: the chapters as they ran last, the first ones twice."""
+    """Write 14 executed notebooks: the last run of each chapter, and some chapters twice if necessary."""
     runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):
@@ -79,7 +79,7 @@ def write_notebooks(root: Path) -> None:
 
 
 def speed(root: Path) -> None:
-    """Build both in turns, each as a process of its own."""
+    """Build the site and the pages of nbconvert alternately, each in its own process; print the medians."""
     ours = [sys.executable, "-c", BUILD, str(root), str(root / "site")]
     notebooks = sorted(map(str, (root / "solutions").glob("*.ipynb")))
     theirs = [
@@ -104,7 +104,7 @@ def run(command: Sequence[str]) -> None:
 
 
 def weights(site: Path) -> None:
-    """Print what is each page's own, and what all share."""
+    """Print the sizes of the pages, and of the files that all pages share."""
     own = [path.stat().st_size for path in site.glob("[0-9]*.html")]
     packed = [len(compress(path.read_bytes())) for path in site.glob("[0-9]*.html")]
     print(f"own part: median {statistics.median(own) / 1000:.1f} kB, most {max(own) / 1000:.1f} kB; ", end="")
@@ -116,7 +116,7 @@ def weights(site: Path) -> None:
 
 
 def first_panels(site: Path) -> None:
-    """Print how long after the start of the navigation the first panel of a page was painted."""
+    """Print the time from the start of a navigation until the first panel of a page is painted."""
     flags = ["--no-sandbox", "--disable-gpu"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=flags)
@@ -133,13 +133,14 @@ def first_panels(site: Path) -> None:
     print(f"first panel: median {middle:.0f} ms, slowest {last:.0f} ms, {len(times)} loads")
 
 
-# axe: accessibility of a whole site, every rule of axe-core, with the arguments `[SITE]`.
-# SITE is the folder of a site, by default the last that `./course site` wrote. Each page is looked at wide
-# and narrow, light and dark, with and without the search open; the suite spares itself what cannot differ.
+# axe: the accessibility of a whole site with every rule of axe-core. Arguments: `[SITE]`. SITE is the folder
+# of a site; the default is the last site that `./course site` wrote. Each page is checked wide and narrow,
+# light and dark, with and without the open search. The test suite leaves out combinations with the same
+# result.
 
 
 def axe_main() -> None:
-    """Print each violation, and how many there are on how many pages."""
+    """Print each violation, and the total numbers of violations and pages."""
     site = Path(sys.argv[1]) if len(sys.argv) > 1 else Places.of().cache / "site" / "pages"
     count = 0
     with chromium() as browser:
@@ -157,40 +158,40 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# nbval: prints how long nbval takes over all solutions: one after the other, and several at once.
-# The default is the number of workers that `course` itself takes on this machine.
+# nbval: prints how long nbval needs for all solutions, one after the other and several at the same time.
+# Arguments: `[WORKERS …]`. The default is the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
-BAR = 0.45  # of the serial run
-LIMIT = 3600.0  # s
+BAR = 0.45  # the largest ratio to the duration of the serial run
+LIMIT = 3600.0  # s for one run
 
 
 def nbval_main() -> int:
-    """Run serially, then with each number of workers, and print the ratios."""
+    """Run one notebook after the other, then with each number of workers, and print the ratios."""
     counts = [int(count) for count in sys.argv[1:]] or [workers_here(len(SOLUTIONS))]
     print(
         f"{len(SOLUTIONS)} solutions, {os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start"
     )
     serial, busy = measure(1)
-    print(f"serial: {serial:.1f} s, of which the processor works {busy:.1f} s")
+    print(f"serial: {serial:.1f} s, processor time {busy:.1f} s")
     for count in counts:
         seconds, busy = measure(count)
         ratio = seconds / serial
         print(
-            f"{count} at once: {seconds:.1f} s, processor {busy:.1f} s; ratio {ratio:.2f}, "
+            f"{count} workers: {seconds:.1f} s, processor time {busy:.1f} s; ratio {ratio:.2f}, "
             f"bar {BAR}: {'met' if ratio <= BAR else 'MISSED'}"
         )
     return 0
 
 
 def measure(workers: int) -> tuple[float, float]:
-    """Return the seconds of one run, and those that its processes spent on a core."""
+    """Return the duration of one run, and the processor time of its processes, in s."""
     before, started = _spent(), time.perf_counter()
     outcome = validate(SOLUTIONS, workers=workers, timeout=LIMIT)
     seconds = time.perf_counter() - started
     if outcome.returncode:
         print(outcome.stdout[-3000:])
-        sys.exit(f"A solution does not show what it stored, with {workers} at once: no figure counts.")
+        sys.exit(f"With {workers} workers, an output differs from the stored output. Correct this first.")
     return seconds, _spent() - before
 
 
@@ -199,14 +200,15 @@ def _spent() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-# listeners: which sockets listen, and at which addresses, while each chapter runs.
+# listeners: prints how many sockets listen while each chapter runs, and how many use other addresses than
+# 127.0.0.1.
 
 LISTEN = "0A"
 LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")
 
 
 def listeners_main() -> None:
-    """Run each chapter from the top, and look all the while."""
+    """Run each chapter from the top, and print its listening sockets; exit with 1 if one is not local."""
     away: set[str] = set()
     for path in SOLUTIONS:
         seen = listeners_during(path)
@@ -217,7 +219,7 @@ def listeners_main() -> None:
 
 
 def listeners_during(path: Path) -> set[str]:
-    """Return the addresses at which the processes of a chapter listened, as /proc/net/tcp has them."""
+    """Return the addresses at which the processes of a chapter listened, in the format of /proc/net/tcp."""
     convert = [
         sys.executable,
         "-m",
@@ -253,7 +255,7 @@ def listening(pids: list[int]) -> set[str]:
 
 
 def inodes(pid: int) -> set[str]:
-    """Return the inodes of the sockets that `pid` holds."""
+    """Return the inodes of the open sockets of the process `pid`."""
     try:
         links = [os.readlink(entry) for entry in os.scandir(f"/proc/{pid}/fd")]
     except OSError:

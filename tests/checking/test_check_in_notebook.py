@@ -139,7 +139,7 @@ def test_stop_button_during_such_a_function(notebook: NotebookKernel, tmp_path: 
     number = notebook.begin("check('00.3')", "check")
     eventually(begun.exists, 20)
     notebook.manager.interrupt_kernel()
-    shown = notebook.shown(number, patience=10)
+    shown = notebook.shown(number, timeout=10)
     assert shown.ename == "KeyboardInterrupt"
     assert notebook.run("node.name").results == ["'/student'"]
 

@@ -1,7 +1,7 @@
 """The table of common mistakes with ROS 1 services, and the fault or build that shows each of them.
 
-A row is a mistake with the stable part of its symptom. A mistake at run time names the faults of the lab that
-cause it; a mistake of a build names a package with this mistake, or a command.
+A row is a mistake with the part of its symptom that never changes. A mistake at run time names the faults of
+BreakIt that cause it. A mistake in a build names a package with this mistake, or a command.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Shows:
-    """The symptom of a fault: text that the client or the server prints, and whether the client hangs.
+    """The symptom of a fault.
 
-    `cause` is a part of the explanation of the printed text, "" if the text needs no explanation.
+    `said` is a part of the client's output, and `server` is a part of the server's output. `hangs` is true if
+    the client waits for ever. `cause` is a part of the explanation of the output, "" if none is needed.
     """
 
     fault: str
@@ -25,7 +26,11 @@ class Shows:
 
 @dataclass(frozen=True)
 class Builds:
-    """A mistake in a build: its name in the tests' table, a part of the output, and a part of the cause."""
+    """A mistake in a build.
+
+    `slip` is its name in the tables of test_mistakes.py. `said` is a part of the output, and `cause` is a
+    part of its explanation.
+    """
 
     slip: str
     said: str
@@ -34,7 +39,7 @@ class Builds:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: the section of the table, the mistake, and everything that shows it."""
+    """One row: the section of the table, the mistake, and the faults and builds that show it."""
 
     section: str
     slip: str
@@ -83,7 +88,7 @@ BUILDING = (
     ),
     Row(
         "Building",
-        "- - - for ---",
+        "- - - instead of ---",
         (Builds("blanks in the dashes", "Invalid declaration: - - -", "in the place of the three dashes"),),
     ),
     Row(
@@ -106,7 +111,7 @@ BUILDING = (
     ),
     Row(
         "Building",
-        "roslaunch for rosrun; rosservice show",
+        "roslaunch instead of rosrun; rosservice show",
         (
             Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
             Builds("rosservice show", "Commands:", "rosservice does not know that command"),
@@ -114,7 +119,7 @@ BUILDING = (
     ),
     Row(
         "Building",
-        "script without run bit or shebang",
+        "script that is not executable, or has no shebang",
         (
             Builds("no run bit", "Couldn't find executable named plain.py", "has no program plain.py"),
             Builds("no shebang", "command not found", "The shell executed the Python script"),
@@ -165,7 +170,7 @@ SERVING = (
     ),
     Row(
         "Serving",
-        "dict with a typing slip",
+        "dict with a misspelt key",
         (Shows("dict_slip", "sucess is not an attribute of SetBoolResponse", "the response does not have"),),
     ),
     Row(
@@ -181,7 +186,7 @@ SERVING = (
     ),
     Row(
         "Serving",
-        "wrong arity",
+        "wrong number of parameters",
         (Shows("wrong_arity", "takes 0 positional arguments but 1 was given", "has the wrong parameters"),),
     ),
     Row(
@@ -223,7 +228,7 @@ SERVING = (
     Row(
         "Serving",
         "a lock held across a call to a service that needs it",
-        (Shows("lock", server="asking the bolt\nthe bolt is asked", hangs=True),),
+        (Shows("lock", server="calling the bolt\nthe bolt is called", hangs=True),),
     ),
 )
 
@@ -235,7 +240,7 @@ CALLING = (
     ),
     Row(
         "Calling",
-        "wait_for_service(n, 2) in vain",
+        "wait_for_service() reaches its timeout",
         (
             Shows(
                 "wait_in_vain",
@@ -314,7 +319,7 @@ CALLING = (
     ),
     Row(
         "Calling",
-        "server stopped (SIGSTOP), or an idle connection that hogs its accept thread",
+        "server stopped (SIGSTOP), or blocked by an idle connection",
         (Shows("stopped", hangs=True), Shows("hogged", hangs=True)),
     ),
     Row(
@@ -330,7 +335,7 @@ CALLING = (
     Row(
         "Calling",
         "proxy shared between threads",
-        (Shows("shared_proxy", "went to the wrong thread, or nowhere: True"),),
+        (Shows("shared_proxy", "went to another thread or got lost: True"),),
     ),
 )
 
@@ -378,7 +383,7 @@ NODES_AND_MASTERS = (
     ),
     Row(
         "Nodes and masters",
-        "killed hard",
+        "node killed by SIGKILL",
         (Shows("killed", "ERROR: connection refused to [", "killed and could not unregister"),),
     ),
     Row(

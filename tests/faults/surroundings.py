@@ -1,4 +1,4 @@
-"""What a fault must leave as it found it: the graph, processes, listening ports, the environment."""
+"""The state that a fault must restore: the graph, processes, listening ports, and the environment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.ros.process.supervisor import descendants
 
 @dataclass(frozen=True)
 class Surroundings:
-    """All of it at one moment, with the graph of ROS_MASTER_URI."""
+    """The state at one moment; the graph is the one of ROS_MASTER_URI."""
 
     graph: Snapshot = field(default_factory=look)
     processes: frozenset[int] = field(default_factory=lambda: frozenset(descendants(os.getpid())))
@@ -20,7 +20,10 @@ class Surroundings:
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return what is different now. What ran before, such as a browser, may start processes."""
+        """Return the differences to the present state.
+
+        New child processes of older processes, such as a browser, do not count as differences.
+        """
         now = Surroundings()
         others = {pid for before in self.processes for pid in descendants(before)}
         left = {

@@ -1,4 +1,4 @@
-"""The table of mistakes, row by row: each mistake is really made, and its symptom is explained."""
+"""Each mistake of the table is really made, and the course explains its symptom."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ SHOWN = [each for row in ROWS for each in row.shown if isinstance(each, Shows)]
 BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
 
 
-def test_no_row_is_left_out() -> None:
-    """Each section has all its rows, and each row has something that shows it."""
+def test_the_table_is_complete() -> None:
+    """Each section has all its rows, and each row has a fault or a build that shows the mistake."""
     assert Counter(row.section for row in ROWS) == COUNTS
     assert all(row.shown for row in ROWS)
 
 
-def test_each_fault_of_the_lab_stands_for_a_row() -> None:
-    """Each fault of the lab is in the table, and each fault of the table is in the lab."""
+def test_the_table_names_exactly_the_faults_of_the_course() -> None:
+    """Each fault of the course is in the table, and each fault of the table exists."""
     assert sorted(each.fault for each in SHOWN) == sorted(names())
 
 
-def test_what_is_no_hang_says_something() -> None:
-    """Each row shows an error message, or hangs."""
+def test_each_fault_prints_something_or_hangs() -> None:
+    """Each fault has an expected text in an output, or its client hangs."""
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
 @pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
-    """The fault shows the table's symptom, the symptom is explained, and afterwards nothing is left."""
+    """The fault shows the symptom of the table, `explain` explains it, and afterwards nothing is left."""
     assert master.uri
     before = Surroundings()
     with caused(shows.fault) as stage:
@@ -55,7 +55,7 @@ def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, show
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A workspace with a package that builds, and scripts that rosrun cannot run as they are."""
+    """A workspace with a package that builds, and with scripts that rosrun cannot run."""
     folder = tmp_path_factory.mktemp("mistakes")
     scripts = {"scripts/plain.py": "print(1)\n", "scripts/shell.py": "import os\n"}
     write(folder, {**GOOD, **scripts})
@@ -86,7 +86,7 @@ LINES = {
 
 
 def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
-    """Return what ROS prints for this mistake."""
+    """Make the mistake, and return the output of the build or of the command."""
     if built.slip in LINES:
         line, sourced = LINES[built.slip]
         return shell(workspace, line, sourced=sourced)
@@ -104,8 +104,8 @@ def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
 
 
 @pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
-def test_a_slip_in_building_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
-    """What catkin_make and the tools print contains the stable text, and is explained."""
+def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
+    """The output of catkin_make or the tool contains the expected text, and `explain` explains it."""
     text = printed(built, workspace, tmp_path)
     assert " ".join(built.said.split()) in " ".join(text.split())
     explained = explain.explain(text)
@@ -113,8 +113,8 @@ def test_a_slip_in_building_is_explained(built: Builds, workspace: Path, tmp_pat
     assert built.cause in explained.cause
 
 
-def test_two_labs_on_one_graph(master: PrivateMaster) -> None:
-    """Two kernels may each open a case at the same time; neither uses the other's nodes."""
+def test_two_cases_run_on_one_graph(master: PrivateMaster) -> None:
+    """Two cases can run at the same time in different namespaces, and each shows its own symptom."""
     client = MasterClient(master.uri)
     with caused("stale") as one, caused("returns_none") as other:
         assert one.namespace != other.namespace

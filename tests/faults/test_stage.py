@@ -1,4 +1,4 @@
-"""After every case, the graph is as before."""
+"""A stage causes a fault, and afterwards the graph is as before."""
 
 from __future__ import annotations
 
@@ -28,13 +28,16 @@ result = [str(stage._resources.folder) for stage in stages]
 
 
 def nodes(master: PrivateMaster) -> list[str]:
-    """Return the nodes of the lab on the graph."""
+    """Return the nodes on the graph whose names begin with /lab."""
     return [node for node in MasterClient(master.uri).system_state().nodes if node.startswith("/lab")]
 
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL no process and no registration of a case is left, not even of nodes killed on purpose."""
+    """After SIGKILL of the kernel, no process, registration or folder of its case is left.
+
+    This includes the registrations of nodes that the case killed on purpose.
+    """
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -45,15 +48,15 @@ def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, n
 
 
 def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kernel) -> None:
-    """A kernel that ends removes its case from the graph."""
+    """When a kernel ends, no node of its case is on the graph any more."""
     kernel.run(CAUSE.format(names=["stale"]))
     assert nodes(master)
     kernel.exit()
     assert not nodes(master)
 
 
-def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
-    """A case whose server does not start raises an error in bounded time, and leaves nothing."""
+def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
+    """If the server of a case does not start, `cause` raises NodeFailed, and no node is left."""
 
     def play(stage: Stage) -> None:
         stage.serve("raise SystemExit(3)")
@@ -64,15 +67,15 @@ def test_what_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
     assert not nodes(master)
 
 
-def test_without_a_graph_there_is_no_case(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error is raised before anything is started."""
+def test_a_stage_needs_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a master, a stage raises MasterUnreachable, and starts no program."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))
 
 
-def test_undone_twice_is_undone(master: PrivateMaster) -> None:
-    """A second undo changes nothing."""
+def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
+    """Two calls of `undo` raise no error, and no node is left."""
     stage = Stage(named("returns_none"))
     stage.cause()
     stage.undo()
@@ -80,8 +83,8 @@ def test_undone_twice_is_undone(master: PrivateMaster) -> None:
     assert not nodes(master)
 
 
-def test_a_fault_can_be_mended_by_hand(master: PrivateMaster) -> None:
-    """The tools really act: a server that was stopped continues by SIGCONT, and answers the next call."""
+def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
+    """A server that was stopped continues after SIGCONT, and the tool "Call again" shows its response."""
     assert master.uri
     with caused("stopped") as stage:
         assert stage.keeper is not None
@@ -89,8 +92,8 @@ def test_a_fault_can_be_mended_by_hand(master: PrivateMaster) -> None:
         assert "open" in probe(stage, "again").said
 
 
-def test_the_tools_show_what_is_there(master: PrivateMaster) -> None:
-    """Each tool is a real command and ends; a clean-up removes the dead registrations of the case."""
+def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
+    """Each tool shows the output of a real command. The clean-up removes stale registrations of the case."""
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}
@@ -104,7 +107,7 @@ def test_the_tools_show_what_is_there(master: PrivateMaster) -> None:
 
 
 def test_names_and_groups_are_found() -> None:
-    """Cases are selected by name or by group; an unknown name raises an error that lists the known ones."""
+    """Faults are selected by name or by group. The error for an unknown name lists all groups and faults."""
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}
@@ -114,8 +117,8 @@ def test_names_and_groups_are_found() -> None:
         named("calling")
 
 
-def test_each_fault_is_told_apart() -> None:
-    """Names, diagnoses and reasons are unique; each text is a sentence; each chapter exists."""
+def test_the_texts_of_each_fault_are_unique() -> None:
+    """Names, diagnoses and reasons are unique. Each text ends with a full stop, and `unlike` names faults."""
     faults = every_fault()
     for texts in (
         [each.name for each in faults],
@@ -129,7 +132,7 @@ def test_each_fault_is_told_apart() -> None:
 
 
 def test_a_fault_needs_no_rospy_in_the_kernel() -> None:
-    """The faulty programs run as separate processes: the kernel only starts and calls them."""
+    """The package does not import rospy, because the faulty programs run as separate processes."""
     code = "import sys, course_pkg.faults as f; f.caused, f.probe, f.names(); print('rospy' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True

@@ -1,4 +1,4 @@
-"""Functions that run `course` as a user does, and find the processes that it leaves behind."""
+"""Functions that run `course` as a user does, and that find the processes that `course` leaves behind."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ ADDRESS = re.compile(r"http://\S+")
 
 
 def user_environment() -> dict[str, str]:
-    """Return an environment without the variables that the suite has set."""
+    """Return this environment without the variables for ROS that the test suite has set."""
     return {name: value for name, value in os.environ.items() if not name.startswith("ROS_")}
 
 
 @contextmanager
 def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Start `course lab` or `course run` with its output in a pipe; end it if it has not ended by itself."""
+    """Start `course lab` or `course run` with its output in a pipe, and end it after the block."""
     with subprocess.Popen(
         [ROOT / "course", *arguments],
         env={**user_environment(), **variables},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        start_new_session=True,  # the test's own Ctrl-C is not counted twice
+        start_new_session=True,  # so that a Ctrl-C for the tests does not reach this process, too
     ) as process:
         try:
             yield process
@@ -44,7 +44,7 @@ def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]
 
 @contextmanager
 def lab(*arguments: str, **variables: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Start `course lab`; yield the process and the address as soon as it is printed."""
+    """Start `course lab`; yield the process and the address that it prints."""
     with running("lab", "--no-browser", *arguments, **variables) as process:
         yield process, address_of(process)
 
@@ -61,7 +61,7 @@ def address_of(process: subprocess.Popen[str]) -> str:
 
 
 def below(process: subprocess.Popen[str]) -> list[int]:
-    """Return the processes below `process`."""
+    """Return the processes that `process` has started, directly or indirectly."""
     return descendants(process.pid)
 
 
@@ -71,7 +71,7 @@ def all_gone(pids: list[int]) -> bool:
 
 
 def alive(pid: int) -> bool:
-    """Return whether a process runs; a zombie does not."""
+    """Return whether a process runs; a zombie does not count as running."""
     try:
         state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
@@ -80,10 +80,10 @@ def alive(pid: int) -> bool:
 
 
 def having(pattern: bytes, pids: list[int]) -> list[int]:
-    """Return those of `pids` whose command line contains `pattern`; NUL separates the arguments there."""
+    """Return the processes of `pids` whose command line contains `pattern`; NUL separates the arguments."""
     found = []
     for pid in pids:
-        with suppress(OSError):  # it has ended meanwhile
+        with suppress(OSError):  # The process may have ended.
             if pattern in Path(f"/proc/{pid}/cmdline").read_bytes():
                 found.append(pid)
     return found

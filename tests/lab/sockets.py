@@ -1,4 +1,4 @@
-"""A Jupyter Server extension for tests: /sockets lists whether each kernel websocket has TCP_NODELAY set."""
+"""A Jupyter Server extension for tests. /sockets returns whether each kernel websocket has TCP_NODELAY."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ class SocketsHandler(JupyterHandler):  # type: ignore[misc]
     """Reports the options of the server's sockets."""
 
     def get(self) -> None:
-        """Answer with one Boolean for each open kernel websocket."""
+        """Respond with a JSON list that has one Boolean for each open kernel websocket."""
         handlers = [
             it
             for it in gc.get_objects()
-            # Do not use isinstance(): it fails for a weakref.proxy whose object is gone.
+            # isinstance() would fail for a weakref.proxy whose object no longer exists.
             if issubclass(type(it), KernelWebsocketHandler) and it.ws_connection
         ]
         streams = [handler.ws_connection.stream for handler in handlers]

@@ -28,7 +28,7 @@ def home(tmp_path: Path) -> Path:
 
 
 def shell(home: Path, commands: str) -> str:
-    """Type `commands` into an interactive `course run bash`."""
+    """Type `commands` into an interactive `course run bash`, and return the output."""
     cache = {"XDG_CACHE_HOME": user_environment().get("XDG_CACHE_HOME", str(Path("~/.cache").expanduser()))}
     typed = ["script", "-qec", f"{ROOT / 'course'} run bash", "/dev/null"]
     answer = subprocess.run(
@@ -42,8 +42,8 @@ def shell(home: Path, commands: str) -> str:
     return answer.stdout
 
 
-def test_the_course_comes_before_what_bashrc_says(home: Path) -> None:
-    """Python, tools and master are those of the course; the user's aliases stay, and the prompt is marked."""
+def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
+    """The shell uses the course's Python, tools and master. The user's aliases and prompt stay."""
     look = "echo py:$(python3 -c 'print(3)') uri:$ROS_MASTER_URI ip:${ROS_IP-none}"
     seen = shell(home, f"{look}; mine; rosservice list")
     assert "py:3 uri:http://localhost:" in seen

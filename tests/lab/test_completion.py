@@ -12,8 +12,8 @@ SWITCH = (
 TAB = "\t"
 
 
-def test_tab_types_for_you(tmp_path: Path) -> None:
-    """The Tab key completes the name of a service, and then a request in which all values are zero."""
+def test_tab_completes_services_and_requests(tmp_path: Path) -> None:
+    """The Tab key completes the name of a service. Then it types a request whose values are all zero."""
     lines = [SWITCH, f"rosservice call /sw{TAB}rep{TAB}", f"rosservice call /switch/set {TAB}", "kill %1"]
     seen = shell(tmp_path, "\n".join(lines))
     assert 'message: "closed"' in seen  # the response of /switch/report

@@ -25,7 +25,7 @@ from tests.lab.commands import ROOT
 
 
 class Log:
-    """Stores warnings, as a logger does."""
+    """A logger that stores its warnings."""
 
     def __init__(self) -> None:
         self.warnings: list[str] = []
@@ -36,14 +36,14 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run `work` on a thread, because a browser of another test may block the loop of this thread."""
+    """Run `work` on another thread, because a browser of another test may block this thread's event loop."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 
 
 @contextmanager
 def server(folder: Path, *extensions: str) -> Iterator[str]:
-    """Run a stock Jupyter Server with `extensions`; yield its host and port."""
+    """Run a Jupyter Server with `extensions`; yield its host and port."""
     names = dict.fromkeys(("tests.lab.sockets", *extensions), True)
     port = free_port()
     options = ["--no-browser", "--allow-root", "--IdentityProvider.token=t", f"--ServerApp.port={port}"]
@@ -59,7 +59,7 @@ def server(folder: Path, *extensions: str) -> Iterator[str]:
 
 
 async def ask(host: str, path: str, method: str = "GET") -> object:
-    """Send a request until the server answers."""
+    """Repeat a request until the server answers, and return the JSON of the response."""
     request = HTTPRequest(f"http://{host}{path}?token=t", method=method, allow_nonstandard_methods=True)
     while True:
         try:
@@ -80,23 +80,23 @@ async def options_of_a_page(host: str) -> object:
 
 
 @pytest.mark.parametrize(("extensions", "seen"), [((), [False]), (("course_pkg.lab.extension",), [True])])
-def test_the_socket_option_is_set_by_the_extension_alone(
+def test_only_the_extension_sets_the_socket_option(
     extensions: tuple[str, ...], seen: list[bool], tmp_path: Path
 ) -> None:
-    """The stock server uses Nagle's algorithm for a kernel's websocket; with the extension it does not."""
+    """A kernel's websocket has TCP_NODELAY with the extension, and does not have it without."""
     with server(tmp_path, *extensions) as host:
         assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == seen
 
 
-def test_a_server_without_the_setting_is_left_alone() -> None:
-    """If the server has no setting for the class of a kernel's connection, one line is logged."""
+def test_a_server_without_the_setting_does_not_change() -> None:
+    """If the server has no setting for the connection's class, the extension only logs a warning."""
     log = Log()
     extension._load_jupyter_server_extension(SimpleNamespace(log=log, web_app=SimpleNamespace(settings={})))
     assert len(log.warnings) == 1
 
 
-def test_a_socket_that_takes_no_option_is_served_all_the_same() -> None:
-    """If the option cannot be set, the connection works without it, and one line is logged."""
+def test_a_connection_works_if_the_option_cannot_be_set() -> None:
+    """If the option cannot be set, the connection works without it, and a warning is logged."""
 
     class Stock:
         log, websocket_handler, connected = Log(), object(), False
@@ -112,7 +112,7 @@ def test_a_socket_that_takes_no_option_is_served_all_the_same() -> None:
 
 @pytest.fixture
 def kept(tmp_path: Path) -> CachedCheckpoints:
-    """Create checkpoints of a folder with two notebooks of the same name."""
+    """Return a store of checkpoints for a checkout with two notebooks of the same name."""
     for chapter in ("notebooks", "solutions"):
         folder = tmp_path / "checkout" / chapter
         folder.mkdir(parents=True)
@@ -126,8 +126,8 @@ def make(kept: CachedCheckpoints, path: str) -> None:
     completed(kept.create_checkpoint(manager, path))
 
 
-def test_two_of_one_name_do_not_meet(kept: CachedCheckpoints, tmp_path: Path) -> None:
-    """A chapter and its solution have separate checkpoints, and none is in the checkout."""
+def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpoints, tmp_path: Path) -> None:
+    """The checkpoints of a chapter and its solution are different files, and are not in the checkout."""
     before = sorted((tmp_path / "checkout").rglob("*"))
     for chapter in ("notebooks", "solutions"):
         make(kept, f"{chapter}/05_x.ipynb")
@@ -137,33 +137,33 @@ def test_two_of_one_name_do_not_meet(kept: CachedCheckpoints, tmp_path: Path) ->
 
 
 def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
-    """A path that leads out of the checkout has no checkpoint."""
+    """The checkpoint of a path that leads out of the checkout is refused."""
     with pytest.raises(HTTPError, match="404"):
         kept.checkpoint_path("checkpoint", "../elsewhere.ipynb")
 
 
 def names(manager: CourseContents, path: str) -> set[str]:
-    """Return what the file browser lists in a folder."""
+    """Return the names that the file browser lists in a folder."""
     model = completed(manager.get(path))
     assert isinstance(model, dict)
     return {each["name"] for each in model["content"]}
 
 
-def test_the_root_folder_lists_what_a_student_works_with(tmp_path: Path) -> None:
-    """The repository's files are hidden in the root folder only; the student's own files are never hidden."""
+def test_the_root_folder_lists_only_files_for_students(tmp_path: Path) -> None:
+    """The list hides the repository's files only in the root folder, and never a student's own files."""
     for folder in (*HIDDEN, "notebooks", "figures", "workspace/src/my_arm/tests"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "my_notes.md").touch()
     manager = CourseContents(root_dir=str(tmp_path))
     assert names(manager, "") == names(manager, "/") == {"notebooks", "figures", "workspace", "my_notes.md"}
     assert names(manager, "workspace/src/my_arm") == {"tests"}
-    assert names(manager, "solutions") == set()  # a link of an author still opens it
+    assert names(manager, "solutions") == set()  # The folder is hidden, but it can be opened by its path.
     manager.everything = True
     assert names(manager, "") >= set(HIDDEN)
 
 
 def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
-    """JupyterLab finds what the kernel says about its language, so it changes nothing in the notebook."""
+    """The notebook has the kernel's language_info, so that JupyterLab does not mark it as changed."""
     said = IPythonKernel.language_info
     assert kernel_language() == said
     manager = CourseContents(root_dir=str(ROOT))
@@ -173,7 +173,7 @@ def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
 
 
 def test_every_file_of_the_repository_is_listed_or_hidden_on_purpose() -> None:
-    """A new file at the top of the repository must be in one of the two lists."""
+    """A new file in the repository's root folder must be in HIDDEN, or be meant for students."""
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     top = {path.partition("/")[0] for path in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} == {*HIDDEN, "notebooks", "figures"}

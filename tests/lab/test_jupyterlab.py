@@ -45,18 +45,18 @@ class Service:
         return json.loads(self.text(path))
 
     def kernels(self) -> Plain:
-        """Return the kernels that were started."""
+        """Return the running kernels."""
         return self.get("/api/kernels")
 
     def post(self, path: str) -> None:
-        """Create the thing at `path`: a terminal, or a checkpoint."""
+        """Send a POST request to `path`, which creates a terminal or a checkpoint."""
         request = Request(self._base + path, data=b"", headers=self._headers)  # noqa: S310
         urlopen(request, timeout=20).close()  # noqa: S310
 
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Create an empty notebook within the checkout, where the server finds it."""
+    """Create an empty notebook in the checkout, because the server opens only files in the checkout."""
     path = ROOT / "tests" / "lab" / f"empty-{os.getpid()}.ipynb"
     path.write_text(json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}))
     yield str(path)
@@ -65,7 +65,7 @@ def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start one server for all tests that change nothing in it; two extensions are installed with pip."""
+    """Start one server for all tests that do not end it. Two extensions are installed as with pip."""
     folder = tmp_path_factory.mktemp("installed")
     enabled = folder / "jupyter_server_config.d" / "sockets.json"
     front_end = folder / "labextensions" / "example" / "package.json"
@@ -80,7 +80,7 @@ def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
         yield Service(process, address)
 
 
-def test_the_address_leads_to_the_notebook_whose_kernel_is_up(served: Service, notebook: str) -> None:
+def test_the_address_opens_the_notebook_and_its_kernel_runs(served: Service, notebook: str) -> None:
     """The printed address opens the notebook, and its kernel is already running."""
     name = str(Path(notebook).relative_to(ROOT))
     assert f"/lab/tree/{name}?token=" in served.address
@@ -89,12 +89,12 @@ def test_the_address_leads_to_the_notebook_whose_kernel_is_up(served: Service, n
 
 
 def test_extensions_that_a_user_installs_are_loaded(served: Service) -> None:
-    """A server extension answers at its address, and the page loads a front-end extension."""
+    """A server extension answers at its address, and the page contains a front-end extension."""
     assert served.get("/sockets") == []
     assert "example-extension" in served.text(served.path)
 
 
-def test_each_start_opens_that_notebook_and_nothing_else(served: Service, notebook: str) -> None:
+def test_each_start_opens_only_its_notebook(served: Service, notebook: str) -> None:
     """The workspace of the page contains a tab for this notebook, and no tab of an earlier start."""
     name = f"notebook:{Path(notebook).relative_to(ROOT)}"
     with lab(str(ROOT / "notebooks" / "00_start_the_graph.ipynb")) as (process, address):
@@ -119,14 +119,14 @@ def foreign_sockets(pids: list[int]) -> list[tuple[str, int]]:
     """Return the addresses other than 127.0.0.1 on which the processes listen."""
     found = []
     for pid in pids:
-        with suppress(psutil.Error):  # it has ended meanwhile
+        with suppress(psutil.Error):  # The process may have ended.
             sockets = psutil.Process(pid).net_connections("inet")
             found += [sock.laddr for sock in sockets if sock.status == psutil.CONN_LISTEN]
     return [address for address in found if address.ip != "127.0.0.1"]
 
 
 def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Service, notebook: str) -> None:
-    """If a notebook is saved, no folder is created next to it, but its checkpoint exists."""
+    """A new checkpoint is listed, but no folder .ipynb_checkpoints is created next to the notebook."""
     at = f"/api/contents/{Path(notebook).relative_to(ROOT)}/checkpoints"
     served.post(at)
     assert [found["id"] for found in served.get(at)] == ["checkpoint"]
@@ -140,7 +140,7 @@ def test_the_terminal_is_the_courses_shell(served: Service) -> None:
 
 
 def test_the_page_asks_for_no_news_and_no_build(served: Service) -> None:
-    """JupyterLab does not look for news, updates or a build, and reads its schemas from the package."""
+    """In the default settings, JupyterLab does not fetch news and does not check for updates."""
     settings = {entry["id"]: entry for entry in served.get("/lab/api/settings")["settings"]}
     defaults = settings["@jupyterlab/apputils-extension:notification"]["schema"]["properties"]
     assert defaults["fetchNews"]["default"] == "false"
@@ -182,7 +182,7 @@ def test_a_killed_kernel_is_replaced(served: Service) -> None:
 
 
 def test_a_killed_server_ends_the_command(notebook: str) -> None:
-    """If the server dies, `course lab` ends with a status other than 0."""
+    """If the server is killed, `course lab` ends with a status other than 0, and no process is left."""
     with lab(notebook) as (process, address):
         eventually(Service(process, address).kernels)
         family = below(process)
@@ -203,8 +203,8 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
         (["/etc/hostname"], "JupyterLab serves only that folder"),
     ],
 )
-def test_what_cannot_be_is_one_clear_message_at_once(words: list[str], message: str) -> None:
-    """A busy or invalid port or address, or a missing notebook, leads to status 1 and the reason."""
+def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> None:
+    """For a wrong port, address or notebook, `course lab` prints the reason, and ends with status 1."""
     with socket.socket() as busy:
         busy.bind(("127.0.0.1", 0))
         busy.listen()
@@ -219,7 +219,7 @@ def test_what_cannot_be_is_one_clear_message_at_once(words: list[str], message: 
 
 
 def test_a_workspace_in_which_catkin_cannot_build_is_named(tmp_path: Path) -> None:
-    """JupyterLab starts even so, because only some chapters need the workspace."""
+    """`course lab` prints a warning, and starts JupyterLab, because only some chapters need the workspace."""
     folder = str(tmp_path / "my ws")
     with running("lab", "--no-browser", COURSE_WORKSPACE=folder) as process:
         assert process.stdout

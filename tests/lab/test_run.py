@@ -16,7 +16,7 @@ from tests.support import eventually
 
 
 def course_run(*words: str, text: str = "", **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end."""
+    """Run `course run` with a command to its end; `text` is the command's input."""
     env = {**user_environment(), **variables}
     return subprocess.run(
         [ROOT / "course", "run", *words], env=env, input=text, capture_output=True, text=True
@@ -25,23 +25,23 @@ def course_run(*words: str, text: str = "", **variables: str) -> subprocess.Comp
 
 @pytest.mark.parametrize(("script", "status"), [("exit 0", 0), ("exit 7", 7), ("kill -9 $$", 137)])
 def test_the_status_of_the_command_is_passed_on(script: str, status: int) -> None:
-    """The command's status becomes that of `course run`; it is 128 + n if signal n ended the command."""
+    """`course run` ends with the status of the command, or with 128 + n if signal n ended the command."""
     assert course_run("sh", "-c", script).returncode == status
 
 
-def test_every_word_reaches_the_command() -> None:
-    """Options, `--`, blanks and empty arguments are passed to the command, even --help."""
+def test_every_argument_reaches_the_command() -> None:
+    """All arguments are passed to the command, even `--`, --help, blanks and empty arguments."""
     words = ["-n", "--", "--help", "a b", "", "-1.0"]
     assert course_run("printf", "[%s]", *words).stdout == "".join(f"[{word}]" for word in words)
 
 
 def test_input_reaches_the_command() -> None:
-    """A command can read from a pipe."""
+    """The command can read the input of `course run` from a pipe."""
     assert course_run("tr", "a-z", "A-Z", text="words").stdout == "WORDS"
 
 
-def test_a_command_that_is_not_there_is_one_clear_message() -> None:
-    """The message contains the name of the command, and the status is 1."""
+def test_an_unknown_command_is_refused() -> None:
+    """The message contains the name of the command, and the exit status is 1."""
     answer = course_run("no-such-command")
     assert (answer.returncode, answer.stderr) == (
         1,
@@ -50,7 +50,7 @@ def test_a_command_that_is_not_there_is_one_clear_message() -> None:
 
 
 def test_each_command_has_a_master_of_its_own_on_this_host_only() -> None:
-    """The master listens on 127.0.0.1 only, and each command has a master of its own."""
+    """Two commands have masters at different addresses, and ROS_HOSTNAME is localhost."""
     script = "rosnode list; echo $ROS_MASTER_URI $ROS_HOSTNAME"
     first, second = (course_run("sh", "-c", script).stdout.split() for _ in range(2))
     assert first[::2] == second[::2] == ["/rosout", "localhost"]
@@ -72,8 +72,8 @@ def test_the_course_is_a_package_like_any_other() -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_reaches_the_command_and_nothing_is_left(number: signal.Signals) -> None:
-    """Ctrl-C, a kill and a closed terminal end the command, and also its master."""
+def test_a_signal_ends_the_command_and_its_master(number: signal.Signals) -> None:
+    """SIGINT, SIGTERM and SIGHUP reach the command, and afterwards no process is left."""
     script = "trap 'echo heard; exit 3' INT TERM HUP; echo up; while :; do sleep 0.05; done"
     with running("run", "bash", "-c", script) as process:
         assert process.stdout
@@ -103,15 +103,15 @@ def test_nothing_outlives_a_killed_run() -> None:
     ids=["a node", "without a parent or session", "ignores SIGTERM"],
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
-    """The processes that a command leaves in the background end after the command; then the master ends."""
-    tag = str(tmp_path)  # all these processes have it in their environment, and no other process has it
+    """When a command ends, all processes that it has left in the background end, too."""
+    tag = str(tmp_path)  # Only these processes have this text in their environment.
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []
 
 
 def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
-    """In `course run bash`, Ctrl-C ends the foreground job only, Ctrl-Z stops it, and exit ends both jobs."""
+    """In `course run bash`, Ctrl-C ends only the foreground job, Ctrl-Z stops it, and exit ends all jobs."""
     tag = f"course-run-{time.monotonic_ns()}"
     shell = pexpect.spawn(
         str(ROOT / "course"), ["run", "bash"], env={**user_environment(), "TAG": tag}, timeout=30
@@ -134,7 +134,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
         shell.expect_exact("Stopped")
         assert alive(background[0])
         assert alive(stopped[0])
-        shell.sendline("kill %2")  # with a stopped job, the first `exit` only prints a warning
+        shell.sendline("kill %2")  # because with a stopped job, the first `exit` only prints a warning
         assert all_gone(stopped)
         shell.sendline("exit 7")
         shell.expect(pexpect.EOF)
@@ -149,7 +149,7 @@ def tagged(tag: str) -> list[int]:
     """Return the processes that have `tag` in their environment."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
-        with suppress(OSError):  # it has ended, or it belongs to another user
+        with suppress(OSError):  # The process may have ended, or may belong to another user.
             if tag.encode() in environment.read_bytes():
                 found.append(int(environment.parent.name))
     return found

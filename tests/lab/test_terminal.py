@@ -27,11 +27,11 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB, CTRL_C = "\t", "\x03"
-BUSY = 240.0  # s, for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # s; the time limit for commands that take 3 s on an idle machine, such as catkin_make
 
 
 class Terminal:
-    """A terminal with the same command, environment and folder as one that JupyterLab started."""
+    """A terminal with the same command, environment and folder as a terminal of JupyterLab."""
 
     def __init__(self, pid: int) -> None:
         model = psutil.Process(pid)
@@ -49,16 +49,16 @@ class Terminal:
         self._shell.sendline(line)
 
     def keys(self, text: str) -> None:
-        """Press keys."""
+        """Press the keys of `text`, without the Enter key."""
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
-        """Wait until `text` is printed; return what was printed before it."""
+        """Wait until `text` is printed, and return the output before it."""
         self._shell.expect_exact(text)
         return str(self._shell.before)
 
     def run(self, line: str) -> str:
-        """Run a command and return what it prints."""
+        """Run a command, and return its output without control codes."""
         self.type(f"{line}; echo en''d")
         printed = self.wait_for("end\r\n").replace(PROMPT, "")
         return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", printed)
@@ -69,7 +69,7 @@ class Terminal:
 
 
 def listening(pid: int) -> set[str]:
-    """Return the addresses on which a process, or a process that it has started, listens."""
+    """Return the addresses on which a process or its child processes listen."""
     family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
     sockets = [each for process in family for each in process.net_connections("inet")]
     return {each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN}
@@ -80,7 +80,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     """Start `course lab` with a temporary folder for own packages; yield a terminal of it."""
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # a user types `course lab` in any folder
+        patch.chdir(state)  # because a user may type `course lab` in any folder
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -100,12 +100,12 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
-    """The chapters tell the reader to go to the folder that contains `notebooks`."""
+    """A terminal starts in the folder that contains `notebooks`, because the chapters say so."""
     assert Path(terminal.run("pwd").strip()) == ROOT
 
 
-def test_the_graph_is_what_roscore_starts(terminal: Terminal) -> None:
-    """The node, the services and the parameters are the same as after roscore."""
+def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
+    """The nodes, the services and the parameters are the same as after a start of roscore."""
     assert terminal.run("rosnode list").split() == ["/rosout"]
     assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
     assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]
@@ -113,16 +113,16 @@ def test_the_graph_is_what_roscore_starts(terminal: Terminal) -> None:
 
 
 def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
-    """ROS_MASTER_URI is the address of the lab's master, so a second roscore refuses to start, as usual."""
+    """A second roscore refuses to start, because a master already runs at ROS_MASTER_URI."""
     printed = terminal.run("roscore")
     assert "roscore cannot run as another roscore/master is already running" in printed
     assert terminal.environment["ROS_MASTER_URI"] in printed
 
 
 def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None:
-    """The XML-RPC server of roscpp listens on all addresses by default.
+    """A C++ node in the terminal listens only on 127.0.0.1.
 
-    The terminal's settings prevent that.
+    By default, the XML-RPC server of roscpp listens on all addresses. The terminal's settings prevent this.
     """
     node = re.findall(
         r"\d+$", terminal.run("rosrun rosout rosout __name:=of_mine > /dev/null & echo $!").strip()
@@ -152,8 +152,8 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
     assert "area: 3" in terminal.wait_for("end\r\n")
 
 
-def test_roscore_starts_where_no_master_is(terminal: Terminal) -> None:
-    """After the end of the lab's master, roscore starts a new one at the same address, with /rosout."""
+def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
+    """If the master of the lab is killed, roscore starts a new one at the same address, with /rosout."""
     uri = terminal.environment["ROS_MASTER_URI"]
     former = MasterClient(uri).pid()
     os.kill(former, signal.SIGKILL)

@@ -1,4 +1,4 @@
-"""The course's server and client, as a student meets them in a terminal."""
+"""The course's server and client, as a student uses them in a terminal."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def server() -> Iterator[NodeProcess]:
 
 
 def test_rosservice_call(server: NodeProcess) -> None:
-    """`rosservice call` prints area 6.24 and volume 55.54."""
+    """`rosservice call` prints area 6.24 and volume 55.54, and the server logs the request."""
     done = terminal("rosservice", "call", "/getGeometry", "1.2", "5.2", "8.9")
     assert done.returncode == 0
     values = dict(line.split(": ") for line in done.stdout.splitlines())
@@ -42,7 +42,7 @@ def test_client_prints_area_and_volume(server: NodeProcess) -> None:
 
 
 def test_rossrv_show() -> None:
-    """The tools rossrv and rosservice show the type."""
+    """The tool rossrv shows the fields of the type."""
     assert "float32 length" in terminal("rossrv", "show", "geometry").stdout
 
 
@@ -63,21 +63,24 @@ def test_client_with_a_wrong_line(words: list[str]) -> None:
     ],
 )
 def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], told: str) -> None:
-    """The server refuses an invalid side and names it; the client prints the message and exits with 1."""
+    """The server refuses an invalid side. The client prints the server's message, and exits with status 1."""
     done = terminal("rosrun", "course_pkg", "client", *sides)
     assert done.returncode == 1
     assert f"service cannot process request: {told}" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_number_that_no_float32_holds(server: NodeProcess) -> None:
-    """A number that cannot be sent is named, without a traceback."""
+def test_number_that_does_not_fit_into_a_float32(server: NodeProcess) -> None:
+    """The client's message contains the number, and there is no traceback."""
     done = terminal("rosrun", "course_pkg", "client", "1e39", "1", "1")
-    assert (done.returncode, done.stderr) == (2, "1e+39 is more than a float32 can hold.\n")
+    assert (done.returncode, done.stderr) == (
+        2,
+        "1e+39 does not fit into a float32. Give a smaller number.\n",
+    )
 
 
 def test_client_without_a_server() -> None:
-    """Without a server the client waits for 5 s, prints one line, and exits with 1."""
+    """Without a server, the client waits for 5 s, prints the timeout, and exits with status 1."""
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3")
     assert done.returncode == 1
     assert "timeout exceeded while waiting for service /getGeometry" in done.stderr
@@ -85,7 +88,7 @@ def test_client_without_a_server() -> None:
 
 
 def test_client_without_a_master() -> None:
-    """Without a master the client prints this at once, and exits with 1."""
+    """Without a master, the client prints an error message within 5 s, and exits with status 1."""
     started = time.monotonic()
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3", ROS_MASTER_URI="http://localhost:1")
     assert done.returncode == 1
@@ -94,7 +97,7 @@ def test_client_without_a_master() -> None:
 
 
 def test_remapping(master: PrivateMaster) -> None:
-    """Name and service of the server can be remapped, and the client accepts remappings as arguments."""
+    """The names of the server's node and service can be remapped, and the client accepts remappings, too."""
     command = ["rosrun", "course_pkg", "server", "__name:=other", "getGeometry:=/measure"]
     with NodeProcess(command) as process:
         process.wait_for_service("/measure")
@@ -106,8 +109,8 @@ def test_remapping(master: PrivateMaster) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_server_ends_when_told(server: NodeProcess, master: PrivateMaster, number: signal.Signals) -> None:
-    """Ctrl-C and kill end the server quickly, without a traceback, and unregister it."""
+def test_a_signal_ends_the_server(server: NodeProcess, master: PrivateMaster, number: signal.Signals) -> None:
+    """After SIGINT or SIGTERM, the server ends within 2 s without a traceback, and is unregistered."""
     started = time.monotonic()
     os.kill(server.pid, number)
     assert server.wait(5) == 0
@@ -117,7 +120,7 @@ def test_server_ends_when_told(server: NodeProcess, master: PrivateMaster, numbe
 
 
 def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A server that has found no master yet ends on Ctrl-C, too, without a traceback."""
+    """A server that still waits for a master ends after Ctrl-C without a traceback."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         eventually(lambda: "Waiting for one" in process.output())
@@ -145,5 +148,5 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     ],
 )
 def test_reading_the_sides(words: list[str], sides: tuple[float, float, float] | None) -> None:
-    """Three numbers in any notation of Python are accepted, other arguments are refused."""
+    """Three numbers in any notation of Python are accepted. Other arguments give None."""
     assert read_sides(words) == sides

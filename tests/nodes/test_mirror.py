@@ -1,4 +1,4 @@
-"""The robot publishes its joint states, and the simulator publishes them mirrored."""
+"""The robot publishes its joint states, and the simulator publishes their mirror images."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def simulator() -> Iterator[NodeProcess]:
         yield process
 
 
-def test_a_stance_is_where_the_joints_are_and_how_fast_they_move() -> None:
-    """The velocity is the change of the position; the motion has no jumps and stays within its limits."""
+def test_a_joint_state_has_matching_positions_and_velocities() -> None:
+    """The velocity is the derivative of the position, and each position stays within the joint's limits."""
     step = 1e-5
     for at in (0.0, 0.7, 3.1, 100.0):
         now, soon = joint_state(at), joint_state(at + step)
@@ -51,8 +51,8 @@ def test_a_stance_is_where_the_joints_are_and_how_fast_they_move() -> None:
             assert abs(here - joint.middle) <= joint.reach
 
 
-def test_a_mirror_turns_signs_and_leaves_the_message_alone() -> None:
-    """Time and names stay; the received message is not changed, because other callbacks share it."""
+def test_the_mirror_image_has_the_opposite_signs() -> None:
+    """Time and names stay. The received message does not change, because other callbacks use it, too."""
     message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
     message.header.stamp.secs = 7
     shown = mirrored(message)
@@ -66,32 +66,35 @@ def test_a_mirror_turns_signs_and_leaves_the_message_alone() -> None:
     [
         (JointState(name=["a", "b"], position=[1.0]), "1 positions for 2 joints"),
         (JointState(name=[], position=[1.0]), "1 positions for 0 joints"),
-        (JointState(name=["a"], position=[math.nan]), "one of the positions is no finite number"),
-        (JointState(name=["a"], position=[math.inf]), "one of the positions is no finite number"),
+        (JointState(name=["a"], position=[math.nan]), "one of the positions is not a finite number"),
+        (JointState(name=["a"], position=[math.inf]), "one of the positions is not a finite number"),
         (JointState(name=["a"], position=[1.0], velocity=[1.0, 2.0]), "2 velocities for 1 joints"),
-        (JointState(name=["a"], position=[1.0], velocity=[math.nan]), "one of the velocities is no finite"),
+        (
+            JointState(name=["a"], position=[1.0], velocity=[math.nan]),
+            "one of the velocities is not a finite",
+        ),
     ],
 )
-def test_what_is_no_stance_is_refused(odd: JointState, told: str) -> None:
-    """Wrong lengths and values that are no numbers give an error message."""
+def test_an_invalid_joint_state_is_refused(odd: JointState, told: str) -> None:
+    """Wrong lengths and values that are not finite numbers raise an error."""
     with pytest.raises(ValueError, match=told):
         mirrored(odd)
 
 
 @pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
-def test_what_says_little_is_a_stance_all_the_same(fine: JointState) -> None:
-    """A state without joints, or without velocities, is published unchanged."""
+def test_a_joint_state_may_have_no_joints_or_no_velocities(fine: JointState) -> None:
+    """A state without joints and a state without velocities are valid."""
     assert len(mirrored(fine).position) == len(fine.name)
 
 
-def test_the_robot_speaks_whether_or_not_anybody_listens(kernel: Kernel) -> None:
-    """States are published at the given rate, each with a slightly later time."""
+def test_the_robot_publishes_at_its_rate(kernel: Kernel) -> None:
+    """The robot publishes states at the given rate, with increasing times and without jumps of the joints."""
     kernel.run(LISTEN)
     with NodeProcess(["rosrun", "course_pkg", "robot", "_rate:=100"]):
         kernel.run("heard = node.subscribe('/joint_states', JointState).wait(50, timeout=20)")
     stamps = kernel.run("result = [message.header.stamp.to_sec() for message in heard]")
     assert stamps == sorted(stamps)
-    assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05  # as by default, at 20 Hz
+    assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05  # 0.05 s would be the default, 20 Hz
     jumps = kernel.run(
         "result = [max(abs(b - a) for a, b in zip(one.position, next.position))"
         " for one, next in zip(heard, heard[1:])]"
@@ -99,8 +102,8 @@ def test_the_robot_speaks_whether_or_not_anybody_listens(kernel: Kernel) -> None
     assert 0 < max(jumps) < 0.5
 
 
-def test_the_simulator_shows_every_stance_and_draws_meanwhile(simulator: NodeProcess, kernel: Kernel) -> None:
-    """States are mirrored in their order, while the simulator also draws pictures."""
+def test_the_simulator_mirrors_every_state_while_it_draws(simulator: NodeProcess, kernel: Kernel) -> None:
+    """The simulator publishes the mirror images in order, and draws pictures at the same time."""
     kernel.run(LISTEN)
     kernel.run(
         "shown, pictures = node.subscribe('/mirrored_joints', JointState),"
@@ -115,8 +118,8 @@ def test_the_simulator_shows_every_stance_and_draws_meanwhile(simulator: NodePro
     assert kernel.run("result = pictures.wait(3, timeout=10)[2].data") >= 3
 
 
-def test_an_odd_message_is_left_out_and_the_next_is_shown(simulator: NodeProcess, kernel: Kernel) -> None:
-    """Invalid states are reported now and then, and the node continues."""
+def test_an_invalid_message_is_ignored(simulator: NodeProcess, kernel: Kernel) -> None:
+    """The node prints one warning about several invalid states, and mirrors the next valid state."""
     kernel.run(LISTEN)
     kernel.run(
         "shown = node.subscribe('/mirrored_joints', JointState); connected(shown._subscriber)\n"
@@ -125,12 +128,12 @@ def test_an_odd_message_is_left_out_and_the_next_is_shown(simulator: NodeProcess
         "    say.publish(JointState(name=['a'], position=position))"
     )
     assert kernel.run("result = [list(message.position) for message in shown.wait(1)]") == [[-3.0]]
-    eventually(lambda: simulator.output().count("Not shown: 0 positions for 1 joints") == 1)
+    eventually(lambda: simulator.output().count("joint state: 0 positions for 1 joints") == 1)
     assert "Traceback" not in simulator.output()
 
 
 def test_the_launch_file_starts_both(kernel: Kernel) -> None:
-    """The launch file has an argument for the rate, and one that omits the simulator."""
+    """The launch file has an argument for the rate, and an argument that omits the simulator."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch("course_pkg", "mirror.launch", "rate:=50"):
         kernel.run("shown = node.subscribe('/mirrored_joints', JointState).wait(20, timeout=20)")
@@ -143,8 +146,8 @@ def test_the_launch_file_starts_both(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("program", ["robot", "simulator"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_they_end_when_told(program: str, number: signal.Signals, master: PrivateMaster) -> None:
-    """Ctrl-C and kill end both nodes without a traceback, and unregister them."""
+def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: PrivateMaster) -> None:
+    """After SIGINT or SIGTERM, each node ends without a traceback, and is unregistered."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(f"/{program}/get_loggers")
         os.kill(process.pid, number)
@@ -160,8 +163,8 @@ def test_they_end_when_told(program: str, number: signal.Signals, master: Privat
         (("simulator", "_drawing:=0"), "/simulator/drawing is 0"),
     ],
 )
-def test_a_parameter_that_cannot_be(command: tuple[str, ...], told: str) -> None:
-    """The message names the parameter and its limits, and the program ends with status 1."""
+def test_an_invalid_parameter_is_refused(command: tuple[str, ...], told: str) -> None:
+    """The message names the parameter and its value, and the program ends with status 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert told in process.output()

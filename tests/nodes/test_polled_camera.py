@@ -1,4 +1,4 @@
-"""The camera that takes a picture for each call."""
+"""The node `polled_camera` takes a picture for each call."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def camera() -> Iterator[NodeProcess]:
 
 
 def take(width: int = 0, height: int = 0) -> PolledImageResponse:
-    """Take a picture."""
+    """Call the camera's service, and return its response."""
     return BoundedProxy("/request_image", PolledImage)(width, height)
 
 
@@ -34,8 +34,8 @@ def take(width: int = 0, height: int = 0) -> PolledImageResponse:
 @pytest.mark.parametrize(
     ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
 )
-def test_a_picture_is_what_it_says(asked: tuple[int, int], size: tuple[int, int]) -> None:
-    """The picture has the requested size, the camera's own size for 0; it shows the shop."""
+def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[int, int]) -> None:
+    """The picture has the requested size, or the camera's usual size for 0, and shows the customers."""
     taken = take(*asked)
     image = taken.image
     assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")
@@ -48,16 +48,16 @@ def test_a_picture_is_what_it_says(asked: tuple[int, int], size: tuple[int, int]
     ("asked", "words"),
     [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
 )
-def test_a_size_that_cannot_be_is_refused(asked: tuple[int, int], words: str) -> None:
-    """The message names the limits, and the next call works."""
+def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> None:
+    """The error message names the limits, and the next call works."""
     with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
         take(*asked)
     assert take().image.data
 
 
 @pytest.mark.usefixtures("camera")
-def test_it_shows_who_is_at_the_counter() -> None:
-    """While shop_camera runs, the picture shows its customers; otherwise the node's own shop."""
+def test_a_picture_shows_the_customers_at_the_counter() -> None:
+    """While shop_camera runs, the picture shows its customers. Without it, the number is random."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):
@@ -66,8 +66,8 @@ def test_it_shows_who_is_at_the_counter() -> None:
     assert 0 <= take().customers <= 5
 
 
-def test_the_first_picture_is_of_the_shop_that_is_there() -> None:
-    """A camera that starts while customers are present does not show its own shop first."""
+def test_even_the_first_picture_shows_the_customers() -> None:
+    """If the camera starts while customers are present, its first picture shows their number."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         BoundedProxy("/let_in", LetIn)(after=[0.0] * 9, stay=600.0)
@@ -76,8 +76,8 @@ def test_the_first_picture_is_of_the_shop_that_is_there() -> None:
             assert take().customers == 9
 
 
-def test_it_can_stream() -> None:
-    """With _stream:= it also publishes pictures of its own size, and still answers calls."""
+def test_the_camera_can_publish_a_stream() -> None:
+    """With `_stream:=30`, the camera publishes pictures of its usual size, and still answers calls."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", "_stream:=30"]) as process:
         process.wait_for_service("/request_image")
         heard = terminal("rostopic", "echo", "-n", "2", "--noarr", "/image")
@@ -86,8 +86,8 @@ def test_it_can_stream() -> None:
 
 
 @pytest.mark.parametrize("settings", [[], ["_stream:=30"]])
-def test_it_ends_when_told(settings: list[str], master: PrivateMaster) -> None:
-    """Ctrl-C ends it without a traceback, and unregisters it."""
+def test_an_interrupt_ends_the_camera(settings: list[str], master: PrivateMaster) -> None:
+    """After SIGINT, the camera ends without a traceback, and is unregistered."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", *settings]) as process:
         process.wait_for_service("/request_image")
         os.kill(process.pid, signal.SIGINT)

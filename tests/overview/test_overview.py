@@ -1,4 +1,4 @@
-"""The overview of a student's progress: what counts, what is next, and how it is shown and exported."""
+"""The overview of a student's progress: its counts, the next steps, and its output formats."""
 
 from __future__ import annotations
 
@@ -26,24 +26,24 @@ from tests.setup.test_course import course
 
 @pytest.fixture
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Give the course an empty state folder."""
+    """Make the course use an empty state folder, and return this folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return tmp_path / "state"
 
 
 def store(verdict: str, *checks: str) -> None:
-    """Store a result of each check."""
+    """Store the result `verdict` for each check."""
     for check in checks:
         StudentRecord().store(check, {"check": check, "verdict": verdict})
 
 
 def complete(chapter: str) -> None:
-    """Pass all parts of a chapter."""
+    """Store that all parts of a chapter have passed."""
     store("passed", *(part.check for part in parts_of(chapter)))
 
 
 def predicted(key: str, answer: str, actual: str) -> None:
-    """Make a prediction and compare it."""
+    """Make the prediction `answer`, and compare it with the result `actual`."""
     model = PredictionModel(key, "What does the client see?", (), PredictionStore())
     model.answer(answer)
     model.compare(actual)
@@ -51,7 +51,7 @@ def predicted(key: str, answer: str, actual: str) -> None:
 
 @pytest.mark.usefixtures("state")
 def test_at_the_beginning_the_first_chapter_is_next() -> None:
-    """Nothing is stored yet: each chapter is listed, and the first one is named."""
+    """Without any records, the overview lists all chapters, and the next step is chapter 00."""
     text = str(progress())
     assert text.startswith("Your progress: 0 of ")
     assert [number for number in chapters() if f"\n  {number}  {title_of(number)}" not in text] == []
@@ -61,7 +61,7 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_parts_points_and_predictions_are_counted() -> None:
-    """A part that passed once counts; so does a prediction that was made before the result was known."""
+    """The overview counts a part that passed once, and only predictions made before the result was known."""
     store("passed", "05.1", "05.2")
     store("not yet", "05.2", "05.3")
     predicted("05.none", "an error", "an error")
@@ -92,7 +92,7 @@ def test_parts_points_and_predictions_are_counted() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
-    """A chapter that is complete already, or that is on no path of this chapter, is left out."""
+    """The next steps leave out complete chapters, and paths without the current chapter."""
     complete("00")
     text = " ".join(str(progress()).split())
     assert "Next: Chapter 01, Name things and find them, for the whole course" in text
@@ -106,22 +106,22 @@ def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_at_the_end_there_is_nothing_left() -> None:
-    """All parts are passed."""
+    """If all parts are passed, the overview says so in place of a next step."""
     for number in chapters():
         complete(number)
     assert "Next: You have passed all parts of the course." in str(progress())
 
 
 @pytest.mark.usefixtures("state")
-def test_no_chapter_of_this_number_is_one_message() -> None:
-    """The message names the chapters that there are; a number without its zero is understood."""
-    with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give one from 00 to 16"):
+def test_an_unknown_chapter_is_refused() -> None:
+    """The message names the first and the last chapter. A number without its zero is accepted."""
+    with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give a number from 00 to 16"):
         progress("99")
     assert str(progress("5")) == str(progress("05"))
 
 
-def test_what_cannot_be_read_is_named_once_and_the_rest_is_shown(state: Path) -> None:
-    """Damaged results and predictions are messages in each form of the overview, and in no case an error."""
+def test_damaged_records_are_reported_and_the_others_are_shown(state: Path) -> None:
+    """Each form of the overview has a message for each damaged file, and shows all other records."""
     store("passed", "05.1", "05.2")
     (state / "results-2" / "05.2.json").write_text("{")
     (state / "predictions-2.json").write_text('{"05.none": {"key": 5, "question": null}}')
@@ -137,8 +137,8 @@ def test_what_cannot_be_read_is_named_once_and_the_rest_is_shown(state: Path) ->
 
 
 @pytest.mark.usefixtures("state")
-def test_nothing_that_the_student_stored_becomes_markup_or_a_formula() -> None:
-    """A student may share the page or the table, and may have changed the record."""
+def test_stored_text_cannot_become_markup_or_a_formula() -> None:
+    """A changed record cannot add a script to the page or a formula to the table."""
     StudentRecord().store("05.1", {"check": "05.1", "verdict": "<script>alert(1)</script>"})
     PredictionModel("05.x", "=1+<script>", (), PredictionStore()).answer("yes")
     overview = progress("05")
@@ -150,13 +150,13 @@ def test_nothing_that_the_student_stored_becomes_markup_or_a_formula() -> None:
 
 
 def rows(text: str) -> list[dict[str, str]]:
-    """Return the rows of a table in CSV."""
+    """Return the rows of a CSV table."""
     return list(csv.DictReader(StringIO(text)))
 
 
 @pytest.mark.usefixtures("state")
 def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
-    """Every part of the course is in the table, with its result and its times."""
+    """The table contains every part of the course, with its result and its times."""
     store("passed", "05.1")
     store("not yet", "05.1")
     predicted("05.none", "two", "one")
@@ -171,7 +171,7 @@ def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
 
 
 class Tags(HTMLParser):
-    """Collects the tags of a page with their attributes, and asserts that they are closed in order."""
+    """Collects the tags of a page with their attributes, and asserts that each tag is closed in order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -181,19 +181,19 @@ class Tags(HTMLParser):
         assert self.open == []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note a tag."""
+        """Store a tag, and that it is open."""
         self.found.append((tag, dict(attrs)))
         if tag != "meta":
             self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Close a tag."""
+        """Assert that this tag was opened last."""
         assert self.open.pop() == tag
 
 
 @pytest.mark.usefixtures("state")
-def test_the_page_needs_nothing_else() -> None:
-    """The exported page contains its style, and neither a script nor an address."""
+def test_the_page_needs_no_other_files() -> None:
+    """The exported page contains its style, but no scripts, links or pictures."""
     store("passed", "05.1")
     tags = Tags(page(progress().progress)).found
     names = {name for name, _ in tags}
@@ -204,7 +204,7 @@ def test_the_page_needs_nothing_else() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
-    """The output of a cell links to the notebooks beside it."""
+    """The output of a cell has a link to each notebook in the same folder."""
     bundle = progress()._repr_mimebundle_()
     assert bundle["text/plain"] == str(progress())
     links = {attributes["href"] for name, attributes in Tags(bundle["text/html"]).found if name == "a"}
@@ -212,8 +212,8 @@ def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
 
 
 @pytest.mark.usefixtures("state")
-def test_a_recap_shows_the_row_of_its_chapter() -> None:
-    """The table at the end of a chapter has the progress in it; its text is the same for every student."""
+def test_the_table_of_predictions_shows_the_progress_in_its_chapter() -> None:
+    """The panel shows the progress, but its plain text is the same for every student."""
     before = repr(predictions("05"))
     store("passed", "05.1")
     store("not yet", "05.2")
@@ -225,16 +225,16 @@ def test_a_recap_shows_the_row_of_its_chapter() -> None:
     assert predictions().row == {}
 
 
-def test_a_recap_works_with_damaged_records(state: Path) -> None:
-    """A damaged result is a message in the row, and no error in the cell."""
+def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> None:
+    """The table shows a message about a damaged record, and the cell raises no error."""
     store("passed", "05.1")
     (state / "results-2" / "05.1.json").write_text("{")
     assert "05.1" in predictions("05").row["problems"][0]
 
 
 @pytest.mark.usefixtures("state")
-def test_a_chapter_without_checks_has_no_row() -> None:
-    """The sandbox of a graded notebook hides the checks; the recap then shows the predictions only."""
+def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
+    """The sandbox of a graded notebook hides the checks. The table then shows only the predictions."""
     panel = predictions("77")
     assert isinstance(panel, Predictions)
     assert panel.row == {}
@@ -242,7 +242,7 @@ def test_a_chapter_without_checks_has_no_row() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> None:
-    """The package and the notebook agree, so that the overview links to the right file."""
+    """The package has the same title and file name as the notebook, so that the links are correct."""
     first = read(path)["cells"][0]["source"].splitlines()[0]
     assert first == f"# {title_of(path.name[:2])}"
     assert notebook_of(path.name[:2]) == path.name
@@ -261,8 +261,8 @@ def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
     assert Path(names[1]).read_text().startswith("<!doctype html>")
 
 
-def test_an_export_that_cannot_be_written_is_one_message(state: Path, tmp_path: Path) -> None:
-    """The message names the file, and an unknown chapter the chapters that there are."""
+def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None:
+    """The message names a file that cannot be written, or an unknown chapter."""
     refused = course("progress", "--csv", str(tmp_path), COURSE_STATE=str(state))
     assert refused.returncode == 1
     assert refused.stderr.startswith(f"course: {tmp_path} cannot be written")
@@ -271,7 +271,7 @@ def test_an_export_that_cannot_be_written_is_one_message(state: Path, tmp_path: 
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """A record that another kernel has written since stays."""
+    """If two kernels each store a prediction, the file contains both."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

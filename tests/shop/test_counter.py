@@ -1,4 +1,4 @@
-"""Customers come and leave at the planned times."""
+"""Customers come to the counter and leave it at the planned times."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def test_customers_come_and_go() -> None:
 
 
 def test_numbers_follow_the_order_of_coming() -> None:
-    """The first customer has the lowest number, for any order of the arguments."""
+    """The customer who comes first has the lowest number, for any order of the arguments."""
     visits = Counter(7).let_in(0.0, [3.0, 1.0, 2.0], stay=1.0)
     assert [(visit.number, visit.comes) for visit in visits] == [(7, 1.0), (8, 2.0), (9, 3.0)]
 
 
-def test_a_new_day_drops_those_still_to_come() -> None:
-    """Present customers stay, future ones are removed, and no number is used twice."""
+def test_a_second_call_removes_future_customers() -> None:
+    """Customers at the counter stay, future customers are removed, and no number is used twice."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)
@@ -37,16 +37,16 @@ def test_a_new_day_drops_those_still_to_come() -> None:
     assert [counter.there(now) for now in (1.0, 2.0, 5.0, 10.0)] == [(1,), (1, 3), (1,), ()]
 
 
-def test_nobody_can_be_let_in() -> None:
-    """An empty list removes all future customers."""
+def test_an_empty_list_of_customers_is_accepted() -> None:
+    """A call with an empty list removes all future customers."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     assert counter.let_in(0.5, [], stay=0.0) == []
     assert counter.next_change(0.5) == math.inf
 
 
-def test_the_next_change_is_told() -> None:
-    """It is the next arrival or departure."""
+def test_the_next_change_is_the_next_arrival_or_departure() -> None:
+    """`next_change` returns the times of all arrivals and departures in order, and then infinity."""
     counter = Counter()
     counter.let_in(0.0, [1.0, 1.5], stay=1.0)
     changes = [0.0]
@@ -56,8 +56,8 @@ def test_the_next_change_is_told() -> None:
 
 
 @pytest.mark.parametrize("wrong", [-0.1, math.nan, math.inf, 1e9])
-def test_a_time_that_cannot_be_is_refused(wrong: float) -> None:
-    """The error names the mistake, and nothing has changed."""
+def test_an_impossible_time_is_refused(wrong: float) -> None:
+    """The error names the field, and the planned visits do not change."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     with pytest.raises(FieldError, match=r"after\[1\]"):
@@ -67,7 +67,7 @@ def test_a_time_that_cannot_be_is_refused(wrong: float) -> None:
     assert (counter.there(0.0), counter.there(1.5), counter.number) == ((), (1,), 2)
 
 
-def test_a_crowd_is_refused() -> None:
-    """Too many customers for the camera are refused with their number."""
+def test_too_many_customers_are_refused() -> None:
+    """The error names the number of customers and the limit."""
     with pytest.raises(FieldError, match="1001 customers are too many; expected at most 1000"):
         Counter().let_in(0.0, [0.0] * 1001, stay=1.0)

@@ -1,4 +1,4 @@
-"""The picture of the shop shows each customer at any size, and a frame shows whether there is one."""
+"""A picture of the shop shows each customer, and a frame shows whether there is a customer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from course_pkg.shop.pictures import (
 
 
 def figures(width: int, height: int, customers: int, y: float) -> int:
-    """Count the differently coloured segments in one row of a picture."""
+    """Return the number of coloured segments in one row of a picture, which is the number of customers."""
     data = shop_picture(width, height, customers)
     start = 3 * width * int(y * height)
     row = [tuple(data[place : place + 3]) for place in range(start, start + 3 * width, 3)]
@@ -30,20 +30,20 @@ def figures(width: int, height: int, customers: int, y: float) -> int:
 @pytest.mark.parametrize("customers", range(MOST + 1))
 @pytest.mark.parametrize("y", [0.3, 0.55])
 def test_each_customer_is_seen(customers: int, y: float) -> None:
-    """Heads and coats can be counted, because there is a gap between neighbours."""
+    """A row of the picture has one coloured segment for each customer, with gaps between them."""
     assert figures(320, 240, customers, y) == customers
 
 
 @pytest.mark.parametrize("size", [(16, 16), (17, 400), (1280, 16), (320, 240)])
 @pytest.mark.parametrize("customers", [0, 1, 5, 1000])
-def test_any_size_has_all_its_points(size: tuple[int, int], customers: int) -> None:
-    """A picture has three bytes for each point, at any size and with any number of customers."""
+def test_a_picture_has_all_its_points_at_any_size(size: tuple[int, int], customers: int) -> None:
+    """A picture has three bytes for each point, for any size and any number of customers."""
     width, height = size
     assert len(shop_picture(width, height, customers)) == 3 * width * height
 
 
 def test_the_same_shop_is_the_same_picture() -> None:
-    """A picture depends only on the arguments, so that it can be stored and compared."""
+    """A picture depends only on its arguments, so that a program can store and compare it."""
     assert shop_picture(64, 48, 3) == shop_picture(64, 48, 3)
     assert shop_picture(64, 48, 3) != shop_picture(64, 48, 2)
 
@@ -56,8 +56,8 @@ def frame(
 
 
 @pytest.mark.parametrize("customers", [0, 1, 2, 3, 12])
-def test_whoever_is_drawn_is_seen(customers: int) -> None:
-    """The course's camera follows the rule of its specification."""
+def test_the_customers_in_a_frame_are_seen(customers: int) -> None:
+    """`sees_customer` is true for a frame of the course's camera exactly if it has customers."""
     points = frame_points(customers)
     assert len(points) == WIDTH * HEIGHT
     assert sees_customer(frame(points)) is (customers > 0)
@@ -65,12 +65,12 @@ def test_whoever_is_drawn_is_seen(customers: int) -> None:
 
 @pytest.mark.parametrize(("dark", "seen"), [(9, False), (10, True), (11, True)])
 def test_a_tenth_of_dark_points_is_enough(dark: int, seen: bool) -> None:
-    """At least a tenth of the values are below 96."""
+    """A frame shows a customer if at least a tenth of its points are below 96."""
     assert sees_customer(frame(bytes([95] * dark + [96] * (100 - dark)), 10, 10)) is seen
 
 
-def test_what_fills_up_a_row_is_no_point() -> None:
-    """Rows may have padding."""
+def test_the_padding_of_a_row_is_ignored() -> None:
+    """If the step is larger than the width, the bytes after the width do not count as points."""
     light, dark = bytes([200] * 10 + [0] * 6), bytes([0] * 10 + [255] * 90)
     assert not sees_customer(frame(light * 10, 10, 10, step=16))
     assert sees_customer(frame(dark, 10, 1, step=100))
@@ -87,7 +87,7 @@ def test_what_fills_up_a_row_is_no_point() -> None:
         frame(bytes(90), 10, 10, step=9),
     ],
 )
-def test_what_is_malformed_is_no_question(broken: SimpleNamespace) -> None:
-    """A malformed frame raises an error."""
+def test_a_malformed_frame_is_refused(broken: SimpleNamespace) -> None:
+    """A malformed frame raises ValueError with a message."""
     with pytest.raises(ValueError, match=r"\w"):
         sees_customer(broken)

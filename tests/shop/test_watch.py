@@ -1,4 +1,4 @@
-"""A camera's news reaches all waiting threads at once."""
+"""A Watch and an Eye process the messages of a camera, and notify all waiting threads."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from tests.support import eventually
 FOR_EVER = 60.0  # s: longer than any test
 
 
-def test_who_comes_is_told_once() -> None:
-    """A customer is new in the first message that contains them; the time of this message is kept."""
+def test_a_new_customer_is_returned_once() -> None:
+    """A customer is new in the first message that contains them, and gets the time of this message."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -28,8 +28,8 @@ def test_who_comes_is_told_once() -> None:
     assert (watch.next(), watch.next(4), watch.count) == (Customer(4, 1), Customer(5, 2), 2)
 
 
-def test_who_goes_is_forgotten() -> None:
-    """A customer who has left is not returned; one who comes back is new."""
+def test_a_customer_who_has_left_is_forgotten() -> None:
+    """A customer who has left is not returned any more. A customer who comes back is new."""
     watch = Watch()
     watch.see([1])
     watch.see([])
@@ -37,8 +37,8 @@ def test_who_goes_is_forgotten() -> None:
     assert [customer.number for customer in watch.see([1])] == [1]
 
 
-def test_one_who_goes_as_another_comes() -> None:
-    """A new customer is found even if the number of customers is unchanged."""
+def test_one_customer_replaces_another() -> None:
+    """A new customer is found even if the number of customers stays the same."""
     watch = Watch()
     watch.see([1])
     watch.see([2])
@@ -46,8 +46,8 @@ def test_one_who_goes_as_another_comes() -> None:
     assert watch.next(1) == watch.next()
 
 
-def test_a_wait_ends_at_once_where_somebody_is_there() -> None:
-    """A thread does not wait if a customer is there already."""
+def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
+    """`wait` returns immediately if there is a customer already."""
     watch = Watch()
     watch.see([3])
     customer = watch.wait(0, FOR_EVER, FOR_EVER)
@@ -55,8 +55,8 @@ def test_a_wait_ends_at_once_where_somebody_is_there() -> None:
     assert customer.number == 3
 
 
-def test_all_who_wait_are_woken() -> None:
-    """Each thread gets the customer for whom it waits."""
+def test_all_waiting_threads_are_notified() -> None:
+    """Each thread returns with the customer for whom it waits, and other threads continue to wait."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -73,8 +73,8 @@ def _number(future: Future[Customer | None]) -> int | None:
     return customer.number if customer else None
 
 
-def test_a_wait_ends_with_its_patience() -> None:
-    """The result is None, not before the end of the time."""
+def test_a_wait_without_a_customer_ends_after_its_time() -> None:
+    """`wait` returns None, but not before `patience` s have passed."""
     watch = Watch()
     watch.see([])
     began = time.monotonic()
@@ -83,10 +83,10 @@ def test_a_wait_ends_with_its_patience() -> None:
 
 
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
-    """A wait ends if the camera is silent, and its last message does not count as new."""
+    """`wait` raises CameraSilent if the camera has sent no message, or no message for `silence` s."""
     watch = Watch()
     with pytest.raises(CameraSilent):
-        watch.wait(0, FOR_EVER, silence=5.0)  # it has never published anything
+        watch.wait(0, FOR_EVER, silence=5.0)  # The camera has never published a message.
     watch.see([1])
     eventually(lambda: watch.silent_for > 0.05)
     with pytest.raises(CameraSilent):
@@ -94,7 +94,7 @@ def test_a_wait_ends_when_the_camera_is_silent() -> None:
 
 
 def sees(frame: str) -> bool:
-    """Look at a frame that is text."""
+    """Return whether a frame shows a customer; in these tests, a frame is a text."""
     if frame == "malformed":
         raise ValueError(frame)
     return frame == "somebody"
@@ -102,12 +102,12 @@ def sees(frame: str) -> bool:
 
 @pytest.fixture
 def eye() -> Eye:
-    """Return a detector that has seen no frame."""
+    """Return an Eye that has received no frame."""
     return Eye(sees)
 
 
 def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
-    """A malformed frame reports no customer, and ends the last report."""
+    """A malformed frame does not change the result of the last valid frame."""
     seen = [eye.look()]
     for frame in ("somebody", "malformed", "nobody", "malformed"):
         eye.hear(frame)
@@ -115,8 +115,8 @@ def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
     assert seen == [None, True, True, False, False]
 
 
-def test_knowledge_grows_old(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a valid frame for a while, the result is unknown."""
+def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
+    """If the newest valid frame is older than FRAME_TIMEOUT, the result is None."""
     eye.hear("somebody")
     monkeypatch.setattr(module, "FRAME_TIMEOUT", -1.0)
     eye.hear("malformed")
@@ -124,13 +124,13 @@ def test_knowledge_grows_old(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
-    """A customer is found even with a timeout of 0 s."""
+    """If a customer is there, `await_customer` returns True even with a time limit of 0 s."""
     eye.hear("somebody")
     assert await_customer(eye, 0.0) is True
 
 
 def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
-    """All waiting threads continue, and frames without a customer do not end their wait."""
+    """The first frame with a customer ends the wait of all threads. Other frames do not end it."""
     eye.hear("nobody")
     with ThreadPoolExecutor(4) as pool:
         waits = [pool.submit(await_customer, eye, 30.0) for _ in range(4)]
@@ -140,7 +140,7 @@ def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
 
 
 def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
-    """Frames that arrive all the time do not extend the wait."""
+    """The wait ends after its time, even if frames without a customer arrive all the time."""
     over = threading.Event()
 
     def stream() -> None:
@@ -159,7 +159,7 @@ def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
         camera.join()
 
 
-def test_a_silent_camera_is_no_answer(eye: Eye) -> None:
-    """If the time ends while the result is unknown, this is reported."""
+def test_a_silent_camera_is_an_error(eye: Eye) -> None:
+    """If no frame arrives within the time, `await_customer` raises CameraSilent."""
     with pytest.raises(CameraSilent):
         await_customer(eye, 0.05)

@@ -1,4 +1,4 @@
-"""Sites for the tests in this folder, built once for all tests of a worker."""
+"""The sites for the tests in this folder. Each worker builds them once."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the real course from its stored outputs: all pages, but no panels, which need a run."""
+    """Build the real course from its stored outputs. The pages have no panels, because panels need a run."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -51,7 +51,7 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Run a chapter with a panel of every kind, and build a site of it."""
+    """Run a chapter with a panel of every kind, and build a site that contains this chapter."""
     folder = tmp_path_factory.mktemp("panels")
     cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
@@ -79,4 +79,4 @@ def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
 
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
-        """Write no log."""
+        """Write no log, so that the output of the tests stays short."""

@@ -1,4 +1,4 @@
-"""Small courses from which tests build sites, and the actions of a reader on a page."""
+"""Small courses from which tests build sites."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 
 
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
-    """Write solutions and equal notebooks; `_00_name=[…]` are the cells of a chapter below its title."""
+    """Write solutions and equal notebooks, and return their store.
+
+    `_00_name=[…]` gives the cells of the chapter 00_name; a cell with the title is added above them.
+    """
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)
         for name, cells in chapters.items():
@@ -37,6 +40,6 @@ def shown(*outputs: Output) -> Body:
 
 
 def result(**data: Plain) -> Output:
-    """Return the result of a cell; `text_html="…"` is its form as text/html."""
+    """Return the result of a cell; `text_html="…"` gives its data of type text/html."""
     kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
     return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

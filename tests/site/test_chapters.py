@@ -1,4 +1,4 @@
-"""What the list of chapters contains."""
+"""The list of chapters, and the learning paths."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ def chapter(minutes: int) -> Chapter:
     return Chapter("05_x", "X", "", "", "", minutes, ())
 
 
-def test_a_chapter_says_what_it_is_about() -> None:
-    """It contains the title, the introduction, the three labels, and the points of the exercises."""
+def test_a_chapter_is_read_from_its_notebook() -> None:
+    """The chapter has the title, the introduction, the three labelled texts, and the exercises' points."""
     first = "# Ask\n\nWho waits?\n\n**You will** ask.\nTwice.\n\n**You need** time.\n\n**Time**: 45 minutes."
     found = chapter_of("05_ask", book(text(first), exercise("05.1", 2), exercise("05.2", 3)))
     assert found == Chapter("05_ask", "Ask", "Who waits?", "ask.\nTwice.", "time.", 45, (2, 3))
     assert (found.number, found.page, found.full_title) == ("05", "05_ask.html", "05 Ask")
 
 
-def test_a_chapter_that_says_nothing_has_its_name() -> None:
-    """A chapter without a cell has its name as title, too."""
+def test_an_empty_chapter_has_its_name_as_title() -> None:
+    """The title of a chapter without cells is the name of its file."""
     assert chapter_of("05_ask", book()).title == "05_ask"
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
-def test_every_chapter_says_all(path: object) -> None:
-    """Each chapter of the first page is complete."""
+def test_the_information_of_every_chapter_is_complete(path: object) -> None:
+    """Each chapter of the course has an introduction, goals, requirements, a time and points."""
     found = chapter_of("00_x", read(path))  # type: ignore[arg-type]
     assert all((found.lead, found.will, found.need, found.minutes, found.points))
 
@@ -39,12 +39,12 @@ def test_every_chapter_says_all(path: object) -> None:
     ("minutes", "words"), [(45, "45 minutes"), (120, "2 hours"), (75, "1 hour and 15 minutes")]
 )
 def test_times_add_up(minutes: int, words: str) -> None:
-    """Times are given in hours if they are at least one hour."""
+    """A total time of one hour or more is given in hours and minutes."""
     assert hours([chapter(minutes)]) == words
 
 
-def test_a_path_has_all_its_chapters_and_says_how_long_it_takes() -> None:
-    """A path that offers a choice lists each way; its times are the sums of the chapters' times."""
+def test_a_path_has_all_its_chapters_and_its_total_time() -> None:
+    """The time of a path is the sum of its chapters' times. A path with a choice lists each choice."""
     known = [chapter_of(path.stem, read(path)) for path in NotebookStore().solutions()]
     lab, turtles, whole = learning_paths(known)
     assert [each.number for each in lab.choices[0].chapters] == ["00", "05", "06", "07"]

@@ -1,4 +1,4 @@
-"""Code with syntax colours."""
+"""Code as HTML with colours."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from course_pkg.site.prose import words
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
-def test_colours_change_no_letter(path: Path) -> None:
-    """The coloured text of each cell of the course equals the cell, for reading, search and copying."""
+def test_colours_do_not_change_the_text(path: Path) -> None:
+    """Without its tags, the coloured HTML of each cell of the course equals the cell's source."""
     highlight = Highlighter()
     for cell in code_cells(read(path)):
         assert words(highlight.cell(cell["source"])) == cell["source"].strip("\n")
 
 
-def test_a_magic_says_what_the_rest_is() -> None:
-    """The name of a file or of a shell selects the colours; an unknown name selects none."""
+def test_a_magic_selects_the_language_of_a_cell() -> None:
+    """The name of a file or a shell in the magic selects the colours. An unknown name selects none."""
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")
@@ -29,6 +29,6 @@ def test_a_magic_says_what_the_rest_is() -> None:
     assert highlight.cell("%%writefile notes.xyz\ndef f(): ...").endswith("</i>def f(): ...")
 
 
-def test_what_looks_like_markup_is_text() -> None:
-    """Code may contain HTML, which is shown as text."""
+def test_html_in_code_is_shown_as_text() -> None:
+    """Tags in code are escaped."""
     assert "<script" not in Highlighter().cell("'<script>' & \"</pre>\"")

@@ -1,4 +1,4 @@
-"""Cells as HTML."""
+"""The cells of a notebook as HTML."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tests.site.notebook_stores import result, shown
 
 
 def test_a_result_is_shown() -> None:
-    """Text is the last choice of a result, and HTML in it is escaped."""
+    """A result with only plain text is shown as text, and HTML in it is escaped."""
     assert "&lt;Box&gt; &amp; 3" in shown(result(text_plain="<Box> & 3")).html
 
 
 def test_html_is_cleaned() -> None:
-    """A picture is preferred to the text of the same result."""
+    """The page shows the HTML of a result without its scripts, and not the text of the same result."""
     body = shown(result(text_html="<p onclick=f()>yes</p><script>no()</script>", text_plain="text")).html
     assert "<p>yes</p>" in body
     assert "onclick" not in body
@@ -29,12 +29,12 @@ def test_html_is_cleaned() -> None:
 
 
 def test_a_script_among_the_outputs_is_left_out() -> None:
-    """A result of JavaScript is not shown, not even as text."""
+    """The page does not show a result of type JavaScript, not even as text."""
     assert "alert" not in shown(result(application_javascript="alert(1)")).html
 
 
 def test_a_drawing_is_a_picture() -> None:
-    """An SVG is shown in an <img>, in which no script can run, and keeps its description."""
+    """An SVG is shown as an <img>, in which no script can run, and keeps its description."""
     drawing = "<svg><script>alert(1)</script></svg>"
     output = result(text_plain="x") | {
         "data": {"image/svg+xml": drawing},
@@ -47,7 +47,7 @@ def test_a_drawing_is_a_picture() -> None:
 
 
 def test_a_figure_is_described_by_its_own_text() -> None:
-    """The alternative text of a matplotlib figure has its labels and its title, without the numbers."""
+    """The alternative text of a matplotlib figure contains its labels and its title, but no numbers."""
     texts = ("0.0", "\u22125", "10", "time (s)", "a &amp; b", "How late?")
     drawing = "<svg>" + "".join(f'<text x="1">{each}</text>' for each in texts) + "</svg>"
     output = result(text_plain="<Figure>") | {"data": {"image/svg+xml": drawing, "text/plain": "<Figure>"}}
@@ -55,7 +55,10 @@ def test_a_figure_is_described_by_its_own_text() -> None:
 
 
 def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
-    """A live panel comes first, then its picture, and last its text; the title describes the picture."""
+    """A page prefers a panel's state to its picture, and the picture to the text.
+
+    The title of the picture becomes its description.
+    """
     drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
     data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
     body = shown(result() | {"data": data}).html
@@ -65,8 +68,8 @@ def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
     assert "<img" not in shown(result() | {"data": live}).html
 
 
-def test_an_error_is_told_apart_from_output() -> None:
-    """An error has its own class, and so does text on stderr."""
+def test_an_error_looks_different_from_other_output() -> None:
+    """A traceback and text on stderr have the class `err`."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["\x1b[31mE\x1b[0m: v"]}
     stream = {"output_type": "stream", "name": "stderr", "text": "careful"}
     body = shown(error, stream).html
@@ -74,22 +77,22 @@ def test_an_error_is_told_apart_from_output() -> None:
     assert '<span class="ansi-red-fg">E</span>: v' in body
 
 
-def test_a_terminal_is_read_as_it_looks() -> None:
-    """Text before a carriage return is removed, line ends are uniform, and no control characters remain."""
+def test_a_terminals_output_is_shown_as_in_a_terminal() -> None:
+    """Text before a carriage return is removed, all line ends are equal, and no control characters remain."""
     assert terminal("one\r\ntwo\r\n") == "one\ntwo"
     assert terminal("10 %\r20 %\rdone\x1b[K\x07") == "done"
     assert terminal("<b>") == "&lt;b&gt;"
 
 
 def test_an_exercise_can_be_linked_to() -> None:
-    """A widget is found by the id of its cell in the notebook, with the prefix of the chapter."""
+    """The HTML id of an exercise is the id of its cell, with the prefix of the chapter."""
     body = Exporter().body(book(exercise("05.1"), code("x")), "c05-")
     assert 'class="in exercise" id="c05-exercise-05-1"' in body.html
     assert body.html.count("id=") == 1
 
 
-def test_the_states_of_panels_cannot_end_their_element() -> None:
-    """States are compressed, so that no text in them is markup."""
+def test_the_states_of_panels_cannot_add_markup() -> None:
+    """The states are compressed, so that a browser reads no tag in them."""
     output = result() | {"data": {PANEL: {"panel": "graph", "state": {"title": "</script><script>alert(1)"}}}}
     body = shown(output).html
     assert 'data-panel="graph"' in body
@@ -123,7 +126,7 @@ ATTACKS = [
 
 
 class Reader(HTMLParser):
-    """Collects the tags and attributes that a browser would see."""
+    """Collects the tags and the attributes that a browser would read."""
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -138,15 +141,15 @@ class Reader(HTMLParser):
 
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_nothing_runs_or_loads(attack: str) -> None:
-    """Scripts, requests and imitations of the page are removed from HTML; only their text may remain."""
+    """The sanitizer removes scripts, requests and imitations of the page; only their text may remain."""
     for tag, name, value in Reader(Sanitizer()(attack)).seen:
         assert tag in ("p", "a", "div", "section", "img", "table")
         assert name in ("", "title")
         assert not value or name == "title"
 
 
-def test_a_report_is_still_a_report() -> None:
-    """Text, structure and the coloured edge of a report are unchanged."""
+def test_the_sanitizer_keeps_a_report() -> None:
+    """The text, the structure and the coloured edge of a check's report stay."""
     rule = Assertion("it answers", holds=False, asked="2", expected="4", actual="<5>", hint="Add.")
     report = Report("05.1", Verdict.FAILED, "A goal.", 0, 2, (rule,), "Again.", "printed")
     clean = Sanitizer()(report.html())
@@ -161,7 +164,7 @@ def test_a_report_is_still_a_report() -> None:
     assert "<details>" in clean
 
 
-def test_a_picture_that_is_carried_along_stays() -> None:
-    """A picture keeps its description and its size."""
+def test_a_picture_with_its_data_in_the_page_stays() -> None:
+    """The picture keeps its description and its size, too."""
     picture = '<img src="data:image/png;base64,iVBORw0KGgo=" alt="a chair" width="64" height="48">'
     assert Sanitizer()(picture) == picture

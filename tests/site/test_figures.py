@@ -1,4 +1,4 @@
-"""The figures that Markdown names."""
+"""The figures of a notebook's Markdown on a page."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ DRAWING = (
 
 
 def page(folder: Path, *sources: str, prefix: str = "") -> Body:
-    """Return the body of a page with a Markdown cell for each source, of a notebook in `folder`."""
+    """Return the body of a page with one Markdown cell for each source; the notebook is in `folder`."""
     return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
 
 
 def test_a_drawing_is_a_part_of_the_page(tmp_path: Path) -> None:
-    """It has the description from the Markdown, its text, and no id that another drawing has."""
+    """The drawing has the description from the Markdown, its own text, and ids that no other drawing has."""
     (tmp_path / "a b.svg").write_text(DRAWING)
     html = page(tmp_path, '![A "box" & more](a%20b.svg)', "![Again](a%20b.svg)", prefix="c07-").html
     assert html.count('<figure class="wide"><svg ') == 2
@@ -40,8 +40,8 @@ def test_a_drawing_is_a_part_of_the_page(tmp_path: Path) -> None:
     assert re.findall(r"url\(#([^)]*)\)", html) == ["c07-f1-tip", "c07-f2-tip"]
 
 
-def test_a_picture_is_carried_along(tmp_path: Path) -> None:
-    """A page may load no other file, so it holds the picture's data."""
+def test_a_page_contains_the_data_of_a_picture(tmp_path: Path) -> None:
+    """A page may not load another file, so the address of the picture is its data."""
     content = b"\x89PNG"
     (tmp_path / "chair.png").write_bytes(content)
     html = page(tmp_path, "Look: ![a chair](chair.png)").html
@@ -54,15 +54,15 @@ def test_a_picture_is_carried_along(tmp_path: Path) -> None:
         ("![x](../figures/none.svg)", "There is no figure ../figures/none.svg"),
         ("![x](https://example.org/x.png)", "There is no figure https://example.org/x.png"),
         ("![](drawing.svg)", "The figure drawing.svg has no description"),
-        ("![x](notes.txt)", "notes.txt is neither a drawing"),
+        ("![x](notes.txt)", "notes.txt must be a drawing"),
         ("![x](broken.svg)", "broken.svg cannot be read"),
         ("![x](script.svg)", "script.svg has a <script>"),
         ("![x](handler.svg)", 'handler.svg has onload="f'),
         ("![x](link.svg)", 'link.svg has .*href="//x"'),
     ],
 )
-def test_what_a_page_cannot_show(tmp_path: Path, markdown: str, problem: str) -> None:
-    """One error names the figure, and says what is wrong with it."""
+def test_a_figure_that_a_page_cannot_show_is_refused(tmp_path: Path, markdown: str, problem: str) -> None:
+    """The error names the figure and the problem."""
     namespace = 'xmlns="http://www.w3.org/2000/svg" xmlns:l="http://www.w3.org/1999/xlink"'
     files = {
         "drawing.svg": DRAWING,
@@ -79,9 +79,9 @@ def test_what_a_page_cannot_show(tmp_path: Path, markdown: str, problem: str) ->
 
 
 def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
-    """The error names the notebook's folder, from which the figure was looked for."""
+    """The error names the folder of the notebook, because the path of the figure is relative to it."""
     books = store(tmp_path, _00_try=[text("![x](../figures/none.svg)", "t")])
-    with pytest.raises(SiteError, match=r"no figure \.\./figures/none\.svg, as seen from .*solutions"):
+    with pytest.raises(SiteError, match=r"no figure \.\./figures/none\.svg in .*solutions"):
         write_site(Settings(tmp_path / "site", execute=False), books, runs(tmp_path / "cache"))
 
 
@@ -89,7 +89,7 @@ def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
     "path", sorted((Places.of().checkout / "figures").iterdir()), ids=lambda path: path.name
 )
 def test_each_figure_of_the_course_can_be_shown(path: Path) -> None:
-    """A page carries it, and in a notebook it has a ground of its own, so that its text can be read."""
+    """A page accepts each figure. Each drawing has a white background, so that its text is readable."""
     assert figure(path.parent, path.name, "A figure", "f1-")
     if path.suffix == ".svg":
         assert re.search(r'<rect [^>]*fill="(#fff|#ffffff|white)"', path.read_text("utf-8"))

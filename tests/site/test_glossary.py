@@ -1,4 +1,4 @@
-"""The glossary."""
+"""The glossary, and the texts for the search."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from tests.authoring.books import book, code, text
 WRITTEN: dict[str, str] = json.loads((Path(module.__file__).parent / "glossary.json").read_text("utf-8"))
 
 
-def test_most_words_lead_to_where_they_are_explained() -> None:
-    """A term links to the section that first shows it in bold or italics; some terms have no such section."""
+def test_most_terms_link_to_their_explanation() -> None:
+    """A term links to the first section that has it in bold or italics. At least 80 % have such a section."""
     exporter, texts = Exporter(), []
     for path in NotebookStore().solutions():
         notebook = read(path)
@@ -30,19 +30,19 @@ def test_most_words_lead_to_where_they_are_explained() -> None:
 
 
 def test_every_entry_is_a_sentence() -> None:
-    """The entries are in alphabetical order, so that an author finds the place of a new one."""
+    """Each entry ends with a full stop, and the entries of the file are in alphabetical order."""
     assert [term for term, meaning in WRITTEN.items() if not meaning.endswith(".")] == []
     assert list(WRITTEN) == sorted(WRITTEN, key=str.lower)
 
 
 def test_no_two_entries_share_an_anchor() -> None:
-    """Each link leads to one entry."""
+    """Each anchor occurs once, so that a link leads to one entry."""
     anchors = [entry.anchor for entry in Glossary.of([]).entries]
     assert len(set(anchors)) == len(anchors)
 
 
-def test_a_section_is_found_where_it_stands() -> None:
-    """Each section has its anchor, its prose and its code; a # in code begins no section."""
+def test_each_section_has_its_anchor_and_its_text() -> None:
+    """The text of a section is its prose and its code. A # in code does not begin a section."""
     notebook = book(
         text("# Title\n\nThe lead.", "t1"),
         text("## One\n\n```\n## no heading\n```\nA **word**.", "t2"),
@@ -59,13 +59,13 @@ def test_a_section_is_found_where_it_stands() -> None:
     assert "wait()" in found[1].text
 
 
-def test_marks_are_no_words() -> None:
-    """Links keep their text, and tables their cells."""
+def test_marks_of_markdown_are_removed() -> None:
+    """The texts of links and the cells of tables stay."""
     assert (
         plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
     )
 
 
 def test_the_texts_are_a_script() -> None:
-    """A page in a folder cannot fetch files, but it can load a script."""
+    """The texts for the search are a call in a script, because a page in a folder cannot fetch a file."""
     assert script([]) == "courseTexts([]);\n"

@@ -1,4 +1,4 @@
-"""The pages in a real browser: from a folder and from a server, wide and narrow, light and dark."""
+"""The pages in a real browser: from a folder or a server, in wide and narrow windows, light and dark."""
 
 from __future__ import annotations
 
@@ -14,27 +14,30 @@ from course_pkg.site.scripts import fronts
 from tests.browser.pages import picture
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-# added to the rules that axe-core applies by default
+# These rules are added to the rules that axe-core applies by default.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
-OPTIONS = {"rules": RULES, "preload": False}  # a page may fetch nothing
-CONTRAST = "color-contrast"  # most of axe-core's time; it does not depend on the width
+OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so axe-core cannot preload them.
+CONTRAST = "color-contrast"  # the slowest rule of axe-core; its result does not depend on the width
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-ALWAYS = (1200, "light")  # checked in every run; the other three only if a page may look different
+ALWAYS = (1200, "light")  # checked in every run; the others are checked only if a page may have changed
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
     for width in WIDTHS
     for colours in COLOURS
 ]
 PAGE = "00_panels.html"
-ENOUGH = ("index.html", "glossary.html", PAGE)  # enough for rules whose result was checked for both before
+ENOUGH = ("index.html", "glossary.html", PAGE)  # the pages to check in narrow dark windows
 
 
 @contextmanager
 def reader(
     browser: Browser, width: int = 1200, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[Page]:
-    """Open a browser that reaches only 127.0.0.1; failed requests and console messages fail the test."""
+    """Open a page in a browser that reaches only 127.0.0.1.
+
+    The test fails after a failed request, an error or warning in the console, or an exception of a script.
+    """
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     troubles: list[str] = []
     context.route(lambda url: not url.startswith(("file:", "http://127.0.0.1:")), lambda route: route.abort())
@@ -51,7 +54,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the pages of a site for readers."""
+    """Return the names of a site's pages, except the book, which is only printed."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
@@ -65,7 +68,7 @@ def open_page(page: Page, site: Path, name: str) -> None:
 def test_every_page_is_whole_without_a_network(
     browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
 ) -> None:
-    """No request fails, the console is empty, no page is wider than the window, and every panel is drawn."""
+    """Each page draws all its panels, and is not wider than the window; no request fails."""
     with reader(browser, 390) as page:
         for site in (course, panels):
             for name in [*pages(site), *(["book.html"] if site == course else [])]:
@@ -74,12 +77,12 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
-@pytest.mark.timeout(360)  # much computing on a machine that may be busy
+@pytest.mark.timeout(360)  # This test computes much, and the machine may be busy.
 @pytest.mark.parametrize(("width", "colours"), SWEEPS)
-def test_axe_finds_nothing(
+def test_axe_finds_no_problem(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
 ) -> None:
-    """axe-core finds nothing on any page, with and without the search; the sizes of targets are checked, too.
+    """axe-core finds no problem on any page, both with and without the open search dialog.
 
     `tests/bench/site.py axe` checks every rule in every width and colour.
     """
@@ -93,7 +96,8 @@ def test_axe_finds_nothing(
                 page.evaluate(AXE)
                 found[name] = violations(page, options)
                 look_for(page, "service")
-                found[f"{name}, searching"] = violations(page, options, "dialog")  # all else is inert then
+                # While the dialog is open, a user cannot reach the other parts of the page.
+                found[f"{name}, searching"] = violations(page, options, "dialog")
         picture(page, f"site-search-{width}-{colours}")
     assert {name: what for name, what in found.items() if what} == {}
 
@@ -106,21 +110,21 @@ def options_for(width: int, colours: str) -> dict[str, Any]:
 
 
 def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "html") -> list[str]:
-    """Return the findings of axe-core, which the page must have loaded, for this part of the page."""
+    """Return the problems that axe-core finds in a part of the page; the page must have loaded axe-core."""
     run = "([part, options]) => axe.run(part, options)"
     found: list[dict[str, Any]] = page.evaluate(run, [part, options])["violations"]
     return [f"{each['id']}: {node['html'][:200]}" for each in found for node in each["nodes"]]
 
 
 def look_for(page: Page, words: str) -> None:
-    """Open the search with its key, and search for words."""
+    """Open the search with its key, search for `words`, and wait for results."""
     page.keyboard.press("/")
     page.get_by_role("searchbox").fill(words)
     expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
 
 
 def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
-    """Each panel is drawn by its own front end from the state in the page."""
+    """The page draws each panel from its saved state, and shows the plot with its description."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         shown = page.locator("[data-panel]").evaluate_all(
@@ -132,8 +136,8 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
         picture(page, "site-panels")
 
 
-def test_the_book_is_whole_before_any_frame(browser: Browser, panels: Path) -> None:
-    """Chromium prints the page when its time is over, and paints no frame until then."""
+def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, panels: Path) -> None:
+    """All panels are drawn even if no frame and no timer comes, because Chromium prints without frames."""
     with reader(browser) as page:
         page.add_init_script("requestAnimationFrame = setTimeout = () => 0")
         open_page(page, panels, "book.html")
@@ -141,7 +145,10 @@ def test_the_book_is_whole_before_any_frame(browser: Browser, panels: Path) -> N
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """A recorded request shows the real response and is marked; another is reported as not recorded."""
+    """A recorded request shows the real response and the label "Recorded".
+
+    A panel without recordings reports that there is no kernel.
+    """
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         recorded, saved = page.get_by_role("region", name="Service panel").all()
@@ -153,8 +160,8 @@ def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
         expect(saved.get_by_text("No kernel answers")).to_be_visible()
 
 
-def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None:
-    """The recording is moved by a slider that can be dragged."""
+def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
+    """A slider moves through the recording."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         turtles = page.get_by_role("region", name="Turtle panel")
@@ -164,8 +171,8 @@ def test_the_turtles_can_be_played_again(browser: Browser, panels: Path) -> None
         expect(turtles).to_contain_text("0.0 of")
 
 
-def test_the_graph_can_be_played_again(browser: Browser, panels: Path) -> None:
-    """The beginning shows another picture than the end, and keys move the slider, too."""
+def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
+    """The key Home moves the slider to the beginning, where the topic /rosout does not exist yet."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -178,7 +185,7 @@ def test_the_graph_can_be_played_again(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """The search works by keyboard alone: its key, a word, down, Enter."""
+    """The search works with the keyboard only: its key, a word, the down key, Enter."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")
@@ -188,19 +195,21 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
         assert "#" in page.url
 
 
-def test_words_that_nothing_has_are_said_so(browser: Browser, course: Path) -> None:
-    """A search without results is described; Escape closes the search."""
+def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
+    """The message contains the word, and the key Escape closes the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
         page.get_by_role("searchbox").fill("zyzzyva")
-        expect(page.get_by_role("dialog")).to_contain_text("Nothing has “zyzzyva” in it.")
+        expect(page.get_by_role("dialog")).to_contain_text("No section contains “zyzzyva”.")
         page.keyboard.press("Escape")
         expect(page.get_by_role("dialog")).to_be_hidden()
 
 
-def test_a_choice_of_colours_lasts(browser: Browser, served: dict[Path, str], course: Path) -> None:
-    """The theme is kept on the next page; the button changes between system, light and dark."""
+def test_the_next_page_keeps_the_chosen_colours(
+    browser: Browser, served: dict[Path, str], course: Path
+) -> None:
+    """A click on the button changes between system, light and dark, and the next page has the same theme."""
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -214,8 +223,8 @@ def test_a_choice_of_colours_lasts(browser: Browser, served: dict[Path, str], co
         expect(page.locator("html")).not_to_have_attribute("data-theme", "dark")
 
 
-def test_the_contents_follow(browser: Browser, course: Path) -> None:
-    """The section in view is marked in the contents; on a phone, the contents are folded."""
+def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -> None:
+    """The contents mark the section at the top of the window. In a narrow window, the contents are closed."""
     with reader(browser) as page:
         open_page(page, course, "05_write_a_server.html")
         page.locator("h2").nth(4).evaluate("heading => heading.scrollIntoView({behavior: 'instant'})")
@@ -241,7 +250,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """Text, code and links are shown without scripts; a sentence replaces each panel."""
+    """Without scripts, the page shows its code and a message about the missing panels, and no buttons."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
@@ -251,8 +260,8 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
     context.close()
 
 
-def test_a_page_connects_nowhere(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The policy forbids connections, also to the page's own server, and runs only the page's own scripts."""
+def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
+    """The page's policy forbids all connections, even to its own server, and scripts without the nonce."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -14,19 +14,19 @@ def prose(prefix: str = "") -> Prose:
 
 
 def test_raw_html_is_shown_as_text() -> None:
-    """HTML in prose is shown as text."""
+    """The tags of HTML in prose are escaped."""
     assert "&lt;script&gt;" in prose()("<script>alert(1)</script>")
     assert "&lt;b&gt;" in prose()("a <b>word</b>")
 
 
 @pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
 def test_a_link_cannot_run(link: str) -> None:
-    """A link with a script as its address is removed."""
+    """An address that is a script is removed from the link."""
     assert link.partition(":")[0] not in prose()(f"[here]({link})")
 
 
-def test_headings_have_anchors_of_their_own() -> None:
-    """Two equal headings get different anchors, and a prefix separates the chapters of a book."""
+def test_each_heading_has_a_different_anchor() -> None:
+    """Two equal headings get different anchors. All anchors begin with the prefix of the chapter."""
     page = prose("c05-")
     page("# Ask, and wait\n\n## Again")
     page("## Again\n\n### `rosservice`?")
@@ -48,13 +48,13 @@ def test_headings_have_anchors_of_their_own() -> None:
     ],
 )
 def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
-    """Other links are unchanged."""
+    """A link to a notebook becomes a link to its page, and other links stay the same."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
 
 
 def test_a_formula_is_mathml() -> None:
-    """A formula in a line or on its own needs no script, and its delimiters are removed."""
+    """A formula becomes MathML without its dollar signs, both within a line and as a block."""
     html = prose()("so $d_n = 2^n$ it is\n\n$$\n\\sum_{n=0}^{7} 2^n\n$$")
     assert html.count("<math ") == 2
     assert 'display="inline"' in html
@@ -66,12 +66,12 @@ def test_a_formula_is_mathml() -> None:
 @pytest.mark.parametrize(
     "text", ["It costs $5, and then $7.", "`$A` and `$B`", "```\n$x$\n```", "It costs 5 $ or 6 $."]
 )
-def test_what_is_no_formula_stays_text(text: str) -> None:
-    """Dollar amounts and shell variables are not formulas."""
+def test_other_dollar_signs_stay_text(text: str) -> None:
+    """Prices and shell variables are not formulas."""
     assert "<math" not in prose()(text)
 
 
-def test_a_formula_with_a_slip_is_named() -> None:
-    """The error names the formula for its author."""
+def test_an_invalid_formula_is_refused() -> None:
+    """The error contains the formula, so that its author finds it."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

@@ -1,4 +1,4 @@
-"""The order of the actions with a panel while a chapter is recorded for the site."""
+"""The recording of panels while a chapter runs for the site."""
 
 from __future__ import annotations
 
@@ -27,53 +27,53 @@ from tests.site.notebook_stores import result
 
 
 class Noted:
-    """A panel that stores the calls it gets; `trouble` is raised by what records."""
+    """A panel that stores the calls of its methods in `done`; `record` raises `trouble` if it is given."""
 
     def __init__(self, trouble: CourseError | None = None) -> None:
         self.done: list[str | list[dict[str, Plain]] | tuple[str, dict[str, Plain]]] = []
         self.trouble = trouble
 
     def received(self, kind: str, content: dict[str, Plain]) -> None:
-        """Record the click of a page."""
+        """Store a message of the front end."""
         self.done.append((kind, content))
 
     def record(self, requests: list[dict[str, Plain]]) -> None:
-        """Record the call of a service panel."""
+        """Store the requests, and raise `trouble`."""
         self.done.append(requests)
         if self.trouble:
             raise self.trouble
 
     def shown(self) -> None:
-        """Start."""
+        """Store that the panel starts."""
         self.done.append("shown")
 
     def hidden(self) -> None:
-        """Stop."""
+        """Store that the panel stops."""
         self.done.append("hidden")
 
 
 @pytest.mark.parametrize("trouble", [None, NoServiceSelected("There is no server.")])
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
-    """If a student's notebook has no server for the panel yet, nothing is recorded, and the run continues."""
+    """The panel first gets the service, then the requests. If there is no server yet, the run continues."""
     panel = Noted(trouble)
     record_panel(panel, {"pick": "/add_two_ints", "record": [{"a": 1, "b": 2}]})
     assert panel.done == [("pick", {"service": "/add_two_ints"}), [{"a": 1, "b": 2}]]
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """If the notebook has no node of its own, no calls are made."""
+    """The panel is shown and then hidden. Without a node in the notebook, no calls are made."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
 
 
-def test_the_panel_is_found_where_a_notebook_has_a_name_of_one_stroke() -> None:
-    """A loop over `_` would replace IPython's own `_` for the rest of the notebook."""
+def test_the_panel_is_found_even_if_a_notebook_uses_the_name_underscore() -> None:
+    """The added cell finds the panel in `_oh`, because a loop over `_` replaces IPython's own `_`."""
     notebook = book(code("for _ in range(2): pass"), code("GraphPanel()", id="graphpanel"))
     added = with_recordings("00_start_the_graph", notebook)["cells"][-1]
     panel, results = Noted(), {1: "earlier"}
     names = {"_": 1, "_oh": results | {2: panel}, "__builtins__": __builtins__}
-    exec(re.sub(r"'watch': \d+", "'watch': 0", added["source"]), names)  # noqa: S102 -- it is our own
+    exec(re.sub(r"'watch': \d+", "'watch': 0", added["source"]), names)  # noqa: S102 -- code of the course
     assert panel.done == ["shown", "hidden"]
 
 
@@ -82,8 +82,8 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
-def test_a_rehearsal_is_of_a_panel(path: Path) -> None:
-    """The cell exists, in the students' notebook as well, and ends with a panel of this kind."""
+def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
+    """The cell exists in the solution and in the students' notebook. It ends with a suitable panel."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -94,15 +94,15 @@ def test_a_rehearsal_is_of_a_panel(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
-def test_a_rehearsal_leaves_no_trace(path: Path) -> None:
-    """Exactly the cells that were added for the recording are removed again."""
+def test_the_added_cells_are_removed_again(path: Path) -> None:
+    """`without_recordings` removes exactly the cells that `with_recordings` added."""
     notebook = read(path)
     assert without_recordings(with_recordings(path.stem, notebook)) == notebook
 
 
 @pytest.mark.parametrize("system", SYSTEMS, ids=lambda system: system["name"])
-def test_a_system_can_be_started_as_it_says(system: dict[str, str]) -> None:
-    """Each command names something in the package."""
+def test_the_command_of_each_system_exists(system: dict[str, str]) -> None:
+    """Each command on the landing page names a launch file or a program of the package."""
     tool, package, name, *_ = system["start"].split()
     folders = {"course_pkg": "nodes/ chapters/*/programs/", "turtlesim": "turtlesim/"}[package].split()
     programs = [found for folder in folders for found in (ROOT / "course_pkg").glob(f"{folder}{name}.py")]
@@ -113,7 +113,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook with one view of a widget of this class."""
+    """Return a notebook with one view of a widget whose class is `kind`."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))
@@ -123,13 +123,13 @@ def saved(kind: str, **state: Plain) -> Notebook:
 
 
 def data(notebook: Notebook) -> dict[str, Plain]:
-    """Return the content of the notebook's first output."""
+    """Return the data of the notebook's first output, by MIME type."""
     held: dict[str, Plain] = notebook["cells"][0]["outputs"][0]["data"]
     return held
 
 
 def test_a_panel_is_kept_without_its_script() -> None:
-    """Name and state of the widget are kept; script and style come from the package."""
+    """The output keeps the name and the state of the widget. The script and the style are left out."""
     notebook = saved(GRAPH, data={"x": 1})
     embed_states(notebook)
     assert data(notebook) == {
@@ -139,16 +139,16 @@ def test_a_panel_is_kept_without_its_script() -> None:
     assert "widgets" not in notebook["metadata"]
 
 
-def test_a_widget_of_another_kind_is_its_words() -> None:
-    """Only scripts of the package run on a page."""
+def test_a_widget_of_another_library_is_shown_as_text() -> None:
+    """Only panels of the package keep their state, because only their scripts run on a page."""
     for kind in ("elsewhere.Widget", "course_pkg.panels.graph.view.GraphPanel2.x", "", f"{GRAPH}\n"):
         notebook = saved(kind)
         embed_states(notebook)
         assert data(notebook) == {"text/plain": "GraphPanel()"}
 
 
-def test_a_view_without_a_state_is_its_words() -> None:
-    """A kernel that died before it saved its widgets leaves a page without them."""
+def test_a_view_without_a_state_is_shown_as_text() -> None:
+    """If the kernel died before it saved its widgets, the page shows the text of each widget."""
     notebook = saved(GRAPH)
     notebook["metadata"] = {}
     embed_states(notebook)

@@ -46,7 +46,7 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """A change of prose is shown without a run; of two runs, the later one is kept."""
+    """A change of prose is shown without a new run. A change of code starts a run, which replaces the old."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
@@ -58,8 +58,8 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
     assert len(list((tmp_path / "cache").rglob("*.json"))) == 1
 
 
-def test_another_package_runs_it_again(tmp_path: Path, counter: Path) -> None:
-    """After a change of the package, the chapter runs again; until then the latest run is available."""
+def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, counter: Path) -> None:
+    """The chapter runs again at the next update; until then, the page shows the last run."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     executed(kept, path)
     other = runs(tmp_path / "cache")
@@ -70,10 +70,10 @@ def test_another_package_runs_it_again(tmp_path: Path, counter: Path) -> None:
     assert counter.read_text() == "xx"
 
 
-def test_a_change_of_a_chapter_it_imports_from_runs_it_again(
+def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A chapter's key depends on the files of all its folders, as `folders_for` returns them."""
+    """A new file in a folder that `folders_for` returns for the chapter starts a new run."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])
@@ -85,15 +85,15 @@ def test_a_change_of_a_chapter_it_imports_from_runs_it_again(
 
 
 def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
-    """The error names the cell that failed, and there is no run to show."""
+    """The error names the cell that failed, and `latest` returns None."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
     errors = kept.update([path])
     assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])
     assert kept.latest(path) is None
 
 
-def test_chapters_run_at_the_same_time_and_privately(tmp_path: Path) -> None:
-    """Two chapters run at the same time; neither uses the other's master, results or files."""
+def test_chapters_run_at_the_same_time_in_separate_folders(tmp_path: Path) -> None:
+    """Two chapters run at the same time, and share no folder, temporary folder, results or logs."""
     meet = (
         "import time, pathlib, os, tempfile\n"
         f"mine, other = [pathlib.Path({str(tmp_path)!r}, name) for name in NAMES]\n"

@@ -15,19 +15,19 @@ from course_pkg.site.scripts import PANELS, fronts, panels_script, panels_sheet
 
 
 def test_every_panel_with_a_view_has_a_front_end() -> None:
-    """The page finds a front end by the name of its folder; a picture is HTML and needs none."""
+    """The page finds a front end by the name of its folder. Pictures are HTML and need no front end."""
     views = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(fronts()) == views - {"image"}
     assert set(re.findall(r"(\w+): _\w+", panels_script().rpartition("coursePanels")[2])) == set(fronts())
 
 
-def test_no_module_is_left_over() -> None:
-    """A page in a folder cannot load modules, so the script contains no import and no export."""
+def test_the_script_has_no_import_and_no_export() -> None:
+    """A page in a folder cannot load modules."""
     assert re.findall(r"^(?:import|export)\b.*", panels_script(), re.MULTILINE) == []
 
 
-def test_each_module_stands_there_once(tmp_path: Path) -> None:
-    """A module comes after the modules that it imports, under every name."""
+def test_the_script_contains_each_module_once(tmp_path: Path) -> None:
+    """A module comes after the modules that it imports, even if it imports a function under another name."""
     (tmp_path / "kit.js").write_text("export function h() {}\n")
     (tmp_path / "one").mkdir()
     (tmp_path / "one" / "part.js").write_text('import { h } from "../kit.js";\nexport const part = h;\n')
@@ -42,30 +42,30 @@ def test_each_module_stands_there_once(tmp_path: Path) -> None:
     assert "globalThis.coursePanels = { one: _one_one };" in script
 
 
-def test_what_panels_share_comes_first() -> None:
-    """A panel's own styles come after the shared styles that they override."""
+def test_the_shared_styles_come_first() -> None:
+    """A panel's own styles come later, because they override the shared styles."""
     assert panels_sheet().startswith((PANELS / "look.css").read_text("utf-8"))
 
 
 HERE = Path(__file__).parent
 
 
-def test_it_is_what_the_sources_make(tmp_path: Path) -> None:
-    """Built again from the registry, with the versions of the lock file, the bundle has the same bytes."""
+def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
+    """A new build with the versions of the lock file gives the same bytes as the stored files."""
     if not shutil.which("npm"):
-        pytest.skip("npm is not on this machine, so what it builds was not compared")
+        pytest.skip("this machine has no npm, so the bundle was not built and compared")
     try:
         build(tmp_path)
     except SiteError as error:
         if "ERESOLVE" in str(error) or "EINTEGRITY" in str(error) or "npm run" in str(error):
             raise
-        pytest.skip(f"npm could not get what it needs, so what it builds was not compared: {error}")
+        pytest.skip(f"npm could not install its packages, so the bundle was not compared: {error}")
     assert [name for name in BUILT if (tmp_path / name).read_bytes() != (ASSETS / name).read_bytes()] == []
     assert (tmp_path / AXE).read_bytes() == (HERE / AXE).read_bytes()
 
 
 def test_every_library_is_pinned_and_named() -> None:
-    """Each library is in package.json with a version, in the lock with a hash, and has its licence."""
+    """Each library has a version in package.json, a hash in the lock file, and a licence in LICENSES.txt."""
     package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
     wanted = {**package["dependencies"], **package["devDependencies"]}
     locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]

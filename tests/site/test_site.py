@@ -21,12 +21,12 @@ from tests.site.notebook_stores import runs, store
 
 
 def test_the_course_has_no_fault(course: Path) -> None:
-    """Each link leads to a target, and each figure has a description."""
+    """`faults` finds no fault in the site of the whole course."""
     assert faults(course) == []
 
 
-def test_every_chapter_has_a_page_and_can_be_taken_along(course: Path) -> None:
-    """Each chapter has a page, a notebook beside it, and links to the next and the previous chapter."""
+def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> None:
+    """Each chapter has a page, a notebook to download, and links to the previous and the next chapter."""
     for path in NotebookStore().solutions():
         page = (course / f"{path.stem}.html").read_text("utf-8")
         assert f'href="notebooks/{path.name}" download' in page
@@ -35,8 +35,11 @@ def test_every_chapter_has_a_page_and_can_be_taken_along(course: Path) -> None:
         assert ('rel="next"' in page) == (path != NotebookStore().solutions()[-1])
 
 
-def test_pages_are_light(course: Path, panels: Path) -> None:
-    """Shared files are at most 170 kB compressed; a page is at most 60 kB, without its pictures."""
+def test_pages_are_small(course: Path, panels: Path) -> None:
+    """Compressed, the shared files are at most 170 kB. Without pictures, the median page is at most 60 kB.
+
+    The page with all panels is at most 60 kB, too.
+    """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
     assert shared <= 170_000
@@ -45,8 +48,8 @@ def test_pages_are_light(course: Path, panels: Path) -> None:
     assert (panels / "00_panels.html").stat().st_size <= 60_000
 
 
-def test_a_chapter_that_fails_takes_no_other_along(tmp_path: Path) -> None:
-    """A chapter that fails is reported; its page shows the stored outputs, and the others are new."""
+def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -> None:
+    """The failed chapter is reported, and its page shows stored outputs; other pages show a new run."""
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
     troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [
@@ -54,12 +57,12 @@ def test_a_chapter_that_fails_takes_no_other_along(tmp_path: Path) -> None:
     ]
     assert '<pre class="out">2</pre>' in (tmp_path / "site" / "00_good.html").read_text("utf-8")
     bad = (tmp_path / "site" / "01_bad.html").read_text("utf-8")
-    assert "This page shows what was stored." in bad
+    assert "This page shows stored outputs." in bad
     assert "Some prose." in bad
 
 
-def test_a_students_site_holds_no_answer(tmp_path: Path) -> None:
-    """Pages, search and the notebooks to download contain no answers."""
+def test_a_students_site_contains_no_answer(tmp_path: Path) -> None:
+    """The pages, the search index and the notebooks to download contain no answers."""
     books = store(tmp_path, _05_ask=[exercise("05.1", source="def secret_answer():\n    return 42")])
     given = tmp_path / "notebooks" / "05_ask.ipynb"
     given.write_text(given.read_text("utf-8").replace("return 42", "..."), "utf-8")
@@ -69,8 +72,8 @@ def test_a_students_site_holds_no_answer(tmp_path: Path) -> None:
     assert [path.name for path in written if b"secret_answer" in path.read_bytes()] != []
 
 
-def test_binder_is_offered_where_its_address_is_known(tmp_path: Path) -> None:
-    """A page links to Binder if an address is given; the link opens the students' notebook."""
+def test_a_page_links_to_binder_if_its_address_is_given(tmp_path: Path) -> None:
+    """The link opens the students' notebook. Without an address of Binder, there is no link."""
     books = store(tmp_path, _05_ask=[])
     for address in ("", "https://binder.example/v2/gh/a/b/main"):
         write_site(
@@ -82,7 +85,7 @@ def test_binder_is_offered_where_its_address_is_known(tmp_path: Path) -> None:
 
 
 def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
-    """Two builds have the same bytes, so that a site can be kept under version control."""
+    """Two builds write the same bytes, so that a site can be stored under version control."""
     books, kept = store(tmp_path, _05_ask=[code("1")]), runs(tmp_path / "cache")
     for name in ("one", "two"):
         write_site(Settings(tmp_path / name, execute=False), books, kept)
@@ -95,7 +98,7 @@ def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
 
 @pytest.mark.timeout(300)
 def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
-    """The output names the page to open first, and the book."""
+    """The command prints the paths of the book and of the first page."""
     command = [
         sys.executable,
         "-m",
@@ -108,7 +111,7 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
         str(tmp_path),
     ]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
-    if "No Chromium" in result.stderr:
+    if "has no Chromium" in result.stderr:
         pytest.skip("no Chromium on this machine")
     book, index = result.stdout.split()
     assert Path(book).read_bytes()[:5] == b"%PDF-"
@@ -116,34 +119,34 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
 
 
 def write(path: Path, *names: str) -> None:
-    """Write a site of these files."""
+    """Write a site with files of these names; each file contains its own name."""
     with Folder(path) as folder:
         for name in names:
             folder.write(name, name)
 
 
 def names(path: Path) -> set[str]:
-    """Return the files of a folder, except the list that the site keeps."""
+    """Return the paths of the files in a folder, except the site's list of its own files."""
     return {str(file.relative_to(path)) for file in path.rglob("*") if file.is_file() and file.suffix} - {""}
 
 
-def test_what_an_earlier_site_left_goes(tmp_path: Path) -> None:
-    """The page of a removed chapter is deleted, because a search could still find it."""
+def test_old_files_of_an_earlier_site_are_removed(tmp_path: Path) -> None:
+    """A new site deletes the page of a removed chapter, because a search engine could still find it."""
     write(tmp_path / "site", "a.html", "assets/b.js")
     write(tmp_path / "site", "a.html", "c.html")
     assert names(tmp_path / "site") == {"a.html", "c.html"}
 
 
-def test_what_is_no_site_is_left_alone(tmp_path: Path) -> None:
-    """A folder with other files is refused before anything is written."""
+def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
+    """The error comes before anything is written, and the files in the folder do not change."""
     (tmp_path / "thesis.txt").write_text("mine")
-    with pytest.raises(SiteError, match="holds files that are no site"):
+    with pytest.raises(SiteError, match="contains files that are not a site"):
         write(tmp_path, "a.html")
     assert names(tmp_path) == {"thesis.txt"}
 
 
-def test_what_was_put_beside_a_site_stays(tmp_path: Path) -> None:
-    """A new site removes only files that a site has written."""
+def test_a_file_that_a_user_added_to_a_site_stays(tmp_path: Path) -> None:
+    """A new site removes only files that an earlier site wrote."""
     write(tmp_path / "site", "a.html")
     (tmp_path / "site" / "own.txt").write_text("mine")
     write(tmp_path / "site", "b.html")
@@ -151,7 +154,7 @@ def test_what_was_put_beside_a_site_stays(tmp_path: Path) -> None:
 
 
 def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
-    """After a failed build, the previous pages are still there, and the next build finds them."""
+    """After a failed build, the previous pages still exist. The next complete build removes old pages."""
     write(tmp_path / "site", "a.html", "b.html")
     with suppress(ZeroDivisionError), Folder(tmp_path / "site") as folder:
         folder.write("a.html", "new")
@@ -161,8 +164,8 @@ def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
     assert names(tmp_path / "site") == {"a.html"}
 
 
-def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
-    """The error names the next step."""
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    """The error message tells the user to name another folder with --out."""
     (tmp_path / "file").write_text("")
-    with pytest.raises(SiteError, match="Name another with --out"):
+    with pytest.raises(SiteError, match="Name another folder with --out"):
         write(tmp_path / "file", "a.html")

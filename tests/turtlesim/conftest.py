@@ -1,4 +1,4 @@
-"""A simulator for the tests of one module."""
+"""A turtle simulator that the tests of one module share."""
 
 from __future__ import annotations
 

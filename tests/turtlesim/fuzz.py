@@ -1,4 +1,4 @@
-"""Clients that behave badly: random calls and messages, odd numbers and names, broken connections."""
+"""A client that sends random calls and messages, unusual numbers and names, and incomplete requests."""
 
 from __future__ import annotations
 
@@ -38,21 +38,21 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # turtles, before the world is reset
+MOST = 12  # turtles; with more of them, the world is reset
 
 
 class Fuzzer:
-    """Draws random actions and executes them; `failures` counts the refused calls."""
+    """Chooses random actions and executes them. `refused` is the number of refused calls."""
 
     def __init__(self, node: Node, seed: int) -> None:
         self._node = node
-        self._draw = random.Random(seed)  # noqa: S311 -- to be repeated, not to be secret
+        self._draw = random.Random(seed)  # noqa: S311 -- repeatable, and not secret
         self._names = ["turtle1"]
         self._publishers: dict[str, rospy.Publisher] = {}
         self.refused = 0
 
     def step(self) -> None:
-        """Execute one action."""
+        """Choose one action, and execute it."""
         deeds: list[Callable[[], None]] = [
             *(self._drive,) * 6,
             *(self._spawn, self._kill, self._pen, self._teleport, self._leap) * 2,
@@ -64,7 +64,7 @@ class Fuzzer:
         self._draw.choice(deeds)()
 
     def number(self) -> float:
-        """Return a number; one in three is unusual."""
+        """Return a random number. One in three is unusual, such as NaN."""
         return self._draw.choice(ODD_NUMBERS) if self._draw.random() < 1 / 3 else self._draw.uniform(-20, 20)
 
     def _turtle(self) -> str:
@@ -116,7 +116,7 @@ class Fuzzer:
         self._publishers.clear()
 
     def _cut_off(self) -> None:
-        """Begin a call by hand, and close the connection in the middle of it."""
+        """Send only a part of a call, and close the connection."""
         pairs = [b"service=/spawn", b"callerid=/rude", b"md5sum=" + Spawn._md5sum.encode()]
         body = b"".join(struct.pack("<I", len(pair)) + pair for pair in pairs)
         request = struct.pack("<IfffI", 16, 1.0, 1.0, 0.0, 0)
@@ -136,7 +136,7 @@ class Fuzzer:
 
 
 def sane(node: Node) -> None:
-    """Assert after a reset that turtle1 is in the middle and obeys."""
+    """Assert that turtle1 is in the middle after a reset, and that a teleport moves it."""
     node.call("/reset", Empty, timeout=10)
     with node.subscribe("/turtle1/pose", Pose) as heard:
         heard.wait(1)
@@ -151,6 +151,6 @@ def sane(node: Node) -> None:
 
 
 def resident(pid: int) -> float:
-    """Return the memory (MiB) of a process."""
+    """Return the resident memory of a process in MiB."""
     with open(f"/proc/{pid}/statm") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20

@@ -1,4 +1,4 @@
-"""The node on a real graph: what clients of the real turtlesim rely on."""
+"""The node on a real graph behaves like the turtlesim of ROS."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """Return a node that is connected to a simulator with one turtle."""
+    """Return a kernel that is a node, and whose simulator has only turtle1."""
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
 
 def terminal(*command: str) -> str:
-    """Run a command as a student types it, and return what it prints."""
+    """Run a command as a student types it, and return its output."""
     done = subprocess.run(
         command, capture_output=True, text=True, timeout=30, env=dict(os.environ), check=False
     )
@@ -58,13 +58,13 @@ def terminal(*command: str) -> str:
 
 @pytest.mark.parametrize("name", MD5)
 def test_the_types_are_those_of_the_real_package(name: str) -> None:
-    """The MD5 sums are those of the real types, because clients compare them."""
+    """The MD5 sums are the same as in ROS, because clients compare them."""
     kind = message_type if name in ("Color", "Pose") else service_type
     assert kind(f"turtlesim/{name}").cls._md5sum == MD5[name]
 
 
-def test_what_the_node_offers(simulator: NodeProcess) -> None:
-    """Topics and services have the names and types of the real node."""
+def test_the_node_has_the_topics_and_services_of_turtlesim(simulator: NodeProcess) -> None:
+    """The topics and services have the names and types of the real node."""
     seen = eventually(lambda: look() if look().service("/turtle1/teleport_absolute") else None)
     own = [each for each in seen.services if each.node == "/turtlesim"]
     services = {each.name: each.type for each in own if "logger" not in each.name}
@@ -84,41 +84,41 @@ def test_what_the_node_offers(simulator: NodeProcess) -> None:
 
 
 def test_parameters(simulator: NodeProcess) -> None:
-    """The background is a private parameter of the node."""
+    """The background colour is in three private parameters of the node."""
     shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
     assert shown == ["69", "86", "255"]
 
 
-def test_a_name_twice(client: Kernel, simulator: NodeProcess) -> None:
-    """The second spawn fails with an empty error message, and the reason is in the node's log."""
+def test_a_used_name_is_refused(client: Kernel, simulator: NodeProcess) -> None:
+    """A second spawn with the same name fails with an empty message, and the node's log has the reason."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     assert said == "service [/spawn] responded with an error: b''"
     eventually(lambda: "A turtled named [MyTurtle] already exists" in simulator.output())
 
 
-def test_killing_nobody(client: Kernel, simulator: NodeProcess) -> None:
-    """Killing an unknown turtle fails in the same way."""
+def test_an_unknown_turtle_cannot_be_killed(client: Kernel, simulator: NodeProcess) -> None:
+    """The call of /kill fails with an empty message, and the node's log has the reason."""
     said = client.run("result = words('/kill', Kill, 'nobody')")
     assert said == "service [/kill] responded with an error: b''"
     eventually(lambda: "Tried to kill turtle [nobody], which does not exist" in simulator.output())
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """An invalid name is refused with the character and its position, and no turtle is created."""
+    """The error names the invalid character and its position, and no turtle is created."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
 
 
 def test_a_name_in_a_namespace(client: Kernel) -> None:
-    """a/b is accepted, and its topics have this prefix."""
+    """The name a/b is accepted, and the turtle's topics begin with a/b."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'a/b')")
     assert client.run("result = round(pose('a/b').x, 3)") == 3.0
 
 
 def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
-    """Its topics and services are removed with the turtle, and its name is free."""
+    """After a kill, the turtle's services do not exist any more, and its name can be used again."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
     client.run("node.call('/kill', Kill, 'brief')")
     assert not look().service("/brief/set_pen")
@@ -126,7 +126,7 @@ def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
 
 
 def test_driving(client: Kernel) -> None:
-    """One message of x = 1 moves the turtle 1.008 within a second, a tick more or less."""
+    """One message with x = 1 moves the turtle about 1.008 m, with an error of up to two ticks."""
     client.run("order = Twist(); order.linear.x = 1.0; before = pose().x")
     client.run("publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)")
     client.run(
@@ -141,7 +141,7 @@ def test_driving(client: Kernel) -> None:
 
 
 def test_teleport_and_colour(client: Kernel) -> None:
-    """The sensor reads the colour of the line that a teleport drew."""
+    """After two teleports, the colour sensor reads the colour of the line."""
     client.run("node.call('/turtle1/set_pen', SetPen, 200, 100, 50, 9, 0)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 8, 8, 0)")
     client.run("node.call('/turtle1/teleport_relative', TeleportRelative, -0.5, 0)")
@@ -152,8 +152,8 @@ def test_teleport_and_colour(client: Kernel) -> None:
     assert seen == [200, 100, 50]
 
 
-def test_listeners_go_on_after_reset(client: Kernel) -> None:
-    """Subscribers of turtle1 keep their connection through a reset, and receive poses from the middle."""
+def test_subscribers_keep_their_connection_after_a_reset(client: Kernel) -> None:
+    """After a reset, a subscriber of turtle1 still receives poses, which are now in the middle."""
     client.run("heard = node.subscribe('/turtle1/pose', Pose)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 1, 1, 0); heard.wait()")
     client.run("node.call('/reset', Empty); count = heard.count")
@@ -164,7 +164,7 @@ def test_listeners_go_on_after_reset(client: Kernel) -> None:
 
 
 def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
-    """After each reset there is a turtle1."""
+    """If turtle1 was killed, a reset creates it again in the middle."""
     client.run("node.call('/kill', Kill, 'turtle1'); node.call('/reset', Empty)")
     assert client.run("result = round(pose().x, 3)") == 5.544
 
@@ -177,15 +177,15 @@ def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
         ("/turtle1/teleport_relative", "TeleportRelative", "float('-inf'), 0"),
     ],
 )
-def test_numbers_that_are_none_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
-    """A place that is not finite is refused with an error message, and the turtle does not move."""
+def test_numbers_that_are_not_finite_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
+    """The call fails with an error message, and turtle1 does not move."""
     said = client.run(f"result = words('{name}', {kind}, {values})")
     assert "not finite" in said
     assert client.run("result = round(pose().x, 3)") == 5.544
 
 
-def test_a_velocity_that_is_none_is_ignored(client: Kernel) -> None:
-    """NaN on cmd_vel has no effect."""
+def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
+    """A message with NaN on cmd_vel does not move or turn the turtle."""
     client.run(
         "import time\norder = Twist(); order.angular.z = float('nan')\n"
         "publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)\n"
@@ -197,14 +197,14 @@ def test_a_velocity_that_is_none_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """In a namespace all names have the namespace, also those of turtles."""
+    """All names of a simulator in a namespace begin with this namespace, also those of its turtles."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))
 
 
-def test_a_background_that_is_no_colour(client: Kernel) -> None:
-    """A parameter that is no number is replaced by the default blue, and clear works."""
+def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
+    """If a parameter is not a number, clear works, and the background has the default colour."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(
@@ -215,14 +215,14 @@ def test_a_background_that_is_no_colour(client: Kernel) -> None:
     assert seen == [69, 86, 255]
 
 
-def test_a_field_called_name_goes_by_its_name(client: Kernel) -> None:
-    """node.call takes the service's own name by position only, so a request may have a field `name`."""
+def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
+    """node.call accepts the keyword `name` for a field, because the service's name is only positional."""
     made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
     assert made == "Named"
 
 
-def test_its_calls_are_recorded(client: Kernel) -> None:
-    """The simulator is a node of the course: a recording contains its handlers and the client's waiting."""
+def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
+    """A recording contains the handler in the simulator and the wait of the client."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"
@@ -235,7 +235,7 @@ def test_its_calls_are_recorded(client: Kernel) -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_bad_clients_do_no_harm(seed: int, master: PrivateMaster, kernel: Kernel) -> None:
-    """After 400 random requests turtle1 still works; bench/turtle_fuzz.py makes 10,000."""
+    """After 400 random actions of a client, turtle1 still works."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as simulator:
         simulator.wait_for_service("/spawn")
         refused = kernel.run(
@@ -249,7 +249,7 @@ def test_bad_clients_do_no_harm(seed: int, master: PrivateMaster, kernel: Kernel
             sane(node)
             result = fuzzer.refused
             """,
-            patience=100,
+            timeout=100,
         )
         assert refused > 20
         assert simulator.running

@@ -1,4 +1,4 @@
-"""The two programs that drive turtle1."""
+"""The programs draw_square and turtle_teleop_key, which drive turtle1."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """Four sides and four corners bring the turtle back to within a few centimetres, at any rate."""
+    """After four sides and four corners, the turtle is less than 0.1 m from its start."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0
@@ -38,8 +38,8 @@ def test_a_square_closes() -> None:
     assert math.dist(start, places[2]) == pytest.approx(SIDE * math.sqrt(2), abs=0.1)
 
 
-def test_draw_square_walks(simulator: NodeProcess, kernel: Kernel) -> None:
-    """On the graph the turtle moves from the middle to the end of the first side."""
+def test_draw_square_drives_the_turtle(simulator: NodeProcess, kernel: Kernel) -> None:
+    """On a real graph, the turtle moves from the middle to the end of the first side."""
     kernel.run(
         "from course_pkg import join\nfrom turtlesim.msg import Pose\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/pose', Pose)"
@@ -51,7 +51,7 @@ def test_draw_square_walks(simulator: NodeProcess, kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
 def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
-    """Keys arrive as escape codes, possibly in pieces; other keys have no effect, and q ends the program."""
+    """Arrow keys are read from whole or split escape codes. Other keys do nothing, and q ends the program."""
     reader, writer = os.pipe()
     found = []
     keys = commands(reader)
@@ -64,7 +64,7 @@ def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
 
 
 def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
-    """In a terminal, an arrow key moves the turtle, q ends the node, and the terminal's mode is restored."""
+    """An arrow key publishes a velocity, q ends the node, and then the terminal has its old settings."""
     kernel.run(
         "from course_pkg import join\nfrom geometry_msgs.msg import Twist\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/cmd_vel', Twist)"
@@ -90,8 +90,8 @@ def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
     os.close(terminal)
 
 
-def test_without_a_terminal_it_says_so() -> None:
-    """With a pipe as input there are no keys: one line and status 1."""
+def test_turtle_teleop_key_needs_a_terminal() -> None:
+    """With a pipe as input, the program prints an error message, and ends with status 1."""
     done = subprocess.run(
         ["rosrun", "turtlesim", "turtle_teleop_key"], input="", capture_output=True, text=True, timeout=30
     )

@@ -1,4 +1,4 @@
-"""Services, names and publishers behave as those of a roscpp node, byte by byte where rospy differs."""
+"""Services, names and publishers behave like those of a roscpp node, even where rospy differs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.turtlesim.turtle_interface import publish_without_waiting
 
 
 def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.socket, dict[str, str]]:
-    """Connect to a service by hand; return the socket and the received header."""
+    """Connect to the service `at`, and send a header with `fields`; return the socket and its header."""
     address = urlparse(MasterClient(master.uri).lookup_service(at) or "")
     sock = socket.create_connection((address.hostname or "", address.port or 0), timeout=5)
     pairs = [f"{name}={value}".encode() for name, value in {"callerid": "/hand", **fields}.items()]
@@ -28,13 +28,13 @@ def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.soc
 
 
 def framed(sock: socket.socket) -> bytes:
-    """Read one block with its length in front; return it with the length."""
+    """Read a length and a block of this length, and return both."""
     size = exactly(sock, 4)
     return size + exactly(sock, struct.unpack("<I", size)[0])
 
 
 def exactly(sock: socket.socket, count: int) -> bytes:
-    """Read so many bytes."""
+    """Read exactly `count` bytes."""
     data = b""
     while len(data) < count:
         more = sock.recv(count - len(data))
@@ -44,13 +44,15 @@ def exactly(sock: socket.socket, count: int) -> bytes:
 
 
 def request(message: object) -> bytes:
-    """Return a request as it is sent."""
+    """Return the bytes that a client sends for a request: its length and its fields."""
     body = BytesIO()
     message.serialize(body)  # type: ignore[attr-defined]
     return struct.pack("<I", len(body.getvalue())) + body.getvalue()
 
 
-def test_the_header_names_both_halves(master: PrivateMaster, simulator: NodeProcess) -> None:
+def test_the_header_names_the_types_of_request_and_response(
+    master: PrivateMaster, simulator: NodeProcess
+) -> None:
     """The header has exactly the fields of a roscpp server."""
     sock, header = connected(master, "/spawn", service="/spawn", md5sum=Spawn._md5sum)
     sock.close()
@@ -63,8 +65,8 @@ def test_the_header_names_both_halves(master: PrivateMaster, simulator: NodeProc
     }
 
 
-def test_a_failure_is_a_zero_and_no_words(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """A failure is the ok byte 0 and a length of 0: five bytes."""
+def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simulator: NodeProcess) -> None:
+    """After a failed call, the server sends five bytes: the ok byte 0, and the length 0 of the message."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum)
     with sock:
         sock.sendall(request(Kill._request_class("nobody")))
@@ -75,7 +77,7 @@ def test_a_failure_is_a_zero_and_no_words(master: PrivateMaster, simulator: Node
 def test_a_persistent_connection_takes_one_request_after_another(
     master: PrivateMaster, simulator: NodeProcess
 ) -> None:
-    """After a failure, the connection can be used again."""
+    """After a failed call, the client can send another request on the same connection."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum, persistent="1")
     with sock:
         for _ in range(3):
@@ -94,14 +96,16 @@ def test_a_persistent_connection_takes_one_request_after_another(
 def test_a_wrong_header_is_answered(
     master: PrivateMaster, simulator: NodeProcess, fields: dict[str, str], words: str
 ) -> None:
-    """The field `error` of the header contains roscpp's message."""
+    """The field `error` of the received header contains roscpp's error message."""
     sock, header = connected(master, "/kill", **fields)
     sock.close()
     assert words in header["error"]
 
 
-def test_half_a_request_hurts_nobody(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """Clients that disconnect in the middle of a request do not disturb the node."""
+def test_an_incomplete_request_does_not_disturb_the_node(
+    master: PrivateMaster, simulator: NodeProcess
+) -> None:
+    """After clients have disconnected in the middle of a request, the node still accepts connections."""
     for cut in (0, 1, 3, 4, 7):
         sock, _ = connected(master, "/spawn", service="/spawn", md5sum=Spawn._md5sum)
         sock.sendall(request(Spawn._request_class(1, 1, 0, "half"))[:cut])
@@ -113,7 +117,7 @@ def test_half_a_request_hurts_nobody(master: PrivateMaster, simulator: NodeProce
 
 @pytest.mark.parametrize("name", ["MyTurtle", "a", "a/b", "/left/turtle", "t_1"])
 def test_valid_names(name: str) -> None:
-    """Names of the graph are valid, also with namespaces."""
+    """Valid graph names, also with namespaces, give no error message."""
     assert name_error(name) == ""
 
 
@@ -135,7 +139,7 @@ def test_invalid_names(name: str, message: str) -> None:
 
 
 def test_a_subscriber_that_does_not_read_blocks_no_publisher() -> None:
-    """Messages are sent while the socket has room, dropped while it is full, and sent again afterwards."""
+    """The publisher drops messages while the socket is full, and sends messages again when there is room."""
     near, far = socket.socketpair()
     with near, far:
         near.setblocking(True)

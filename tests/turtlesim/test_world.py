@@ -1,4 +1,4 @@
-"""The world of turtles alone: without ROS, and with a clock that the tests control."""
+"""The world of turtles without ROS, and with a clock that the tests control."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ GROUND, LINE = (69, 86, 255), (1, 2, 3)
 
 
 def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
-    """Run ticks; return all warnings."""
+    """Run `ticks` ticks, and return all warnings."""
     return [warning for tick in range(ticks) for warning in world.tick(start + tick * TICK)]
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world whose turtle has just received a velocity."""
+    """Return a world, and its turtle with a new velocity."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)
@@ -40,20 +40,20 @@ def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tu
 
 
 def float32(value: float) -> float:
-    """Return a number as float32."""
+    """Return `value` rounded to a float32."""
     (kept,) = struct.unpack("<f", struct.pack("<f", value))
     return float(kept)
 
 
-def test_the_first_turtle_stands_in_the_middle() -> None:
-    """turtle1 is at 5.544444561004639 in both, as a float32, and the world is 11.088889 wide."""
+def test_the_first_turtle_is_in_the_middle() -> None:
+    """As a float32, x and y of turtle1 are 5.544444561004639; the world is 11.088889 m wide."""
     turtle = World().turtles["turtle1"]
     assert (float32(turtle.x), float32(turtle.y)) == (5.544444561004639, 5.544444561004639)
     assert (turtle.theta, round(WIDTH, 6)) == (0.0, 11.088889)
 
 
-def test_one_order_holds_for_a_second() -> None:
-    """An x of 1 moves the turtle 0.016 m per tick, 1.008 m in all, and then it stops."""
+def test_a_velocity_is_valid_for_a_second() -> None:
+    """A velocity of 1 m/s moves the turtle 0.016 m per tick and 1.008 m in total. Then the turtle stops."""
     world, turtle = driven(forward=1.0)
     world.tick(0.0)
     assert turtle.x - HOME == pytest.approx(0.016)
@@ -63,7 +63,10 @@ def test_one_order_holds_for_a_second() -> None:
 
 
 def test_an_arc() -> None:
-    """(2, 1.8) turns 1.8144 in its second, and ends 2.5 cm off the ideal arc: it turns, then moves."""
+    """In one second, (2 m/s, 1.8 rad/s) turns the turtle by 1.8144 rad, and moves it near the ideal end.
+
+    There is a small difference, because in each tick the turtle turns first and then moves.
+    """
     world, turtle = driven(forward=2.0, turn=1.8)
     run(world, 100)
     assert turtle.theta == pytest.approx(1.8144)
@@ -73,7 +76,7 @@ def test_an_arc() -> None:
 
 
 def test_sideways() -> None:
-    """linear.y moves the turtle to its left, and the reported velocity is a magnitude."""
+    """linear.y moves the turtle sideways, and the reported speed is the length of the velocity vector."""
     world, turtle = driven(forward=3.0, sideways=-4.0)
     world.tick(0.0)
     assert (turtle.x - HOME, turtle.y - HOME) == (pytest.approx(0.048), pytest.approx(-0.064))
@@ -81,7 +84,7 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """The position is limited, each tick warns with the position outside, and the velocity stays reported."""
+    """The turtle stops at the wall, and keeps its velocity. Each tick returns a warning with the position."""
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -94,20 +97,20 @@ def test_the_wall() -> None:
     ("angle", "read"), [(math.pi, -3.141593), (-math.pi, 3.141593), (7.0, 0.716815), (-4.0, 2.283185), (0, 0)]
 )
 def test_theta_is_normalized(angle: float, read: float) -> None:
-    """A float32 of +π is reported as -3.141593, and the other way round."""
+    """The result is an angle from -π to π. The float32 of π becomes -3.141593, and that of -π 3.141593."""
     assert round(normalized(float32(angle)), 6) == read
 
 
 def test_spawn_outside_is_clamped() -> None:
-    """A turtle that is spawned outside is at the wall one tick later."""
+    """A turtle that is spawned outside the world is at the wall one tick later."""
     world = World()
     turtle = world.spawn(-3.0, 99.0, 0.0, "far")
     assert len(world.tick(0.0)) == 1
     assert (turtle.x, turtle.y) == (0.0, WIDTH)
 
 
-def test_names_by_itself() -> None:
-    """turtle2, turtle3, …: used names are skipped, and those of killed turtles are not used again."""
+def test_a_turtle_without_a_name_gets_one() -> None:
+    """The names are turtle2, turtle3, … Used names are skipped, even if the turtle was killed."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -118,8 +121,8 @@ def test_names_by_itself() -> None:
     assert world.spawn(1, 1, 0).name == "turtle2"
 
 
-def test_a_name_is_given_once() -> None:
-    """A second turtle with the same name and the killing of an unknown one give turtlesim's messages."""
+def test_used_and_unknown_names_are_refused() -> None:
+    """The errors for a used name in spawn and for an unknown name in kill have turtlesim's messages."""
     world = World()
     with pytest.raises(NameTaken, match=r"A turtled named \[turtle1\] already exists"):
         world.spawn(1, 1, 0, "turtle1")
@@ -128,14 +131,14 @@ def test_a_name_is_given_once() -> None:
 
 
 def test_teleport_relative_turns_first() -> None:
-    """teleport_relative turns first and then moves."""
+    """teleport_relative with an angle of 90° moves the turtle up, not to the right."""
     world, turtle = driven()
     turtle.teleport_relative(world.canvas, 2.0, math.pi / 2)
     assert (turtle.x, turtle.y) == (pytest.approx(HOME), pytest.approx(HOME + 2))
 
 
 def test_the_sensor_reads_what_the_pens_drew() -> None:
-    """The sensor reads the background, or the colour of a line; with the pen up there is no new line."""
+    """The sensor reads the colour of a line, or the background. With the pen up, there is no new line."""
     world, turtle = driven()
     turtle.pen = Pen(colour=(10, 20, 30), width=6)
     turtle.teleport(world.canvas, HOME + 2, HOME, 0.0)
@@ -149,7 +152,7 @@ def test_the_sensor_reads_what_the_pens_drew() -> None:
 
 
 def test_clear_keeps_turtles_and_erases_lines() -> None:
-    """After clear the lines are gone, and the turtle has not moved."""
+    """After clear, the sensor reads the new background, and the turtle has not moved."""
     world, turtle = driven()
     turtle.teleport(world.canvas, 2.0, 2.0, 0.0)
     world.clear((1, 2, 3))
@@ -159,7 +162,7 @@ def test_clear_keeps_turtles_and_erases_lines() -> None:
 
 @pytest.mark.parametrize("command", [(1e308, -1e308, 1e308), (-1e300, 1e-300, -1e300), (3e38, 3e38, 3e38)])
 def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float]) -> None:
-    """At any finite speed a turtle stays inside, with a finite angle."""
+    """At any finite velocity, the turtle stays inside the world, and its angle is finite."""
     world, turtle = driven(*command)
     run(world, 5)
     assert 0.0 <= turtle.x <= WIDTH
@@ -168,27 +171,27 @@ def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float
 
 
 def coloured(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
-    """Return the pixels that a line colours near its ends and between them."""
+    """Return the pixels that a line colours, in the area of 60 by 60 px at the top left."""
     canvas = Canvas(GROUND)
     canvas.line(start, end, LINE, width)
     return {(x, y) for x in range(60) for y in range(60) if canvas.colour_at((x, y)) == LINE}
 
 
-def test_width() -> None:
-    """A level line of width 3 colours three rows, and half its width beyond each end."""
+def test_a_line_has_its_width() -> None:
+    """A horizontal line of width 3 colours three rows, and extends half its width beyond each end."""
     pixels = coloured((10.0, 20.0), (30.0, 20.0), 3)
     assert {y for _, y in pixels} == {19, 20, 21}
     assert (min(x for x, _ in pixels), max(x for x, _ in pixels)) == (9, 31)
 
 
 def test_width_0_draws_one_pixel() -> None:
-    """Width 0 gives the thinnest visible line."""
+    """A line of width 0 colours one row of pixels."""
     assert len({y for _, y in coloured((10.0, 20.0), (30.0, 20.0), 0)}) == 1
 
 
 @pytest.mark.parametrize("end", [(50.0, 12.0), (12.0, 50.0), (50.0, 50.0), (33.0, 47.0)])
 def test_a_slanted_line_has_no_gaps(end: Point) -> None:
-    """The pixels of a thin line touch each other."""
+    """Each pixel of a thin line touches another pixel of the line."""
     pixels = coloured((10.0, 10.0), end, 1)
     reached, todo = set(), [min(pixels)]
     while todo:
@@ -199,21 +202,21 @@ def test_a_slanted_line_has_no_gaps(end: Point) -> None:
     assert reached == pixels
 
 
-def test_a_point_is_a_square() -> None:
-    """A line without length is a dot with the width of the pen."""
+def test_a_line_without_length_is_a_square() -> None:
+    """A line from a point to the same point colours a square with the width of the pen."""
     assert len(coloured((20.5, 20.5), (20.5, 20.5), 4)) == 16
 
 
-def test_outside_is_cut_off() -> None:
-    """A line may leave the canvas on any side; outside, the sensor reads the edge."""
+def test_a_line_may_leave_the_canvas() -> None:
+    """A line is drawn up to the edge of the canvas. Outside, the sensor reads the colour at the edge."""
     canvas = Canvas(GROUND)
     canvas.line((-1000.0, 5.0), (1500.0, 5.0), LINE, 255)
     assert canvas.colour_at((-7.0, 5.0)) == canvas.colour_at((SIDE + 50.0, 5.0)) == LINE
     assert canvas.colour_at((250.0, 499.0)) == GROUND
 
 
-def test_a_fill_covers_all() -> None:
-    """fill() gives all pixels one colour."""
+def test_fill_colours_all_pixels() -> None:
+    """After fill(), no pixel has the colour of a line."""
     canvas = Canvas(GROUND)
     canvas.line((0.0, 0.0), (499.0, 499.0), LINE, 9)
     canvas.fill((9, 9, 9))
@@ -221,7 +224,7 @@ def test_a_fill_covers_all() -> None:
 
 
 def test_the_widest_line_fits_into_a_tick() -> None:
-    """Across the canvas with the widest pen, a line takes much less processor time than a tick of 16 ms."""
+    """A line across the canvas with the widest pen takes less processor time than a tick of 16 ms."""
     canvas = Canvas(GROUND)
     took = []
     for _ in range(5):

@@ -243,7 +243,7 @@ def test_exit_while_the_master_is_stopped() -> None:
             processes[-1].wait_for_service("/pulse_2/get_loggers")
         """)
         with stopped(own.pid):
-            kernel.exit(patience=12)
+            kernel.exit(timeout=12)
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:

@@ -85,7 +85,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 def times_out(kernel: Kernel, name: str) -> str:
     """Check that a call from the kernel ends with CallTimeout at its deadline; return the error message."""
-    reply = kernel.ask(CALL.format(name=name), patience=20)
+    reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
     return reply.words

@@ -108,7 +108,7 @@ def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
-    kernel.exit(patience=5)
+    kernel.exit(timeout=5)
     assert MasterClient(master.uri).system_state().nodes == ()
     assert gone(pids)
 

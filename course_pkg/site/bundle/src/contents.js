@@ -1,8 +1,8 @@
-/* The table of contents follows the reader: the section at the top of the window is the current one. */
+/* Marks the current section in the table of contents: the section at the top of the window. */
 
-const NARROW = matchMedia("(max-width: 52rem)"); // as in site.css: there the lists stand above the text
+const NARROW = matchMedia("(max-width: 52rem)"); // as in site.css, which then shows the lists above the text
 
-/** Fold the lists away where they would push the text out of the window. */
+/** Close the lists in a narrow window, because there they would push the text out of the window. */
 export function foldLists() {
   const fold = () => document.querySelectorAll(":is(.chapters, .contents) details").forEach((list) => {
     list.open = !NARROW.matches;
@@ -35,7 +35,7 @@ export function followContents() {
   mark();
 }
 
-/** Keep the current link in sight, where the list is longer than the window. */
+/** Scroll the list so that the current link is visible, if the list is longer than the window. */
 function reveal(link) {
   const list = link?.closest(".contents");
   if (!list || list.scrollHeight <= list.clientHeight) return;

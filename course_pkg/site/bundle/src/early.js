@@ -1,4 +1,4 @@
-/* Before anything is drawn: the colours that the reader chose on an earlier page. */
+/* Sets the colours that the reader chose on an earlier page. It runs before the browser draws the page. */
 import { chosen, show } from "./theme.js";
 
 show(chosen());

@@ -1,4 +1,4 @@
-/* What a page gets that only makes sense with a script: links at headings, copy buttons, and scrolling by keyboard. */
+/* Adds the parts of a page that need a script: links at headings, copy buttons, and scrolling by keyboard. */
 
 export function linkHeadings() {
   for (const heading of document.querySelectorAll("article :is(h2, h3, h4)[id]")) {
@@ -37,7 +37,7 @@ async function copied(text, button) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return bySelection(text, button); // a page in a folder, or one without https, has no clipboard
+    return bySelection(text, button); // A page in a folder, or a page without https, has no clipboard.
   }
 }
 
@@ -55,15 +55,15 @@ function bySelection(text, button) {
 
 const STOPS = "a[href], button, input, select, textarea, summary, [tabindex]";
 
-/** Whatever is larger than the room that it has can be scrolled by keyboard, and has a name. */
+/** Make each box with overflowing content reachable by keyboard, and give it a name, so that a reader can scroll it. */
 export function scrollable() {
   const names = new Map();
   const watched = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target, names.get(target))));
   for (const box of document.querySelectorAll("article pre, .wide, .ros-panel *")) {
     if (box.closest(".ros-panel") && !/auto|scroll/.test(getComputedStyle(box).overflow)) continue;
-    if (box.closest('[aria-hidden="true"]')) continue; // what it shows is said elsewhere
-    if (box.matches(STOPS) || box.querySelector(STOPS)) continue; // the keyboard gets there already
-    names.set(box, `${kindOf(box)} ${names.size + 1}`); // regions want names that tell them apart
+    if (box.closest('[aria-hidden="true"]')) continue; // Another element describes the same content.
+    if (box.matches(STOPS) || box.querySelector(STOPS)) continue; // The keyboard already reaches this box.
+    names.set(box, `${kindOf(box)} ${names.size + 1}`); // Each region needs a different name.
     watched.observe(box);
   }
 }

@@ -1,28 +1,27 @@
-/* Draws every panel of the page from the state that it was saved with. There is no kernel, and the panels are told so:
-   whatever they send cannot be sent. */
+/* Draws every panel of the page from its saved state. There is no kernel, so each `send` of a panel throws an error. */
 
 import { nameParts } from "./names.js";
 
 export async function drawPanels() {
-  const book = document.body.matches(".book"); // nobody sees it before it is printed, and no frame comes
+  const book = document.body.matches(".book"); // The book is printed without a window, so it gets no animation frames.
   for (const packed of document.querySelectorAll("script.states")) {
     const places = packed.parentElement.querySelectorAll("[data-panel]");
     const states = await unpacked(packed.textContent);
     for (const [index, place] of places.entries()) {
       draw(place, states[index]);
-      if (!book) await painted(); // each is seen as soon as it is there, and the reader can go on between two
+      if (!book) await painted(); // The browser shows each panel at once, and handles input before the next panel.
     }
   }
   nameParts();
   toAnchor();
 }
 
-/** Go where the address says: what was drawn has moved what is below it. */
+/** Scroll to the anchor of the address again, because the drawn panels have moved the text below them. */
 export function toAnchor() {
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: "instant" });
 }
 
-const NO_FRAMES = 200; // ms; a window that nobody sees is not painted
+const NO_FRAMES = 200; // ms; the longest wait for a frame, because a hidden window gets no frames
 
 function painted() {
   return new Promise((resume) => {
@@ -31,7 +30,7 @@ function painted() {
   });
 }
 
-/** The states of a page are a third of it, and less than a tenth when they are packed. @param {string} text base64 */
+/** Return the decompressed states. They are a third of a page's size, and compressed less than a tenth. @param {string} text base64 */
 async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
@@ -42,11 +41,11 @@ function draw(place, state) {
     globalThis.coursePanels[place.dataset.panel].render({ model: saved(state), el: place });
   } catch (error) {
     place.textContent = "This panel could not be drawn.";
-    console.error(error); // a panel less must not take the page along
+    console.error(error); // An error in one panel must not stop the other parts of the page.
   }
 }
 
-/** A model of a widget, as far as the panels use one. */
+/** Return a replacement for the model of a widget, with the methods that the panels use. */
 function saved(state) {
   return {
     get: (name) => state[name],
@@ -54,7 +53,7 @@ function saved(state) {
       state[name] = value;
     },
     save_changes() {},
-    on() {}, // nothing changes by itself
+    on() {}, // Without a kernel, no value changes by itself.
     off() {},
     send() {
       throw new Error("no kernel");

@@ -1,6 +1,7 @@
-/* The course's letters weigh as much as all the rest of a page, and its first panel is not to wait for them. */
+/* Loads the course's fonts. They are as large as all other parts of a page together, so the first panel is drawn before
+   they load. */
 
-/** Turn to them, and settle when they are there; a page without panels has them from the start. */
+/** Use the fonts, and resolve when they are loaded. A page without panels uses them from the start. */
 export async function letters() {
   const sheet = document.querySelector('link[media="print"]');
   if (!sheet) return;

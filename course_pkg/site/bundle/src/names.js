@@ -1,6 +1,6 @@
-/* What the parts of panels are called, where a page asks for more than a notebook does. */
+/* Gives the parts of panels unique names. */
 
-/** A notebook may show two panels of a kind; on a page each part that can be jumped to has a name of its own. */
+/** Add a number to a name that occurs again. A notebook may show two panels of a kind, but landmarks of a page need unique names. */
 export function nameParts() {
   const seen = new Map();
   for (const part of document.querySelectorAll(".ros-panel[aria-label], .ros-panel :is(section, form, [role=region])[aria-label]")) {

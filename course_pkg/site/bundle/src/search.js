@@ -1,5 +1,5 @@
-/* Search over all sections of the course. The texts are a script of their own, loaded when a search begins: a page in a
-   folder may not fetch, but it may add a script. */
+/* Searches all sections of the course. The texts are in a separate script that loads when a search begins, because a
+   page in a folder may add a script, but may not fetch a file. */
 import MiniSearch from "minisearch";
 
 const MOST = 30; // results
@@ -22,7 +22,7 @@ export function search() {
   const show = () => {
     const words = input.value.trim();
     const found = words ? finder.find(words) : [];
-    status.textContent = !words ? `${finder.size} sections. Type a word, such as “timeout”.` : found.length ? `${found.length}${found.length === MOST ? " or more" : ""} found` : `Nothing has “${words}” in it.`;
+    status.textContent = !words ? `${finder.size} sections. Type a word, such as “timeout”.` : found.length ? `${found.length}${found.length === MOST ? " or more" : ""} found` : `No section contains “${words}”.`;
     results.replaceChildren(...found.map((each) => item(each, () => dialog.close())));
   };
   for (const button of document.querySelectorAll("button.search")) {
@@ -44,7 +44,8 @@ export function search() {
   input.addEventListener("input", () => finder.size && show());
 }
 
-/** Up and down go from the field through the results; Escape closes at once, where a search field would first clear. */
+/** Move through the field and the results with the up and down keys. Escape closes the dialog at once, because otherwise
+    the search field would only clear its text. */
 function walk(event, dialog, input, results) {
   if (event.key === "Escape") {
     event.preventDefault();

@@ -1,4 +1,4 @@
-/* Begins what a page does, the panels first: they are what the reader waits for. */
+/* Starts all scripts of a page. The panels come first, because the reader waits for them. */
 import { foldLists, followContents } from "./contents.js";
 import { copyButtons, linkHeadings, scrollable } from "./furniture.js";
 import { drawPanels, toAnchor } from "./host.js";
@@ -15,5 +15,5 @@ drawn.then(() => {
   copyButtons();
   scrollable();
   followContents();
-  letters().then(toAnchor); // both have moved what is below them
+  letters().then(toAnchor); // The panels and the new fonts have moved the text below them.
 });

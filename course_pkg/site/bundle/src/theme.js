@@ -1,4 +1,5 @@
-/* Light, dark, or what the system says. A page in a folder may have no storage: then a choice lasts for the page. */
+/* Light colours, dark colours, or the setting of the system. A page in a folder may have no storage: then the choice of
+   the reader is lost with the next page. */
 
 const KEY = "course-theme";
 export const THEMES = ["system", "light", "dark"];
@@ -24,16 +25,16 @@ function keep(theme) {
   try {
     localStorage.setItem(KEY, theme);
   } catch {
-    // no storage here
+    // Without storage, the choice holds only for this page.
   }
 }
 
-/** Let a button go round the themes. @param {HTMLButtonElement} button */
+/** Make each click on the button choose the next theme. @param {HTMLButtonElement} button */
 export function themeButton(button) {
   let theme = chosen();
   const say = () => {
     button.textContent = { system: "Auto", light: "Light", dark: "Dark" }[theme] ?? "";
-    button.setAttribute("aria-label", theme === "system" ? "Auto: colours as the system has them" : `${button.textContent} colours`);
+    button.setAttribute("aria-label", theme === "system" ? "Auto: the colours of the system" : `${button.textContent} colours`);
   };
   button.addEventListener("click", () => {
     theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
