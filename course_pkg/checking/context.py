@@ -127,7 +127,7 @@ class CheckContext:
                 "rospy.Service, and to end without an exception."
             )
             hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
-            actual = "nobody who serves it"
+            actual = "no server"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = "The master lists a server that has ended or stopped. Run the cell that serves it again."

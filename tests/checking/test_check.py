@@ -106,7 +106,7 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
         ('    print(check("05.1"))', "handle_geometry is not defined: run the cell above first."),
         ('    handle_geometry = ...\n    print(check("05.1"))', "05.1 not attempted"),
         ('    print(check("99.9"))', "There is no check '99.9'."),
-        ('    handle_geometry = 1\n    print(check("05.1"))', "nobody who serves it"),
+        ('    handle_geometry = 1\n    print(check("05.1"))', "no server"),
         (
             '    handle_geometry = 1\n    import os\n    os.environ["ROS_MASTER_URI"] = "http://localhost:1"\n'
             '    print(check("05.1"))',

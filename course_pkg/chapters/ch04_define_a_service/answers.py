@@ -204,7 +204,7 @@ replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: generation and runtime the wrong way round | hint: <exec_depend>message_runtime</exec_depend>
 replace("message_generation", "message_runtime")
 replace("message_runtime</exec_depend>\n  <exec_depend>rospy", "message_generation")
-# %% 04.3 wrong: no message_generation | hint: message_generation makes classes from a .srv
+# %% 04.3 wrong: no message_generation | hint: message_generation generates classes from a .srv
 replace("\n  <build_depend>message_generation</build_depend>", "")
 # %% 04.3 wrong: a tag left open | hint: Close every
 replace("</name>", "")

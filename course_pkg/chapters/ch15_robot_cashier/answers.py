@@ -48,7 +48,7 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all others are very
+# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all other points are very
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
 # %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
@@ -86,7 +86,7 @@ replace("import Image", "import CompressedImage as Image")
 replace('"frames"', '"/frames"')
 # %% 15.1 wrong: another node name | hint: Call rospy.init_node … without anonymous=True, before
 replace('init_node("vision")', 'init_node("camera")')
-# %% 15.1 wrong: a misspelt topic | hint: The program runs, but nothing in it
+# %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
 # %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
 replace("\n    rospy.spin()", "")
@@ -471,7 +471,7 @@ replace("if response.found", "if response")
 replace('"customer" if response.found else "nobody"', "response")
 # %% 15.4 wrong: two lines | hint: The program printed other lines, too
 replace('    print("customer"', '    print("The detector says:")\n    print("customer"')
-# %% 15.4 wrong: an error status for nobody | hint: remove the sys.exit
+# %% 15.4 wrong: an error status for nobody | hint: remove the call of sys.exit
 replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
 # %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
@@ -589,7 +589,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
 # %% 15.8 wrong: the reason is lost | hint: has to contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the item counts
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the till counts the item
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
@@ -674,7 +674,7 @@ replace('        if not prices:\n            return True, "already empty"\n', ""
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, and its item is
+# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, but its item is
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"
@@ -682,7 +682,7 @@ replace("handle_reset(request):", """handle_reset(request):
 replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
 # %% 15.9 wrong: no lock | hint: The reset did not wait for the line
 replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
-# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, and its item was
+# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, but its item was
 replace("by item", "by item\npending = {}")
 replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
         pending[request.item] = request.cents
@@ -720,7 +720,7 @@ replace('name="hardware" default=', 'name="hardware" value=')
 replace('  <arg name="hardware" default="true" />\n', "")
 # %% 15.10 wrong: no default | hint: The file has to work without arguments
 replace('name="wait" default="2.0"', 'name="wait"')
-# %% 15.10 wrong: yes is no boolean | hint: The attribute "if" needs the value true or false
+# %% 15.10 wrong: yes is no boolean | hint: The value of the attribute "if" has to be true or false
 replace('if="$(arg hardware)"', 'if="$(arg wait)"')
 # %% 15.10 wrong: an unknown substitution | hint: Type roslaunch --nodes my_cashier
 replace('value="$(arg wait)"', 'value="$(value wait)"')
@@ -830,7 +830,7 @@ replace('request.item = request.item or "no name"\n    return handle_set(self, r
 # %% 15.11 wrong: no reset after a visit | hint: The customer has left, but the till still has items
 change_node("robot_cashier", "robot_cashier.RobotCashier._empty_till = lambda self: None")
 
-# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only few mirror images
+# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only a few mirror images
 change_node("robot_cashier", """import random
 
 mirror = robot_cashier.RobotCashier.mirror

@@ -50,12 +50,14 @@ class Publisher:
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
         """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
 
-        `hints` are for the value "nobody". A subscriber of another type leads to this value, too.
+        `hints` are for the value "no subscriber". A subscriber of another type leads to this value, too.
         """
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):
-            hint = hint_for(hints, "nobody") or f"Make a rospy.Subscriber for it, of type {self._type}."
-            self._results.fails(assertion, expected="a subscriber", actual="nobody", hint=hint)
+            hint = (
+                hint_for(hints, "no subscriber") or f"Make a rospy.Subscriber for it, of type {self._type}."
+            )
+            self._results.fails(assertion, expected="a subscriber", actual="no subscriber", hint=hint)
         self._results.passes(assertion)
 
     def finish(self, within: float = 10.0) -> bool:

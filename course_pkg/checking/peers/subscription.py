@@ -73,12 +73,12 @@ class Subscription:
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
         """Assert that the topic is published with its type; return when the publisher is connected.
 
-        `hints` are for a wrong value: "nobody who publishes it", or another type.
+        `hints` are for a wrong value: "no publisher", or another type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)
         if found != self.kind:
-            actual = found or "nobody who publishes it"
+            actual = found or "no publisher"
             hint = hint_for(hints, actual) or self._what_to_do(found)
             self._results.fails(assertion, expected="a publisher", actual=actual, hint=hint)
         self._results.passes(assertion)

@@ -19,7 +19,7 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     deadline=25.0,
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve in three namespaces beside services with similar names; then name a missing service."""
+    """Serve in three namespaces, with similar names next to the right one; then pass a missing name."""
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
@@ -120,7 +120,7 @@ _NOBODY = [
     deadline=25.0,
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register running and killed publishers of two topics; then name topics without a running publisher."""
+    """Register running and killed publishers of two topics; then pass topics without a running publisher."""
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
     living, dead = names[:3], names[3:5]

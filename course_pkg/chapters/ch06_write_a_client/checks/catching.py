@@ -21,7 +21,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # each use of such an object raises the error that a name of a wrong type causes
+"""  # each use of this object raises the same error as a name of a wrong type
 
 
 @part(

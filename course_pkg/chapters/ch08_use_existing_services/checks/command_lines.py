@@ -1,4 +1,4 @@
-"""08.4: a command line that calls a service; bash splits it and YAML reads its fields."""
+"""08.4: a command line that calls a service; bash splits the line into words, and YAML reads the fields."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SPLIT = (
     "word for bash."
 )
 TYPES = (
-    "YAML read a different value: without quotes, it reads off as False. json.dumps writes a "
+    "YAML read a different value, for example False for the word off without quotes. json.dumps writes a "
     "dict in a form that YAML reads correctly."
 )
 LOST = "A field in an inner dictionary has no value. Write the whole dict into the line."
@@ -34,12 +34,15 @@ COMPLAINTS = [
         "Arguments with := are for ROS, so rosservice does not receive them. Write the fields as a dict.",
     ),
     (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write a dict: {a: 5}."),
-    (matches("^!"), "The ! is only for a cell of a notebook. Remove it for a terminal."),
+    (matches("^!"), "The character ! works only in a cell of a notebook. Remove it for a terminal."),
     (
         matches("syntax error"),
         "This is a call in Python. In a terminal, write words with spaces between them, without brackets.",
     ),
-    (matches("no such file"), "The quotes make one word of the whole line. Quote only the fields."),
+    (
+        matches("no such file"),
+        "Because of the quotes, bash reads the whole line as one word. Quote only the fields.",
+    ),
     (matches(r"\{.*no such option"), SPLIT),
     (
         matches("no such option"),
@@ -80,7 +83,7 @@ NO_LINE: Hints = [
     deadline=38.0,
 )
 def line_for_a_terminal(context: CheckContext) -> None:
-    """Run the lines in bash; some values need quotes for bash or for YAML."""
+    """Run the returned lines in bash; some values need quotes for bash or for YAML."""
     for example in example_calls(context):
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)

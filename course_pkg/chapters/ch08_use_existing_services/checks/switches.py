@@ -1,4 +1,4 @@
-"""08.3: a client that moves a switch and verifies the result."""
+"""08.3: a client that moves a switch, and then reads its position."""
 
 from __future__ import annotations
 

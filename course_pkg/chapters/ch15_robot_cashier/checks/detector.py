@@ -19,10 +19,10 @@ NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
 INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
 AWAIT = "course_pkg/AwaitCustomer"
-LONG = 6.0  # s of patience, longer than any wait that succeeds
+LONG = 6.0  # s; a value of `patience` that is longer than any successful wait
 LATER = 2.2  # s until a customer comes
 SLACK = 2.0  # s that a call may take longer on a busy machine
-EARLY = 0.1  # s by which a call may end too early, because of rounding
+EARLY = 0.1  # s by which a call may seem to end too early, because of rounding
 CALLERS = 4
 
 NOT_SEEN = (
@@ -71,7 +71,7 @@ FAILED: Hints = [
     start=start_of(NAME),
 )
 def the_detector(context: CheckContext) -> None:
-    """Publish on customer_seen; call with and without a customer, and several times at the same time."""
+    """Publish on customer_seen; call with and without a customer; then make several calls at once."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -115,7 +115,7 @@ def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> No
 
 
 def _serves_several_callers(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
-    """Let several calls wait; make a short call in the meantime; then let a customer come."""
+    """Let several calls wait, make a short call while they wait, and then let a customer come."""
     with ThreadPoolExecutor(1) as pool:
         began = time.monotonic()
         vision.show_later(LATER, True)
@@ -193,7 +193,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, soon and long after the last message, and when new messages come."""
+    """Call before the first message, shortly and long after the last message, and while new messages come."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -226,7 +226,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
     found = True
     if vision.silent_for() < 0.8:
         found = detect(patience=0.0).found
-    if vision.silent_for() > 1.0:  # the machine is too busy for this test
+    if vision.silent_for() > 1.0:  # the machine is too busy for this assertion
         found = True
     context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
 
