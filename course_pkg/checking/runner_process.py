@@ -21,12 +21,12 @@ class RunnerStopped(BaseException):
 
 
 def main() -> None:
-    """Run one check over the socket whose descriptor is the first argument, then end immediately."""
+    """Run one check over the socket whose descriptor is the first argument, and then end immediately."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, StudentRecord().store)
     sys.stderr.flush()
-    os._exit(0)  # skip rospy's own shutdown: it sleeps for 0.6 s, and nothing is registered any more
+    os._exit(0)  # skip rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
 
 
 @contextmanager

@@ -345,7 +345,7 @@ replace("call {service}", "call /sum")
 # %% 08.4 wrong: calls twice | hint: The line calls the service more than once
 replace('return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', """line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
     return line + "; " + line""")
-# %% 08.4 wrong: as a call in Python | hint: without brackets
+# %% 08.4 wrong: as a call in Python | hint: without parentheses
 replace(" {service} {shlex.quote(json.dumps(fields))}", "({service}, {fields})")
 # %% 08.4 wrong: a list of words | hint: This is a list of words
 based_on("joined")

@@ -37,7 +37,7 @@ COMPLAINTS = [
     (matches("^!"), "The character ! works only in a cell of a notebook. Remove it for a terminal."),
     (
         matches("syntax error"),
-        "This is a call in Python. In a terminal, write words with spaces between them, without brackets.",
+        "This is a call in Python. In a terminal, write words with spaces between them, without parentheses.",
     ),
     (
         matches("no such file"),
