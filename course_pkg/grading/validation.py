@@ -1,6 +1,6 @@
-"""nbval's run of a rebuilt notebook: it finds the cells with the same output as the reference.
+"""The run of a rebuilt notebook with nbval, which finds the cells with the same output as the reference.
 
-It earns no points.
+The results earn no points.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
-CELL = 60  # s; only after this time does nbval notice that a kernel has ended
+CELL = 60  # s; nbval notices only after this time that a kernel has ended
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
 OUTPUT = 8 << 20  # bytes of the output
 
@@ -42,7 +42,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
     """Run nbval on `notebook` in a sandbox, with at most `cell` s for each cell.
 
-    Returns an empty tuple if the whole takes more than `timeout` s.
+    Returns an empty tuple if the notebook takes more than `timeout` s.
     """
     command = sandbox_command([sys.executable, "-m", "course_pkg.grading.nbval_process", str(cell)])
     with subprocess.Popen(
