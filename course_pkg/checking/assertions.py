@@ -74,7 +74,7 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
     if callable(condition):
         try:
             return bool(condition(actual))
-        # the condition expects a value of another type
+        # The condition expects a value of another type.
         except (TypeError, ValueError, LookupError, AttributeError):
             return False
     return same(plain(condition), actual, near)
