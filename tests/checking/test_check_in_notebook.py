@@ -39,7 +39,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """A kernel that has joined the graph; its student's record is in a folder of its own."""
+    """A kernel that has joined the graph, with a separate folder for the student's record."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel

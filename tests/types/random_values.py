@@ -25,7 +25,7 @@ MESSAGES = (
     "geometry_msgs/Polygon",
     "geometry_msgs/PoseWithCovariance",
 )
-# YAML or a shell gives these a special meaning.
+# These strings have a special meaning in YAML or in a shell.
 AWKWARD = (
     *("", " ", "yes", "No", "on", "null", "~", "1.0", "-1", "0x10", "1e5", "1_000", "12:30:45", "2020-01-02"),
     *(
