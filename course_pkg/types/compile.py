@@ -128,7 +128,7 @@ class _Generation:
         return generated
 
     def _code(self, spec: MsgSpec) -> str:
-        """Return genpy's code for a message without imports and without the text that genpy does not escape."""
+        """Return genpy's code for a message without imports and the text that genpy does not escape."""
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))
         copied = ("  _full_text = ", *(f"  {each.name} = " for each in make_python_safe(spec).constants))

@@ -613,7 +613,7 @@ def move(source, target):
 # %% 10.6 wrong: one lock after the other | hint: A count was changed without both locks
 replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
 replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
-# %% 10.6 wrong: one additional lock for all | hint: hold both locks for reading and for writing
+# %% 10.6 wrong: one additional lock for all | hint: hold both locks while you read and write
 replace("def move", "whole = threading.Lock()\n\n\ndef move")
 replace("with first.lock, second.lock", "with whole")
 # %% 10.6 wrong: does not look at the count | hint: The count of an empty shelf became negative

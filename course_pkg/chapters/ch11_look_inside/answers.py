@@ -116,7 +116,7 @@ replace("return data", "return data[:count]")
 replace('raise ConnectionError("the other end has closed")', "break")
 # %% 11.2 wrong: forgets to return | hint: without a return line
 replace("\n    return data", "")
-# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the rest follows
+# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the other bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
 # %% 11.2 wrong: buffered file | hint: An earlier call read too many bytes and lost them, and now
 based_on("a short piece is taken for the end")

@@ -117,12 +117,12 @@ def main():
 replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
 # %% 15.2 wrong: remembers a customer | hint: In the newest message, no customer is there, but found is True
 replace("self.customer = message.data", "self.customer = self.customer or message.data")
-# %% 15.2 wrong: does not wait | hint: The response came before the patience was over, although no customer was
+# %% 15.2 wrong: does not wait | hint: The response came too early, although no customer was
 based_on("a loop that looks again and again")
 replace("while not newest and", "while False and")
-# %% 15.2 wrong: waits for 1 s at most | hint: The response came before the patience was over, although no customer was
+# %% 15.2 wrong: waits for 1 s at most | hint: The response came too early, although no customer was
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
-# %% 15.2 wrong: waits without a limit | hint: The response came long after the patience was over
+# %% 15.2 wrong: waits without a limit | hint: The response came too late: use request.patience
 replace(", timeout=request.patience)", ", timeout=30)")
 # %% 15.2 wrong: always False | hint: In the newest message, a customer is there, but found is False
 based_on("a loop that looks again and again")
@@ -136,7 +136,7 @@ replace("        with self.changed:\n            end", "        with self.turn, 
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
 # %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but a call noticed
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
-# %% 15.2 wrong: no limits | hint: The patience has to be from 0 to 60 s
+# %% 15.2 wrong: no limits | hint: The field `patience` has to be from 0 to 60 s
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
 # %% 15.2 wrong: accepts nan | hint: Each comparison with nan (not a number) is False
@@ -207,7 +207,7 @@ if __name__ == "__main__":
 replace("return time.monotonic() - self.arrived > 1.0", "return False")
 # %% 15.3 wrong: an old customer counts | hint: The last message is older than 1 s
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
-# %% 15.3 wrong: refuses at once | hint: The node refused before the patience was over
+# %% 15.3 wrong: refuses at once | hint: The node refused too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
 # %% 15.3 wrong: a message counts for 0.2 s | hint: The last message was less than 1 s old
 replace("self.arrived > 1.0", "self.arrived > 0.2")
@@ -378,7 +378,7 @@ replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.slee
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
 # %% 15.6 wrong: another default | hint: has to be 2 s: rospy.get_param
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.6 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+# %% 15.6 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
 replace('rospy.get_param("~wait", 2.0)', '2.0')
 # %% 15.6 wrong: waits for the next customer at once | hint: In the last response, found was True, so a customer is there
 replace("    there = True\n", "    there = False\n")
@@ -452,7 +452,7 @@ replace("main()", """rospy.init_node("ask_customer")
         print("nobody")""")
 # %% 15.4 wrong: does not wait | hint: The service started 1 s after the program, but the program had
 replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
-# %% 15.4 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+# %% 15.4 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
 replace('rospy.get_param("~wait", 2.0)', "2.0")
 # %% 15.4 wrong: another default | hint: the second argument of rospy.get_param is the default
 replace('"~wait", 2.0', '"~wait", 5.0')
@@ -739,7 +739,7 @@ replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-# %% 15.10 wrong: another default | hint: Without an argument, the patience has to be 2 s: write default="2.0".
+# %% 15.10 wrong: another default | hint: Without an argument, the value of wait has to be 2 s: write default="2.0".
 replace('default="2.0"', 'default="3.0"')
 # %% 15.10 wrong: a fixed value | hint: The parameter has a fixed value
 replace('value="$(arg wait)"', 'value="2.0"')

@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.plain_values import Fields, of_kind
 
-WORDS = 4  # rosservice, call, the name, and one word with all fields
+WORDS = 4  # number of words in a line: rosservice, call, the name, and one word with all fields
 SPLIT = (
     "bash has split the fields at spaces, or removed quotes. shlex.quote turns any text into one "
     "word for bash."

@@ -222,8 +222,8 @@ CROSSED = (
     "the same order in every call, for example by the numbers of the shelves."
 )
 UNLOCKED = (
-    "A count was changed without both locks. Between the two changes, another "
-    "thread may read a wrong total: hold both locks for reading and for writing."
+    "A count was changed without both locks. Between the two changes, another thread may read a wrong "
+    "total: hold both locks while you read and write."
 )
 
 UNLOCKED_READ = (

@@ -178,8 +178,8 @@ LOST = [
 MOVED = [
     (
         matches("refused|OSError|Connection"),
-        "The server is not at the old address any more. Catch the OSError, look up the "
-        "address again, and call ask.",
+        "The server is not at the old address any more. Catch the OSError, look up the address again, and "
+        "call ask once more.",
     )
 ]
 RESET = [

@@ -292,8 +292,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^(Connection|BrokenPipe)"),
             (
-                "The connection is still open, and the rest follows. A short piece is not the "
-                "end; only b'' means the end."
+                "The connection is still open, and the other bytes follow. A short piece is not the end; "
+                "only b'' means the end."
             )
             if count
             else (

@@ -59,7 +59,7 @@ class CheckedMaster:
     def __init__(self, uri: str) -> None:
         self.addresses: list[list[str]] = []  # the last arguments of each registration
         self.registered: list[float] = []  # times of the registrations, by time.monotonic()
-        self.looks = 0  # calls of all kinds
+        self.looks = 0  # number of calls of the master
         self.gap = 60.0  # s; the shortest time between two calls of the same kind
         self.inside = threading.Event()  # set while a registration waits
         self.stopped_at: float | None = None  # when stop() returned

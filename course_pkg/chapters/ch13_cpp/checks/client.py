@@ -17,7 +17,7 @@ FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # s for which the client waits for a service
 TRIES = 3  # largest number of calls
 SLACK = 2.5  # additional s that a busy machine may need
-PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s that the exercise asks for
+PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s of the exercise
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 LIMIT = 5.0  # s after which a program that runs too long is stopped
 

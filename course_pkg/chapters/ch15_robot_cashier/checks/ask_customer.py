@@ -29,9 +29,12 @@ LATE = (
     "The service started 1 s after the program, but the program had already ended. "
     "Wait for the service with rospy.wait_for_service(name, timeout=3)."
 )
-PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+PARAMETER = (
+    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+)
 DEFAULT = (
-    "Without a parameter, the patience has to be 2 s: the second argument of rospy.get_param is the default."
+    "Without a parameter, the field `patience` has to be 2 s: the second argument of rospy.get_param is "
+    "the default."
 )
 ONCE = "The program called more than once. Make only one call, and print its result."
 NEVER = "The program did not call the service. Call detect_customer, without a slash, after rospy.init_node."

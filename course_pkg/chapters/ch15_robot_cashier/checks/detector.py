@@ -32,13 +32,8 @@ REMEMBERED = (
     "In the newest message, no customer is there, but found is True in the "
     "response. Use only the newest message."
 )
-NO_WAIT = (
-    "The response came before the patience was over, although no customer was "
-    "there. Wait for request.patience seconds."
-)
-TOO_LONG = (
-    "The response came long after the patience was over: use request.patience as the limit of the wait."
-)
+NO_WAIT = "The response came too early, although no customer was there. Wait for request.patience seconds."
+TOO_LONG = "The response came too late: use request.patience as the limit of the wait."
 ONE_BY_ONE = (
     "While one call waited, another call got no response. Do not hold a lock while "
     "the handler waits; Condition.wait_for releases its lock."
@@ -47,15 +42,16 @@ NOT_WOKEN = (
     "The customer came while several calls were waiting, but a call noticed this "
     "too late. Wake up all waiting calls in the callback, with notify_all."
 )
-UNREFUSED = "The patience has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
+UNREFUSED = "The field `patience` has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
 NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
 NAMELESS = 'The error message has to contain the word "patience".'
-FIRST = "The handler waited before it refused: check the patience at the beginning of the handler."
+FIRST = "The handler waited before it refused: check request.patience at the beginning of the handler."
 
 FAILED: Hints = [
     (
         REFUSED_BY_HANDLER,
-        "The handler refused a valid call. Accept each patience from 0 to 60 s while messages arrive.",
+        "The handler refused a valid call. Accept each value of `patience` from 0 to 60 s while messages "
+        "arrive.",
     ),
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
@@ -168,12 +164,10 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
 SILENT = 'The error message has to contain the word "camera".'
 OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
 NOBODY_KNOWS = (
-    "The camera is silent, so the node cannot know that found is False: raise "
-    "rospy.ServiceException when the patience is over."
+    "The camera is silent, so the node cannot know that found is False: raise rospy.ServiceException "
+    "after request.patience seconds."
 )
-TOO_SOON = (
-    "The node refused before the patience was over. New messages may arrive, so wait for the whole patience."
-)
+TOO_SOON = "The node refused too early. New messages may arrive, so wait for request.patience seconds."
 FRESH = "The last message was less than 1 s old, so it is valid. Use it."
 CAME_BACK = (
     "The camera was silent, but new messages came in time. Use the newest message, "

@@ -66,7 +66,7 @@ PLACE = (
     'The parameter "wait" does not belong to robot_cashier: write the <param> tag '
     "inside the <node> tag of robot_cashier."
 )
-DEFAULT_WAIT = 'Without an argument, the patience has to be 2 s: write default="2.0".'
+DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write default="2.0".'
 NOT_PASSED = (
     'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
 )

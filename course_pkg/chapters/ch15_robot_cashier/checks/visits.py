@@ -77,18 +77,21 @@ NO_TILL = (
     "Without the service till/reset, the node stopped calling detect_customer. Do not wait for this service "
     "without a limit, and catch rospy.ServiceException."
 )
-NO_DEFAULT = 'Without a parameter, the patience has to be 2 s: rospy.get_param("~wait", 2.0).'
-PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s: rospy.get_param("~wait", 2.0).'
+PARAMETER = (
+    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+)
 STILL_THERE = (
-    "In the last response, found was True, so a customer is there: set the patience of the next call to 0."
+    "In the last response, found was True, so a customer is there: set the field `patience` of the next "
+    "call to 0."
 )
 VISIT_GOES_ON = (
-    "A failed call does not end a visit: after this failure, continue to call with "
-    "the patience 0 until found is False."
+    "A failed call does not end a visit: after this failure, continue to call with `patience` 0 until "
+    "found is False."
 )
 VISIT_OVER = (
-    "In the last response, found was False, so no customer is there: set the "
-    "patience of the next call to the value of ~wait."
+    "In the last response, found was False, so no customer is there: set the field `patience` of the next "
+    "call to the value of ~wait."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
 NO_PAUSE = (
@@ -97,8 +100,8 @@ NO_PAUSE = (
 )
 LONG_PAUSE = "After a failed call, the next call came too late: wait only 0.5 s."
 HUNG_UP = (
-    "The node made another call before the response came. A call with a patience of "
-    "some seconds can take this long: wait for its response."
+    "The node made another call before the response came. A call can take as long as its field `patience` "
+    "says: wait for its response."
 )
 NOT_GREETED = "A customer came, but no greeting followed: publish on greetings when found is True."
 GREETED_AGAIN = "There were more greetings than visits. Publish once, when the visit begins."
@@ -251,8 +254,8 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         context.require(
             "the patience is ~wait, and 0 during a visit",
             holds=abs(call.patience - wanted) < 1e-3,
-            expected=f"the patience {wanted:g} after the response {before}",
-            actual=f"the patience {call.patience:g}",
+            expected=f"`patience` {wanted:g} after the response {before}",
+            actual=f"`patience` {call.patience:g}",
             hints=_wrong_patience(number, call.patience, wanted),
         )
         if number == 0:
