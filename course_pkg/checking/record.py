@@ -17,7 +17,7 @@ from pathlib import Path
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.state import locked, now, state_folder, write_json
 
-FOLDER = "results-2"  # `results` belongs to the first edition, where these numbers belong to other chapters
+FOLDER = "results-2"  # `results` is the folder of the first edition, whose chapters have other numbers
 PASSED = "passed"
 
 
@@ -131,6 +131,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as a text; if there are many, only the first ones."""
+    """Return the ids of parts as a text, but only the first `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -127,7 +127,7 @@ def report_from(data: Mapping[str, Value]) -> Report:
 
 
 def _block(label: str, text: str) -> list[str]:
-    """Return `text` as lines of at most WIDTH characters: the first after `label`, the others below it."""
+    """Return `text` as lines of at most WIDTH characters; the first line begins with `label`."""
     space = " " * len(label)
     lines = [
         part

@@ -31,7 +31,7 @@ def main() -> None:
 
 @contextmanager
 def _stopped_by(channel: Channel) -> Iterator[None]:
-    """Raise RunnerStopped in the main thread when the other end of `channel` is closed, or on SIGTERM."""
+    """Raise RunnerStopped in the main thread when `channel` is closed by the kernel, or after SIGTERM."""
 
     def stop(*_: object) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would interrupt the clean-up

@@ -15,7 +15,7 @@ from course_pkg.sandbox.job import WorkFile
 
 @dataclass(frozen=True)
 class Package:
-    """A catkin package of a student, as it was handed in."""
+    """A catkin package that a student has handed in."""
 
     name: str
     files: tuple[WorkFile, ...] = field(repr=False)

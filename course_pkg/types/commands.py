@@ -114,7 +114,7 @@ def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWr
 class _PythonWriter:
     """Writes plain values as Python expressions, and stores the message classes that they need.
 
-    `taken` are the names that the other lines already use.
+    `taken` are names that the lines already use for something else.
     """
 
     def __init__(self, fields: tuple[Field, ...], taken: Iterable[str]) -> None:

@@ -46,7 +46,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel sees no notebook, no check and no other process, and only its own network."""
+    """The kernel cannot access the notebook, the checks, other processes or another network."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters

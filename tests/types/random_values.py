@@ -151,7 +151,7 @@ def number(chance: random.Random, type_name: str) -> float:
 
 
 def text(chance: random.Random) -> str:
-    """Return a string, usually a difficult one."""
+    """Return a string, which is usually difficult for YAML or a shell."""
     if chance.random() < 0.7:
         return chance.choice(AWKWARD)
     return "".join(chance.choices(AWKWARD, k=3))

@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Return the request in the call in the last of some Python lines; the other lines are executed."""
+    """Execute some lines of Python except the last; return the request of the call in the last line."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

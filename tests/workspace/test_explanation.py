@@ -1,7 +1,7 @@
 """The messages of ROS's tools are explained, with the line and the next step.
 
-Each case is a package with one mistake, built by the real catkin_make; all share one workspace, so that CMake
-looks for the compilers once.
+Each case is a package with one mistake, which the real catkin_make builds. All cases use the same workspace,
+so that CMake searches for the compilers only once.
 """
 
 from __future__ import annotations
@@ -267,7 +267,7 @@ SAID = {
 
 @pytest.mark.parametrize(("line", "sourced", "words"), SAID.values(), ids=SAID)
 def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
-    """The other mistakes between a definition and a running program are explained."""
+    """Mistakes after the build are explained: a wrong import, a missing shebang, a wrong command."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
     scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
     write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})

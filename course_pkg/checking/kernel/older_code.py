@@ -1,8 +1,8 @@
 """Finds a student's function or class that is older than the last run of its cell.
 
-Then the cell shows other code than the code that the check would examine. This happens, for example, after a
-syntax error in the cell. It also happens if the cell ran again, but the cell that creates the service did
-not.
+In this case, the code in the cell differs from the code that the check would examine. This happens, for
+example, after a syntax error in the cell. It also happens if the cell ran again, but the cell that creates
+the service did not.
 """
 
 from __future__ import annotations

@@ -15,9 +15,9 @@ class Cases:
     """The right entry of each case, and the texts of a report.
 
     For each case, `right` contains the right entry, and `decisive` contains the fact that proves it.
-    `entries` contains a sentence about each entry of the list. `missing` is the hint for keys that are
-    missing, `keys` is the hint for unknown keys, and `spelling` the hint for an entry that is not in the
-    list. `label` names one case in an assertion, and `again` names it in a hint.
+    `entries` contains a sentence about each entry of the list. There are three other hints: `missing` for
+    missing keys, `keys` for unknown keys, and `spelling` for an entry that is not in the list. `label` names
+    one case in an assertion, and `again` names it in a hint.
     """
 
     right: Mapping[str, str]

@@ -120,7 +120,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
     rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. With `alone`,
-    all files but `examined` are the check's own.
+    all files except `examined` are the check's own.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})

@@ -6,7 +6,7 @@ lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE if so
 assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
 submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
 
-A catkin package is a folder beside the notebooks: <student>/<package>/package.xml (see packages.py).
+A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """
 
 from __future__ import annotations

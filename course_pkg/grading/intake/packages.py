@@ -2,8 +2,7 @@
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-If no part needs a package of this name, but a part needs a package with the name of the folder, the folder's
-name is used.
+If no part needs a package of this name, the name of the folder is used, provided that a part needs it.
 
 A link or a device is left out, with a note, and the other files of the package are examined. A package that
 is too large is not examined. If two packages have the same name, the newest package is used, as for
@@ -96,8 +95,8 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
     manifest = next((content for name, content, _ in contents if name == MANIFEST), None)
     if manifest is None:
         return replace(found, problem=f"The package {clean.line(root[-1], 60)} was not graded. {notes[0]}")
-    # Many platforms lose the permission bits. If no file is executable, they were lost, because a student who
-    # has run a program of the package has set at least one bit.
+    # Many platforms lose the permission bits. A student who has run a program of the package has set at least
+    # one bit. So if no file is executable, the bits were lost.
     lost = not any(executable for *_, executable in contents)
     files = [
         work_file(name, content, executable=executable or (lost and content.startswith(b"#!")))
@@ -122,8 +121,8 @@ def attached(
 ) -> list[Submission]:
     """Add each student's packages to the submissions of the chapters that need them; return all submissions.
 
-    `given` are the submissions with notebooks, `packages` are the packages of each student, and `wanted` are
-    the chapters that are graded (empty for all chapters). If there is no notebook, a package becomes a
+    `given` are the submissions with notebooks, and `packages` are the packages of each student. `wanted` are
+    the graded chapters; an empty list means all chapters. If there is no notebook, a package becomes a
     submission if it contains a file that a part of the chapter needs.
     """
     if not packages:

@@ -1,4 +1,4 @@
-"""Find the other cells that an answer needs, from the names in the cells.
+"""Find the cells that an answer needs by the names that they define.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). But an answer may use
 other names, such as an import of a cell above, or a function of an earlier answer. So the cells that define
@@ -71,7 +71,7 @@ def _tree(source: str) -> ast.Module:
 
 
 def _given(tree: ast.Module) -> frozenset[str]:
-    """Return the names that are defined at the end of a cell, except those inside a function or class."""
+    """Return the names that a cell defines at top level, and not inside a function or class."""
     names = set()
     for statement in tree.body:
         opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)

@@ -46,7 +46,7 @@ class Matching:
     def __init__(
         self, cells: Sequence[StudentCell], wanted: Sequence[Wanted], given: Mapping[str, str]
     ) -> None:
-        """`given` are the sources of the reference's other cells by their ids."""
+        """`given` contains the sources of all cells of the reference that are not exercises, by their ids."""
         self._cells = cells
         self._given = given
         self._texts = {source.strip() for source in given.values()}

@@ -72,7 +72,7 @@ def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
 
 
 def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
-    """Folders that catkin_make wrote are neither packages nor a problem."""
+    """Folders that catkin_make has written are not packages, and they lead to no problem."""
     write_package(tmp_path, "s01/workspace/src/my_geometry", my_geometry())
     for place in ("build/my_geometry/x.make", "devel/setup.bash", "install/share/my_geometry/package.xml"):
         folder(tmp_path, {f"s01/workspace/{place}": b"<name>my_geometry</name>"})

@@ -1,4 +1,4 @@
-"""The other cells that an answer needs, found by their names, within limits."""
+"""The cells that an answer needs are found by the names that they define, within limits."""
 
 from __future__ import annotations
 

@@ -285,7 +285,7 @@ def test_id_decides_between_different_metadata() -> None:
 
 
 def test_tags_and_metadata_of_the_student_stay_out() -> None:
-    """A tag neither skips nor excuses a cell; a note informs the student."""
+    """A tag of the student has no effect on a cell, and a note tells this to the student."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)]["metadata"]["tags"] = ["nbval-skip", "raises-exception", "mine"]
@@ -398,7 +398,7 @@ def test_sources_built_to_take_long(source: str) -> None:
 
 
 def test_nbval_runs_it(tmp_path: Path) -> None:
-    """The output of an exercise's cell is not compared; outputs of other cells are."""
+    """The output of an exercise's cell is not compared, but all other outputs are compared."""
     done = {"output_type": "execute_result", "execution_count": 2, "metadata": {}}
     reference = book(
         exercise("05.1", source="def double(x):\n    return 2 * x"),

@@ -19,7 +19,7 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     deadline=25.0,
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve in three namespaces, with similar names next to the right one; then pass a missing name."""
+    """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))

@@ -173,7 +173,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     deadline=30.0,
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with one, and before a late subscriber; the first value may be 0."""
+    """Set values without a subscriber, with a subscriber, and before a late one. The first may be 0."""
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
@@ -229,7 +229,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Wait for the values; in the next 0.3 s, no other message may arrive."""
+    """Assert that the values arrive, and that no other message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -1,9 +1,9 @@
 """The node `cashier`: greets every customer once, with one of three designs.
 
-`~design` is `poll` (call `detect_customer` `~rate` times per second, and again after each new customer),
-`topic` (subscribe to `customers`), or `wait` (call `detect_customer`, which answers within `~patience` s). It
-publishes the number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
-(course_pkg/CashierReport).
+The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
+times per second, and again after each new customer. With `topic`, it subscribes to `customers`. With `wait`,
+it calls `detect_customer`, which responds within `~patience` s. The node publishes the number of each greeted
+customer on `greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
 """
 
 from __future__ import annotations

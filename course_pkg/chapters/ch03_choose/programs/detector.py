@@ -1,7 +1,8 @@
 """The node `detector`: detects new customers in the messages of `counter`, where a camera publishes.
 
-It publishes the number of each customer once on `customers` (std_msgs/UInt32), and serves `detect_customer`
-(course_pkg/DetectCustomer), which waits for a customer, but never longer than the request allows.
+The node publishes the number of each customer once on `customers` (std_msgs/UInt32). It serves
+`detect_customer` (course_pkg/DetectCustomer): a call waits for a customer, but never longer than the request
+allows.
 """
 
 from __future__ import annotations

@@ -124,7 +124,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return for each case how the call fails, the name of the service, and the server if there is one."""
+    """Return for each case the kind of failure, the name of the service, and the server or None."""
     name = context.random.word()
     refuses = context.serve(f"/{name}_refuses", GEOMETRY, lambda _: Refuse("not today"))
     dies = context.serve(f"/{name}_dies", GEOMETRY, lambda _: HangUp())

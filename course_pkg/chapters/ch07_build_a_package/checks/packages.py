@@ -1,4 +1,4 @@
-"""The two packages of chapter 07; the check adds its own files for those that the student has not written."""
+"""The two packages of chapter 07; the check adds its own version of each file that is not written yet."""
 
 from __future__ import annotations
 

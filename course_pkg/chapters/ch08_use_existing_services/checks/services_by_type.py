@@ -83,7 +83,7 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
-    """Assert that the function returns all services of type `kind`; `mine` are those of the check.
+    """Assert that the function returns all services of type `kind`; `mine` are the services of the check.
 
     `incomplete` is the hint if services are missing.
     """

@@ -71,7 +71,7 @@ class Driver:
             )
 
     def requests(self, service: str) -> list[dict[str, Json]]:
-        """Return the requests to a service so far."""
+        """Return the requests that a service has received."""
         return [dict(request) for request in self.servers[service].requests]
 
     def _act(self, service: str, *, refuse: bool) -> Act:

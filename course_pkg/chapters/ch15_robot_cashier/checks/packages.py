@@ -1,4 +1,4 @@
-"""The package of chapter 15; the check adds its own files for those that the student has not written."""
+"""The package of chapter 15; the check adds its own version of each file that is not written yet."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
 STARTING = 8.0  # s for the program to register something; it takes 1 s on an idle machine
-REGISTERING = 1.5  # s from then on in which the program has to register all other interfaces
+REGISTERING = 1.5  # s after the first registration in which the program has to register all other interfaces
 POLL = 0.05  # s between two snapshots of the graph
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (

@@ -1,7 +1,8 @@
 """The node `bridge`: programs without ROS can call services through it, with JSON over a websocket.
 
-It implements the part of the rosbridge protocol that calls services, and listens only on this computer.
-https://github.com/RobotWebTools/rosbridge_suite/blob/ros1/ROSBRIDGE_PROTOCOL.md, 3.4.6 and 3.4.7.
+It listens only on this computer. It implements the part of the rosbridge protocol that calls services
+(sections 3.4.6 and 3.4.7 of
+https://github.com/RobotWebTools/rosbridge_suite/blob/ros1/ROSBRIDGE_PROTOCOL.md).
 """
 
 from __future__ import annotations
