@@ -1,4 +1,4 @@
-"""The checks: each check is a node of its own that examines a student's work from outside.
+"""The checks: each check is a separate node that examines a student's work from outside of the kernel.
 
 A notebook calls `check("05.1")`. An author declares a check with `part`, and works
 with the `CheckContext` that is passed to it. `matches` makes a pattern for its hints, and `ANYTHING` matches

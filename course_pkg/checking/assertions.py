@@ -13,16 +13,17 @@ from course_pkg.checking.report import Assertion
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.types import Plain
 
-# A wrong value, a pattern made by `matches`, or a function that returns whether the actual value matches. The
-# function may expect any kind of value: if it raises an exception, the value does not match.
+# A wrong value, a pattern made by `matches`, or a function that returns whether the actual value matches. If
+# such a function raises an exception, for example because the value has another type, the value does not
+# match.
 Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
-ANYTHING: Condition = re.compile("")  # matches every value; for the last hint of a list
+ANYTHING: Condition = re.compile("")  # matches every value; used for the last hint of a list
 # One hint for every wrong value, or pairs: the first condition that matches selects the hint.
 Hints: TypeAlias = "str | Sequence[tuple[Condition, str]]"
 
 
 class AssertionFailed(Exception):
-    """An assertion does not hold: the check is over."""
+    """An assertion does not hold, so the check ends."""
 
 
 def matches(pattern: str) -> re.Pattern[str]:
@@ -33,7 +34,7 @@ def matches(pattern: str) -> re.Pattern[str]:
 def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     """Return whether plain values are equal.
 
-    Numbers may differ by `near`, relative or absolute. True is never 1.
+    Numbers may differ by `near`, relative or absolute. True is not equal to 1.
     """
     if isinstance(expected, dict) and isinstance(actual, dict):
         return expected.keys() == actual.keys() and all(
@@ -73,7 +74,7 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
     if callable(condition):
         try:
             return bool(condition(actual))
-        # the condition expects another kind of value
+        # The condition expects a value of another type.
         except (TypeError, ValueError, LookupError, AttributeError):
             return False
     return same(plain(condition), actual, near)

@@ -1,7 +1,7 @@
 """The connection between the check client in a kernel, which is not trusted, and the check runner.
 
-Both use a stream socket with one JSON object in each line of at most `LIMIT` bytes. The runner never
-unpickles or evaluates the received data: they are plain data.
+They use a stream socket; each line is one JSON object of at most `LIMIT` bytes. The runner never unpickles or
+evaluates the data that it receives.
 
     client -> runner   {"protocol": 3, "check": "05.1"}            once, first
     runner -> client   {"ask": 1, "do": "look", "name": "measure"}
@@ -25,8 +25,8 @@ The requests, their arguments, and the fields of the replies:
     poll     process                      status, null while it runs
     stop     process                      as run; status is null if it was still running
 
-A line that is too long, that is no JSON object, or that replies to another request breaks the connection. The
-runner counts that as a failure, never as a pass.
+The connection is closed after a line that is too long, that is not a JSON object, or that replies to another
+request. For the runner, the check has then failed.
 """
 
 from __future__ import annotations

@@ -30,12 +30,13 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process i
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
     """Return the report on part `check_id`, such as "05.1", which a separate node examines.
 
-    The names that the check needs are looked up in `namespace`, or in the notebook if none is given. The
-    report contains every error. Only an interrupt is raised, after the check runner has ended.
+    The names that the check needs are looked up in `namespace`, or in the notebook if no namespace is given.
+    Errors are in the report and are not raised. Only an interrupt is raised, after the check runner has
+    ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
-        return _undecided(check_id, "Call check() in a cell of its own, not from another thread.")
+        return _undecided(check_id, "Call check() in a separate cell, not from another thread.")
     printed = PrintedText()
     names = _notebook() if namespace is None else namespace
     cells = _cells()
@@ -62,9 +63,9 @@ def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:
 
 @contextmanager
 def _runner() -> Iterator[Channel]:
-    """Connect to the check runner at COURSE_CHECK_RUNNER, outside the kernel.
+    """Connect to the check runner whose address is in COURSE_CHECK_RUNNER.
 
-    Start one if this is not set.
+    Start a check runner if this variable is not set.
     """
     if address := os.environ.get("COURSE_CHECK_RUNNER"):
         channel = connect(address)
@@ -81,7 +82,7 @@ def _runner() -> Iterator[Channel]:
 def _started_runner() -> Iterator[Channel]:
     """Start a check runner; it ends when this block ends, even if this process is killed."""
     if "ROS_MASTER_URI" not in os.environ:
-        raise CheckError("There is no node yet: run the set-up cell first, the one with join().")
+        raise CheckError("There is no node yet: first run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()
     with tempfile.TemporaryFile() as log:
         process = _spawn(theirs, log)
@@ -97,10 +98,11 @@ def _started_runner() -> Iterator[Channel]:
 
 
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
-    """Start the runner in a session of its own, so that an interrupt of the kernel does not interrupt it.
+    """Start the runner in a separate session, so that an interrupt of the kernel does not interrupt it.
 
-    It imports the course and the workspace from the same folders as this process. The notebook's folder comes
-    last in its path or not at all, so that a student's rospy.py there cannot replace the real one.
+    The runner imports the course and the workspace from the same folders as this process. The notebook's
+    folder is last in its path or not in it, so that a student's file rospy.py cannot replace the module
+    rospy.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)
@@ -125,7 +127,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
-    """Return a message: what to do, and the last lines that the check runner wrote."""
+    """Return a message that says what to do, with the last lines that the check runner wrote."""
     _end(process)
     log.seek(0)
     last = log.read()[-2000:].decode("utf-8", errors="replace").strip().splitlines()[-3:]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from course_pkg.checking.assertions import Hints, matches
 
 NO_RETURN = "The function returned None, because it ended without a return line."
-# A handler that raises ServiceException chooses the message. For a wrong return value, rospy chooses it.
+# A handler that raises ServiceException chooses the error message itself. After a wrong return value, rospy
+# writes the error message.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
 # The error message that rospy sends to the client if a handler raises another exception than
 # ServiceException.
@@ -20,18 +21,18 @@ HANDLER_RAISED: Hints = [
     ),
     (
         matches(r"error processing request: '\w+' object is not callable"),
-        "rospy.Service got the result of a call instead of a handler. Pass the name of the handler without "
-        "brackets.",
+        "rospy.Service got the result of a call instead of a handler. Pass the name of the handler "
+        "without parentheses.",
     ),
     (
         matches(r"error processing request: '\w+Request' object has no attribute"),
-        "The request has no field of this name. Compare the name with what rossrv show prints for the type.",
+        "The request has no field of this name. Compare the name with the fields that rossrv show prints "
+        "for the type.",
     ),
     (
         matches(r"error processing request: (local variable .* referenced|cannot access local variable)"),
-        "A function that assigns to a name has a local variable of this name. Keep the value in self, "
-        "or declare "
-        "the name as global.",
+        "A function that assigns to a name has a local variable of this name. Store the value in self, or "
+        "declare the name as global.",
     ),
     (
         matches(r"error processing request: name '\w+' is not defined"),

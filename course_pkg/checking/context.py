@@ -39,12 +39,13 @@ KNOWN = (AssertionFailed, ChannelError, CheckError)
 class CheckContext:
     """One run of a check.
 
-    The first assertion that fails ends it; then everything that it opened is closed.
+    The first assertion that fails ends the run. At the end of a run, all servers, topics and folders that it
+    opened are closed.
     """
 
     def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
         self.random = RandomInputs(f"{seed}:{check}")
-        self.doing = ""  # what the check waits for; used in the report of a check that is too slow
+        self.doing = ""  # what the check waits for; shown in the report if the check is too slow
         self._channel = channel
         self._node = node
         self._results = Results()
@@ -127,7 +128,7 @@ class CheckContext:
                 "rospy.Service, and to end without an exception."
             )
             hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
-            actual = "nobody who serves it"
+            actual = "no server"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = "The master lists a server that has ended or stopped. Run the cell that serves it again."
@@ -162,7 +163,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        With `stale`, register a closed port instead.
+        With `stale`, register the address of a closed port instead.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 
@@ -175,7 +176,7 @@ class CheckContext:
         every: float = 0.05,
         once: bool = False,
     ) -> Publisher:
-        """Publish `messages` (fields by name) of the type `kind` in turn, one per `every` s, again and again.
+        """Publish `messages` (fields by name) of the type `kind` in a cycle, one message every `every` s.
 
         With `once`, publish each message only once, and begin as soon as there is a subscriber.
         """
@@ -208,7 +209,7 @@ class CheckContext:
     def _label(self, topic: str) -> str:
         """Return the topic as assertions show it.
 
-        It is the same in every run, although random names differ.
+        This text is the same in every run, but the names of topics are random.
         """
         return "the topic" if self.random.made(topic) else topic
 
@@ -225,7 +226,7 @@ class CheckContext:
     ) -> Result:
         """Call the student's `function` in the kernel, and interrupt it after `within` s.
 
-        A report shows the call, or `worded` instead, if `function` is a helper of the check's own.
+        A report shows the call. If `function` is the check's own helper, the report shows `worded` instead.
         """
         label = worded or f"{function}()"
         self.doing = f"waiting for {label}"
@@ -237,11 +238,11 @@ class CheckContext:
         reply = self._channel.ask(
             "call", timeout=within + SLACK, name=function, args=values, kwargs=named, within=within
         )
-        took = time.monotonic() - started  # measured with this clock, because the kernel is not trusted
+        took = time.monotonic() - started  # measured here, because the check runner does not trust the kernel
         return Result(self._results, label, reply, took, hints)
 
     def prepare(self, code: str, within: float = 5.0) -> None:
-        """Run `code` of the check's own in the kernel, separately from the student's names.
+        """Run the check's own `code` in the kernel, separately from the student's names.
 
         The names that it defines can be arguments of the student's function: `context.run("close",
         Its("service"))`. The student's code can change what these objects record, so a record belongs into
@@ -250,7 +251,7 @@ class CheckContext:
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
             text = error.get("text") if isinstance(error, dict) else error
-            raise CheckError(f"The check could not prepare the kernel ({text}): restart the kernel.")
+            raise CheckError(f"The check could not prepare the kernel ({text}). Restart the kernel.")
 
     def place(self, name: str, item: object) -> None:
         """Define `name` in the kernel as a proxy for `item`, which stays here; see checking/placed.
@@ -264,16 +265,16 @@ class CheckContext:
         self._channel.ask("place", timeout=SLACK, name=name, **self._placed.place(item))
 
     def command(self, *argv: str, files: Sequence[str] = (), within: float = 10.0) -> Finished:
-        """Run a command next to the kernel, in a new folder with copies of the student's `files`.
+        """Run a command on the kernel's computer, in a new folder with copies of the student's `files`.
 
-        "python" stands for the kernel's own interpreter. The command is ended after `within` s.
+        The command "python" starts the kernel's own interpreter. After `within` s, the command is stopped.
         """
         return self.folder(files=files).command(*argv, within=within)
 
     def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
         """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
 
-        `texts` are files of the check's own, by path; they replace copies.
+        `texts` are the check's own files, by path. They replace copies with the same path.
         """
         return Folder(self._channel, files, texts or {}, self._under_way)
 
@@ -312,11 +313,11 @@ class CheckContext:
     ) -> None:
         with held_back(signal.SIGTERM):
             self._open.close()
-            with suppress(GraphError):  # if the master has ended, there are no registrations
+            with suppress(GraphError):  # if the master has ended, there is nothing to unregister
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"
-            raise CheckError(f"This check itself is broken ({text}); it is not your mistake.") from error
+            raise CheckError(f"The check itself has a bug ({text}). This is not your mistake.") from error
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ HEADER = re.compile(r"# %% (?:(?P<check>\d\d\.\d+) )?(?P<place>before|after)\s*$
 
 @dataclass(frozen=True)
 class Fixture:
-    """The cells of one place ("before" or "after"); an empty `check` stands for every part of the chapter."""
+    """The cells of one place ("before" or "after"); an empty `check` means every part of the chapter."""
 
     check: str
     place: str

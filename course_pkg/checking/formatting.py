@@ -14,14 +14,14 @@ def command_line(name: str, kind: ServiceClass, request: Message) -> str:
 
 
 def explained(error: str) -> str:
-    """Return the meaning of an error message of ROS and the remedy.
+    """Return what an error message of ROS means, and what the student can do.
 
-    An empty string for an unknown message.
+    The result is empty for an unknown message.
     """
     if error.startswith("TimesUp"):
         return (
-            "The call has not returned: the handler waits for something that does not happen, or never "
-            "returns. rospy has no time limit for a call."
+            "The call has not returned: the handler waits for something that does not happen, or runs an "
+            "endless loop. rospy has no time limit for a call."
         )
     explanation = known(error)
     return f"{explanation.cause} {explanation.remedy}" if explanation else ""

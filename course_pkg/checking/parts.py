@@ -28,11 +28,11 @@ PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")  # a file of 
 class Part:
     """One graded part of a chapter; calling it examines the student's work.
 
-    `needs` are the names that the student defines. While one of them is missing or still `...`, the part
-    counts as not attempted. If names are joined with `|`, one of them is enough: a handler may have another
-    name than in the exercise if its service exists. `deadline` (s) limits the whole check. If the exercise is
-    to repair a file, `start` is the whole `%%writefile` cell that the student gets. Otherwise `start` is
-    empty, and the student gets the solution's cell without its answer.
+    `needs` are the names that the student defines. If one of these names is missing or its value is still
+    `...`, the part counts as not attempted. If names are joined with `|`, one of them is enough. For example,
+    a handler may have another name than in the exercise if its service exists. `deadline` is the time limit
+    of the whole check in s. If the student has to repair a file, `start` is the whole `%%writefile` cell that
+    the student gets. Otherwise `start` is empty, and the student gets the solution's cell without its answer.
     """
 
     check: str
@@ -97,7 +97,7 @@ def folder_of(chapter: str) -> Path:
 def folders_for(chapter: str) -> list[Path]:
     """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
 
-    Imports are followed through other chapters. The list is empty if there is no such chapter.
+    Indirect imports count, too. The list is empty if there is no such chapter.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -125,7 +125,7 @@ def title_of(chapter: str) -> str:
 def parts_of(chapter: str) -> list[Part]:
     """Return the parts of a chapter, such as "05", in the order of their ids.
 
-    Raises UnknownCheck for a chapter that has no checks, CheckError if two parts have the same id.
+    Raises UnknownCheck for a chapter without checks, and CheckError if two parts have the same id.
     """
     modules = [importlib.import_module(f"{_module_of(chapter)}.checks")]
     package = importlib.import_module(CHAPTERS)
@@ -167,7 +167,7 @@ def every_part() -> Iterator[Part]:
 
 
 def start_of(check: str) -> str:
-    """Return the cell to repair in the part `check`, or an empty string if there is none."""
+    """Return the cell that the student repairs in the part `check`, or an empty string if there is none."""
     chapter = check.partition(".")[0]
     parts = parts_of(chapter) if chapter in chapters() else []
     return next((candidate.start for candidate in parts if candidate.check == check), "")

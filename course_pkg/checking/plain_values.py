@@ -23,12 +23,12 @@ ITEMS = 10_000
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """Return `value`, which the check's own code made in the kernel; it is an instance of `kind`.
 
-    Raises CheckError for a value of another type, because then the student's code has changed the check's
+    Raises CheckError for a value of another type, which means that the student's code has changed the check's
     code.
     """
     if not isinstance(value, kind):
         raise CheckError(
-            f"{name} is not a {kind.__name__} any more: restart the kernel, and run the cells again."
+            f"{name} is not a {kind.__name__} any more. Restart the kernel, and run the cells again."
         )
     return value
 

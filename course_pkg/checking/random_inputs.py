@@ -1,4 +1,4 @@
-"""Random inputs for a check: different ones each time, but the same ones for the same seed."""
+"""Random inputs for a check: they are different in each run, but the same for the same seed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class RandomInputs:
     """A source of random inputs. A check uses no other source, so the seed is enough to repeat its inputs."""
 
     def __init__(self, seed: str) -> None:
-        self._random = random.Random(seed)  # noqa: S311 -- inputs to try, not secrets
+        self._random = random.Random(seed)  # noqa: S311 -- these numbers are not secrets
         self._words: list[str] = []
 
     def number(self, low: float, high: float, *, digits: int = 2) -> float:
@@ -52,5 +52,5 @@ class RandomInputs:
         return self._words[-1]
 
     def made(self, text: str) -> bool:
-        """Return whether `text` contains a random word. An assertion must not show it, because it changes."""
+        """Return whether `text` contains a random word; an assertion must not show such a text."""
         return any(word in text for word in self._words)

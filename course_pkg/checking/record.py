@@ -1,9 +1,9 @@
 """The student's own record: one file for each part, with its last result and its first pass.
 
-The record shows a student the progress in the course. It is in the student's own folder, and the student can
-change or forge it. So only the student's own overview reads it, and it is never used for a grade. Grades come
-from check runners that `course grade` starts. These store nothing here: a contract of import-linter in
-pyproject.toml forbids grading and sandbox to import this module.
+The record shows a student the progress in the course. It is in the student's own folder, so the student can
+change or forge it. Therefore only the student's own overview reads the record, and it is never used for a
+grade. Grades come from check runners that `course grade` starts. These check runners store nothing here: a
+contract of import-linter in pyproject.toml forbids the packages grading and sandbox to import this module.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.state import locked, now, state_folder, write_json
 
-FOLDER = "results-2"  # `results` belongs to the first edition, where these numbers belong to other chapters
+FOLDER = "results-2"  # `results` is the folder of the first edition, whose chapters have other numbers
 PASSED = "passed"
 
 
@@ -83,7 +83,7 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the existing record of a part, and a message; rename the file if it is damaged."""
+        """Return the record of a part and a message; if the file is damaged, rename it and return None."""
         try:
             return self._read(check), ""
         except DamagedRecord as error:
@@ -131,6 +131,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as a text; if there are many, only the first ones."""
+    """Return the ids of parts as a text, but only the first `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -1,7 +1,8 @@
 """The report of a check, as data, as text and as HTML.
 
-The report of a failed check shows first what is right, then the one thing to fix next, then the goal. The
-report of a passed check contains no values, times or random texts, so it is the same in every run.
+The report of a failed check first shows the assertions that hold, then the one thing to fix next, and then
+the goal. The report of a passed check contains no values, times or random texts, so it is the same in every
+run.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class Verdict(str, Enum):
 
 @dataclass(frozen=True)
 class Assertion:
-    """One assertion that was checked; the last four fields are set only if it does not hold."""
+    """One assertion that was checked. The last four fields are set only if the assertion does not hold."""
 
     text: str
     holds: bool
@@ -63,7 +64,7 @@ class Report:
     points: int = 0
     possible: int = 0
     assertions: tuple[Assertion, ...] = ()
-    note: str = ""  # what to do next, if no assertion shows it
+    note: str = ""  # what the student should do next, if no assertion shows this
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
     inconclusive: bool = False  # True if grading counts a check that did not finish as failed
 
@@ -74,7 +75,7 @@ class Report:
         return f"{self.check} {self.verdict.value}: {self.points} of {self.possible} points"
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
-        """Return the assertions with their headings: first those that hold.
+        """Return the assertions with their headings; the assertions that hold come first.
 
         A passed check has no headings.
         """
@@ -121,13 +122,13 @@ class Report:
 
 
 def report_from(data: Mapping[str, Value]) -> Report:
-    """Return the report that is described by `data`, which `as_dict` made."""
+    """Return the report from `data`, the result of `as_dict`."""
     assertions = tuple(Assertion(**each) for each in data["assertions"])
     return Report(**{**data, "assertions": assertions, "verdict": Verdict(data["verdict"])})
 
 
 def _block(label: str, text: str) -> list[str]:
-    """Return `text` as lines of at most WIDTH characters: the first after `label`, the others below it."""
+    """Return `text` as lines of at most WIDTH characters; the first line begins with `label`."""
     space = " " * len(label)
     lines = [
         part

@@ -29,14 +29,14 @@ class Result:
 
     @property
     def error(self) -> str:
-        """The error as ROS and Python print it, `TypeName: message`; an empty string if there was none."""
+        """The error in the form `TypeName: message`, or an empty string if there was no error."""
         if self._error is None:
             return ""
         return f"{self._error.get('type')}: {self._error.get('text')}"
 
     @property
     def value(self) -> Json:
-        """What the function returned, as plain data; None after an error. It asserts nothing."""
+        """The value that the function returned, as plain data; None after an error. Asserts nothing."""
         return self._value
 
     @overload
@@ -46,7 +46,7 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned, and return its value as plain data.
 
-        For a function of the check's own, pass the `kind` of the value. CheckError is raised for a value of
+        For the check's own function, pass the `kind` of the value. CheckError is raised for a value of
         another kind.
         """
         assertion = f"{self._label} returns"
@@ -76,7 +76,7 @@ class Result:
 
     def _explained(self) -> str:
         if self.error.startswith("TimesUp"):
-            return f"{self._label} waits for something that does not happen: give the wait a time limit."
+            return f"{self._label} waits for something that does not happen. Give the wait a time limit."
         where = (self._error or {}).get("line")
         return explained(self.error) or (f"The error came from line {where} of the cell." if where else "")
 
@@ -86,12 +86,13 @@ class Finished:
 
     def __init__(self, reply: Mapping[str, Json]) -> None:
         status, took = reply.get("status"), reply.get("took")
-        self.status = status if isinstance(status, int) else None  # None: it was still running
+        # None means that the command was still running.
+        self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # s
-        # For a command that was still running: how long (s) it used a processor, and how long it waited for
-        # one.
+        # For a command that was still running: the times in s for which it used a processor, and for which it
+        # waited for a processor.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
         self.queued = queued if isinstance(queued, float) else math.inf  # infinity if the time is not known

@@ -1,4 +1,4 @@
-"""The check runner: runs one check as a node of its own, and sends the report."""
+"""The check runner: it runs one check as a separate node, and sends the report."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Store: TypeAlias = "Callable[[str, Mapping[str, Json]], str]"
 
 
 class DeadlinePassed(BaseException):
-    """The time of the check is over. This is not an Exception, so `except Exception` does not catch it."""
+    """The time of the check is over. `except Exception` does not catch this error."""
 
 
 def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
@@ -42,7 +42,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
     check = str(hello.get("check"))
     try:
         if hello.get("protocol") != PROTOCOL:
-            raise CourseError("The kernel runs another release of the course: restart the kernel.")
+            raise CourseError("The kernel runs another release of the course. Restart the kernel.")
         if only and check != only:
             raise CourseError(f"The kernel requested the check {check[:20]!r} instead of {only!r}.")
         report = _run(find(check), channel, seed)
@@ -56,7 +56,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
 
 
 def record(report: Report, seed: int) -> dict[str, Json]:
-    """Return the result that is stored: enough for grading, and for a repetition with COURSE_SEED."""
+    """Return the stored result, which is enough for grading, and for a repetition with COURSE_SEED."""
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 
@@ -78,7 +78,7 @@ def _reported(part: Part, context: CheckContext) -> Report:
     except DeadlinePassed:
         return _report(part, Verdict.FAILED, (*context.assertions, _too_slow(part, context)))
     except ChannelError as error:
-        note = f"The answer of the kernel is not valid: {error}."
+        note = f"The kernel sent a reply that is not valid: {error}."
         return _report(part, Verdict.FAILED, context.assertions, note)
     return _report(part, Verdict.PASSED, context.assertions)
 
@@ -89,14 +89,17 @@ def _not_attempted(part: Part, channel: Channel) -> str:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
         if blank:
-            return f"Replace the ... in {blank.removeprefix('file:')}, run that cell, then this one."
+            return (
+                f"Replace the ... in {blank.removeprefix('file:')}, run that cell, and then run this cell "
+                "again."
+            )
         there = [reply for reply in replies.values() if reply.get("kind") != "missing"]
         if not there:
             name, reply = next(iter(replies.items()))
             shown = name.removeprefix("file:")
             alike = reply.get("alike")
             names = " and ".join(map(str, alike)) if isinstance(alike, list) else ""
-            found = f" There is {names}: is it spelt as in the exercise?" if names else ""
+            found = f" There is {names}: is this the spelling in the exercise?" if names else ""
             return f"{shown} is not defined: run the cell above first.{found}"
         for reply in there:
             require_current(reply)
@@ -110,7 +113,7 @@ def _unchanged(part: Part, channel: Channel) -> str:
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None
     if now is None or str(now).strip() != text.strip():
         return ""
-    return f"{path} is unchanged. Repair it in the cell above, run that cell, then this one."
+    return f"{path} is unchanged. Repair it in the cell above, run that cell, and then run this cell again."
 
 
 def _too_slow(part: Part, context: CheckContext) -> Assertion:
@@ -118,7 +121,7 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
         f"it ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
-        hint="Something waits without end: look for a loop that never ends, or a wait without a time limit.",
+        hint="The code waits without a time limit, or is in an endless loop. Look for such a wait or loop.",
     )
 
 

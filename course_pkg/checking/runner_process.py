@@ -21,17 +21,17 @@ class RunnerStopped(BaseException):
 
 
 def main() -> None:
-    """Run one check over the socket whose descriptor is the first argument, then end immediately."""
+    """Run one check over the socket whose descriptor is the first argument, and then end immediately."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, StudentRecord().store)
     sys.stderr.flush()
-    os._exit(0)  # skip rospy's own shutdown: it sleeps for 0.6 s, and nothing is registered any more
+    os._exit(0)  # skip rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
 
 
 @contextmanager
 def _stopped_by(channel: Channel) -> Iterator[None]:
-    """Raise RunnerStopped in the main thread when the other end of `channel` is closed, or on SIGTERM."""
+    """Raise RunnerStopped in the main thread when `channel` is closed by the kernel, or after SIGTERM."""
 
     def stop(*_: object) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would interrupt the clean-up

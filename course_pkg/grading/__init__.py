@@ -1,1 +1,1 @@
-"""Place answers into the reference notebook, run it in a sandbox, and check it from outside."""
+"""Place a student's answers into the reference notebook, run it in a sandbox, and check it from outside."""

@@ -1,6 +1,6 @@
 """Make strings from a submission safe for a page, a table, XML, or the name of a file.
 
-No other module does this. Cleaning a string a second time does not change it.
+No other module cleans strings. A string that is already clean does not change.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from html import escape
 
 from course_pkg.types.fields import Plain
 
-LONG = 4_000  # characters of a text with several lines
-SHORT = 300  # characters of one line
-NAME = 60  # characters of the name of a file
+LONG = 4_000  # maximum number of characters of a text with several lines
+SHORT = 300  # maximum number of characters of one line
+NAME = 60  # maximum number of characters of a file name
 LINES = 200
-ITEMS = 1_000  # entries of a list in a record
+ITEMS = 1_000  # maximum number of entries of a list in a record
 
 ANSI = re.compile(
     r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"  # sequences that set a title or make a link
     r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"  # sequences that set colours or move the cursor
-    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # strings for a device
+    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # strings that control the terminal
     r"|\x1b[ -/]*[0-~]?"
 )
 UNSEEN = re.compile(
@@ -38,7 +38,7 @@ BREAKS = re.compile("\r\n?|[\u2028\u2029]")
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
-MARKED = re.compile(r"-[0-9a-f]{10}")  # the end that file_name() adds to a name that it had to change
+MARKED = re.compile(r"-[0-9a-f]{10}")  # the suffix that file_name() adds to a changed name
 
 
 def text(value: object, limit: int = LONG) -> str:
@@ -64,7 +64,7 @@ def html(value: object, limit: int = LONG) -> str:
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return one line for a table, which no spreadsheet reads as a formula."""
+    """Return one line for a cell of a table; no spreadsheet reads it as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
@@ -92,10 +92,10 @@ def identity(name: str) -> str:
 
 
 def file_name(name: str) -> str:
-    """Return a safe name of a file or folder for `name`: it never names a device or leaves its folder.
+    """Return a safe file name for `name`: never the name of a device, and never a path out of its folder.
 
-    Different names stay different, even on a file system that ignores upper and lower case: each name that
-    had to be changed ends in a mark of its own.
+    Different names stay different, even on a file system that ignores upper and lower case: each changed name
+    gets its own suffix.
     """
     if PLAIN_NAME.fullmatch(name) and _may_stand(name):
         return name

@@ -22,7 +22,7 @@ from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-A_CORE = 2  # submissions at the same time: most of the time, a part waits for answers
+A_CORE = 2  # submissions per core at the same time: a check waits for responses most of the time
 
 
 @dataclass(frozen=True)
@@ -40,14 +40,14 @@ class Options:
     late: Path | None = None
     late_per_day: float | None = None  # percent
     late_max_days: float | None = None
-    validate: str = "missing"  # or "all", "none": the students whose notebooks nbval runs
+    validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
 
 
 def grade(options: Options) -> int:
-    """Grade all submissions, and write the reports; return 0, whatever the grades are."""
+    """Grade all submissions, and write the reports; return the exit status 0 for any grades."""
     if options.jobs < 0:
         raise GradingError(
-            f"--jobs {options.jobs} is not a number of notebooks: leave it out, or give 1 or more."
+            f"--jobs {options.jobs} is not a valid number of notebooks. Leave it out, or give 1 or more."
         )
     policy = late_policy(options.late, options.late_per_day, options.late_max_days)
     table = late_table(options.late) if options.late else None
@@ -64,7 +64,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # the threads would wait for the end of their notebooks; the processes that they run end with this one
+        # The threads would wait until their notebooks have ended. The processes that they run end with this
+        # process.
         os._exit(130)
     _report(_in_order([_with_lateness(each, policy) for each in grades]), options.out)
     took = time.monotonic() - began
@@ -78,13 +79,12 @@ def _report(grades: Sequence[Grade], out: Path) -> None:
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
-            f"again: "
-            "nothing is graded twice."
+            "again. No submission is graded twice."
         ) from error
 
 
 def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Path | None = None) -> int:
-    """Grade one notebook into the file `out`, and keep nothing else: for a cluster's array of jobs."""
+    """Grade one notebook into the file `out`, and store nothing else; a job array of a cluster uses this."""
     found = submissions(notebook)
     if not found:
         raise GradingError(f"{notebook} is not a notebook of this course.")
@@ -101,16 +101,18 @@ def _handed_in(options: Options, table: LateTable | None) -> list[Submission]:
     found = submissions(options.source, options.chapters)
     if not found:
         raise GradingError(
-            f"There is nothing to grade in {options.source}: give a folder that contains "
-            f"STUDENT/NN_topic.ipynb, or a zip of it."
+            f"There is nothing to grade in {options.source}. Give a folder that contains "
+            "STUDENT/NN_topic.ipynb, or a zip of it."
         )
     if table and (strangers := table.strangers(found)):
-        sys.stderr.write(f"{strangers} in the table of late days handed in nothing. Is a name misspelt?\n")
+        sys.stderr.write(
+            f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"
+        )
     return table.applied(found) if table else found
 
 
 def _graded(options: Options, found: Sequence[Submission], extras: Extras, store: Store) -> Iterator[Grade]:
-    """Yield a grade for each submission: first the kept grades, then the others when ready."""
+    """Yield a grade for each submission: first the grades of earlier runs, then new grades when ready."""
     todo: dict[str, list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

@@ -71,10 +71,10 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     )
     again = parser.add_mutually_exclusive_group()
     again.add_argument(
-        "--resume", dest="fresh", action="store_false", help="continue where a run stopped (the default)"
+        "--resume", dest="fresh", action="store_false", help="continue a run that was stopped (the default)"
     )
     again.add_argument("--fresh", action="store_true", help="delete the earlier grades first")
-    parser.set_defaults(fresh=False)  # the default, or the value of --resume, is used
+    parser.set_defaults(fresh=False)  # this is the default, and the value of --resume
     _add_common(parser)
 
 
@@ -105,7 +105,7 @@ def _add_common(parser: ArgumentParser) -> None:
 COMMANDS = {
     "grade": Command("grade what students handed in, and write the reports", _grade, NEEDS, _grade_arguments),
     "grade-one": Command(
-        "grade one notebook into one file, for a cluster's array of jobs",
+        "grade one notebook into one file, for a job array of a cluster",
         _grade_one,
         NEEDS,
         _grade_one_arguments,

@@ -1,4 +1,4 @@
-"""Private parts and points of an instructor, in a separate folder; students never see them.
+"""An instructor's private parts and points, in a separate folder that students never see.
 
 private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
                 such as "05.1.1": they are examined after the student's cell of exercise 05.1
@@ -20,14 +20,14 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class Extras:
-    """The private folder, if there is one, and the points in it."""
+    """The private folder, if there is one, and the points that it contains."""
 
     folder: Path | None = None
     points: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def digest(self) -> str:
-        """Return a digest that changes with each file of the folder."""
+        """Return a digest of all files in the folder."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
         texts = [part for path in files for part in (path.name, path.read_bytes())]
         return digest([*texts, json.dumps(dict(self.points))])

@@ -1,6 +1,6 @@
-"""The data of grading: what was handed in, and which points it earned.
+"""The data of grading: the submissions, and the points that they earned.
 
-Everything here can be stored as JSON and read again unchanged, so a report needs only the records on disk.
+All data can be stored as JSON and read again without a change. So a report needs only the records on disk.
 """
 
 from __future__ import annotations
@@ -15,37 +15,37 @@ from course_pkg.sandbox.job import WorkFile
 
 @dataclass(frozen=True)
 class Package:
-    """A catkin package of a student, as it was handed in."""
+    """A catkin package that a student has handed in."""
 
     name: str
     files: tuple[WorkFile, ...] = field(repr=False)
-    origin: str  # its folder's path inside what was handed in
+    origin: str  # the path of its folder in the submitted folder or archive
 
     def has(self, paths: Iterable[str]) -> bool:
-        """Return whether all files `paths`, relative to the package, are in it."""
+        """Return whether the package contains all files `paths`, which are relative to its folder."""
         return {file.path for file in self.files}.issuperset(paths)
 
 
 @dataclass(frozen=True)
 class Submission:
-    """What one student handed in for one chapter: a notebook, packages that its parts examine, or both.
+    """The work of one student for one chapter: a notebook, packages that its parts examine, or both.
 
-    `problem` says why the notebook cannot be graded, or that there is none.
+    `problem` is the reason why there is no notebook, or why it cannot be graded.
     """
 
     student: str
     chapter: str  # such as "05"; empty if unknown
-    content: bytes = field(repr=False)  # a notebook with only what grading needs
-    origin: str  # the file's path inside what was handed in
+    content: bytes = field(repr=False)  # a notebook that contains only the data for grading
+    origin: str  # the path of the file in the submitted folder or archive
     late: float = 0.0  # days after the deadline
     problem: str = ""
-    notes: tuple[str, ...] = ()  # what was unusual about how it was handed in
+    notes: tuple[str, ...] = ()  # notes about an unusual form of the submission
     packages: tuple[Package, ...] = ()
 
 
 @dataclass(frozen=True)
 class CellOutcome:
-    """How one cell of the rebuilt notebook ran in nbval; this is feedback and earns no points."""
+    """The result of one cell of the rebuilt notebook in nbval; it is only feedback, and earns no points."""
 
     cell: str
     outcome: str  # "passed", "failed", "skipped"
@@ -54,24 +54,24 @@ class CellOutcome:
 
 @dataclass(frozen=True)
 class Grade:
-    """The grade of one submission: a report for each part, in the order of the reference, without gaps."""
+    """The grade of one submission: a report for each part of the reference, in its order."""
 
     student: str
     chapter: str
     reports: tuple[Report, ...]
-    notes: tuple[str, ...] = ()  # what was unusual about the notebook
-    cells: tuple[CellOutcome, ...] = ()  # the cells of nbval's run, if there was one
-    sandboxed: bool = True  # False: it was run without a sandbox
+    notes: tuple[str, ...] = ()  # notes about an unusual form of the notebook
+    cells: tuple[CellOutcome, ...] = ()  # the results of the cells in nbval, if nbval was run
+    sandboxed: bool = True  # False means that it was run without a sandbox
     late: float = 0.0  # days
     factor: float = 1.0  # the factor for the points of a late submission
-    key: str = ""  # of submission, reference and checks
+    key: str = ""  # a digest of the submission, the reference and the checks
     origin: str = ""
-    problem: str = ""  # the problem of the submission, if there was one: then nothing was examined
-    private: tuple[str, ...] = ()  # parts of which students see only the points
+    problem: str = ""  # the problem of the submission; if there is one, no part was examined
+    private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
 
     @property
     def earned(self) -> float:
-        """The points, after what lateness costs."""
+        """The points after the deduction for lateness."""
         return round(sum(report.points for report in self.reports) * self.factor, 2)
 
     @property
@@ -80,7 +80,7 @@ class Grade:
         return sum(report.possible for report in self.reports)
 
     def for_student(self) -> Grade:
-        """Return the grade without anything that shows how a private part is examined."""
+        """Return the grade without the data that show how a private part is examined."""
         shown = (
             replace(report, goal="A further check.", assertions=(), note="", printed="")
             if report.check in self.private
@@ -95,7 +95,7 @@ class Grade:
 
 
 def grade_from(data: dict[str, Any]) -> Grade:
-    """Return the grade that `data`, made by `as_dict`, describes."""
+    """Return the grade from `data`, the result of `as_dict`."""
     known = {
         **data,
         "reports": tuple(report_from(each) for each in data["reports"]),

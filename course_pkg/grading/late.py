@@ -1,4 +1,4 @@
-"""Lateness: how many days, from a table, and what they cost, from the options of `course grade`."""
+"""Lateness: a table contains the days, and options of `course grade` contain the deduction of points."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LARGEST = 1_000_000  # bytes of a table
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """What lateness costs: `per_day` percent of the points for each day that has begun.
+    """The deduction for lateness: `per_day` percent of the points for each day that has begun.
 
     After more than `max_days` days, no points are left.
     """
@@ -40,8 +40,7 @@ class LatePolicy:
 def late_policy(table: Path | None, per_day: float | None, max_days: float | None) -> LatePolicy:
     """Return the policy of the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if there is a table of late days and no policy, or a policy and no table, or if a
-    number is out of its range.
+    Raises GradingError if there is only a table or only a policy, or if a number is out of its range.
     """
     if table and per_day is None and max_days is None:
         raise GradingError(
@@ -59,7 +58,7 @@ def late_policy(table: Path | None, per_day: float | None, max_days: float | Non
 
 @dataclass(frozen=True)
 class LateTable:
-    """Days late, by (student, chapter); the chapter "" stands for all chapters without a row of their own."""
+    """Days late, by (student, chapter); the chapter "" means each chapter without a row."""
 
     rows: Mapping[tuple[str, str], float]
 
@@ -72,7 +71,7 @@ class LateTable:
         return [replace(each, late=self.days(each.student, each.chapter)) for each in submissions]
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return how many students of the table handed in nothing: this number shows misspelt names."""
+        """Return how many students of the table handed in nothing; their names may be misspelt."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 
@@ -97,12 +96,14 @@ def late_table(path: Path) -> LateTable:
 
 
 def _lines(path: Path) -> list[list[str]]:
-    """Return the rows; the columns may be separated by any of the three usual characters."""
+    """Return the rows; the separator of the columns may be a comma, a semicolon or a tab."""
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
         if len(content) > LARGEST:
-            raise GradingError(f"{path.name} is larger than a table of late days can be ({LARGEST} bytes).")
+            raise GradingError(
+                f"{path.name} is too large for a table of late days (the limit is {LARGEST} bytes)."
+            )
         whole = content.decode("utf-8-sig")
         first = whole.partition("\n")[0]
         delimiter = max(",;\t", key=first.count)
@@ -114,10 +115,10 @@ def _lines(path: Path) -> list[list[str]]:
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
-    """Return the key and the days of a row; a message quotes nothing, because any column may hold a name."""
+    """Return the key and the days of a row; a message quotes no cell, because each cell may be a name."""
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
-        raise GradingError(f"{where}: each row needs a student and a number of days, and nothing more.")
+        raise GradingError(f"{where}: each row needs a student and a number of days, and no other cell.")
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
         raise GradingError(f"{where}: this is not a chapter; write two digits, such as 05.")
     return (clean.identity(student), chapter.zfill(2) if chapter else ""), _days(where, values["days"])

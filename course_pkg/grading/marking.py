@@ -1,4 +1,4 @@
-"""Grade a submission: rebuild the notebook, run each part, and read the runner's records."""
+"""Grade a submission: rebuild the notebook, run each part, and read the check runner's reports."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilt
 from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
-TRIES = 2  # runs of a part whose sandbox worker failed: an answer cannot cause this failure
+# Maximum number of runs of a part if its sandbox worker fails, because an answer cannot cause this failure.
+TRIES = 2
 
 
 @dataclass(frozen=True)
 class Answers:
-    """What a student handed in for a chapter: packages and the rebuilt notebook, checked separately.
+    """A student's answers for a chapter, in packages and in the rebuilt notebook.
 
-    A package takes the place of the student's src/PACKAGE. A part whose files are in the package is examined
-    there, and the notebook's cells are not run, because the student may have continued in an editor. If a
-    file is not in the package, the cell that writes this file is used. `problem` says why there is no
-    notebook.
+    A package replaces the student's src/PACKAGE. If the files of a part are in the package, the part is
+    examined there, and the cells of the notebook are not run: the student may have continued in an editor. If
+    a file is not in the package, the cell that writes this file is used. `problem` is the reason why there is
+    no notebook.
     """
 
     packages: tuple[Package, ...]
@@ -36,18 +37,18 @@ class Answers:
     problem: str = ""
 
     def in_packages(self, part: Part) -> bool:
-        """Return whether all that `part` needs is in the packages."""
+        """Return whether the packages contain all files that `part` needs."""
         asked = part.package_files
         here = all(self._has(name, paths) for name, paths in asked.items())
         return here and len(part.needs) == sum(map(len, asked.values())) > 0
 
     def files(self, part: Part) -> tuple[WorkFile, ...]:
-        """Return the files of the packages that `part` names, below src as in a workspace."""
+        """Return the files of the packages that `part` needs, with paths below src as in a workspace."""
         named = [each for each in self.packages if each.name in part.package_files]
         return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each package that has no file that `part` needs."""
+        """Return a sentence for each package that lacks a file that `part` needs."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} that was handed in has no {' and no '.join(paths)}."
@@ -60,7 +61,7 @@ class Answers:
 
 
 def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: bool) -> str:
-    """Return the key under which this grade is kept: a digest of everything that it depends on."""
+    """Return the key under which this grade is stored: a digest of all data on which it depends."""
     digest = hashlib.sha256(submission.content)
     for text in (
         submission.chapter,
@@ -82,7 +83,8 @@ def mark(
 ) -> Grade:
     """Return the grade of one submission.
 
-    `secret` seeds the inputs of the checks: students do not know them, and they are the same in each run.
+    `secret` is the seed for the random inputs of the checks. So students do not know these inputs, but they
+    are the same in each run.
     """
     grade = Grade(
         submission.student,
@@ -140,7 +142,7 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part; run it again if there was no verdict, unless the answer did not end."""
+    """Run a part; if there was no verdict, run it again, unless the answer took very long."""
     for _ in range(TRIES):
         try:
             result = run(job)

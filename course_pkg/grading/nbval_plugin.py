@@ -1,7 +1,8 @@
 """A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
 
-This is only feedback: it uses the outputs of the notebook, and a kernel can show anything. If the variable
-COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one JSON object per line.
+The result is only feedback: it comes from the outputs of the notebook, and student code can forge them. If
+the variable COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one JSON
+object per line.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ import pytest
 from course_pkg.authoring.cells import Cell, check_of
 
 RECORD = "COURSE_NBVAL_RECORD"
-WORDS = 40000  # characters of a failure
+WORDS = 40000  # maximum number of characters of a failure
 LINES = pytest.StashKey[list[str]]()
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Note the result of a cell; ignore reports that are not about a cell."""
+    """Record the result of a cell; ignore reports that are not about a cell."""
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):
@@ -43,7 +44,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 
 def _headline(item: pytest.Item, cell: Cell) -> str:
-    """Return the first line of what the check showed."""
+    """Return the first line of the check's report."""
     for output in getattr(item, "test_outputs", None) or []:
         text = str(output.get("data", {}).get("text/plain", ""))
         if text.startswith(check_of(cell)):

@@ -1,7 +1,8 @@
-"""Run nbval in the outer sandbox: pytest, master and check runner are trusted; the kernel has its own.
+"""Run nbval in an outer sandbox with trusted processes; the kernel runs in an inner sandbox.
 
-It reads a notebook from stdin. Its argument is the time (s) that a cell may take. It writes the outcome of
-each cell to stdout, as one JSON object a line.
+The trusted processes are pytest, the master and the check runner. The program reads a notebook from stdin.
+Its argument is the time limit of a cell in s. It writes the result of each cell to stdout, as one JSON object
+per line.
 """
 
 from __future__ import annotations
@@ -26,12 +27,13 @@ from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_b
 from course_pkg.waiting import Deadline, at_this_load
 
 SILENCE = 15.0  # s beyond the time limit of a cell: nbval waits for its output, and ends the kernel
-TOGETHER = 2 * confinement.TOGETHER  # bytes, for pytest and all nodes of a chapter
+TOGETHER = 2 * confinement.TOGETHER  # memory limit in bytes for pytest and all nodes of a chapter
 KERNEL = "sandboxed"
-OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was the first edition's
+OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was its name in the first edition
 OWN = "/student/.course"
-NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # side by side, as in a checkout
-ORPHANED = ("--unsetenv", "JPY_PARENT_PID")  # a kernel whose parent is process 1 would end as an orphan
+NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # in the same folder, as in a checkout
+# Without this, a kernel whose parent is process 1 ends, because it seems to have lost its parent.
+ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
 def main() -> None:
@@ -173,7 +175,7 @@ def _run_checks(listener: socket.socket) -> None:
     list(every_part())
     while True:
         sock, _ = listener.accept()
-        fork(lambda: _run_check(sock))  # noqa: B023 -- used only in the fork
+        fork(lambda: _run_check(sock))  # noqa: B023 -- the fork runs it now
         sock.close()
         with suppress(ChildProcessError):
             while os.waitpid(-1, os.WNOHANG)[0]:

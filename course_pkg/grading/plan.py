@@ -30,7 +30,7 @@ class PartPlan:
 
     @property
     def private(self) -> bool:
-        """Whether it is an instructor's own."""
+        """Whether it is a private part of an instructor."""
         return self.exercise != self.part.check
 
 

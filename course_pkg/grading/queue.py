@@ -1,4 +1,4 @@
-"""Grade many submissions, a few at the same time, in threads of this machine or in workers of a dask cluster.
+"""Grade many submissions, a few at a time, in threads of this machine or in workers of a dask cluster.
 
 The code is the same for both: a `Task` (plain data) is submitted to an object with the interface of
 concurrent.futures.Executor, and the result is a grade as plain data.
@@ -27,7 +27,7 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilder
 from course_pkg.grading.validation import validated, wanted
 from course_pkg.sandbox.worker_client import SandboxWorker
 
-AHEAD = 2  # submitted tasks for each running task: so the memory does not grow with the number of tasks
+AHEAD = 2  # number of submitted tasks for each running task; this limits the memory that many tasks need
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Task:
     validate: str = "none"  # the students whose notebooks nbval runs: "all", "missing" points, "none"
 
     def grade(self) -> dict[str, Any]:
-        """Grade it in this process, in the sandbox worker of this thread."""
+        """Grade the submission in this process, with the sandbox worker of this thread."""
         tools = _tools(os.getpid(), threading.get_ident(), self.sandboxed, self.private)
         planned, extras = _plan(self.submission.chapter), _extras(os.getpid(), self.private)
         grade = mark(
@@ -54,7 +54,7 @@ class Task:
 
 
 def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterator[Grade]:
-    """Yield the grades of `tasks` when they are ready; `workers` tasks run, and few more are submitted."""
+    """Yield the grades of `tasks` when they are ready; at most `workers` tasks run at the same time."""
     todo, under_way = deque(tasks), set[Future[dict[str, Any]]]()
     while todo or under_way:
         while todo and len(under_way) < workers * AHEAD:
@@ -87,7 +87,7 @@ def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
 
 @cache
 def _tools(_pid: int, _thread: int, sandboxed: bool, private: str) -> SandboxWorker:
-    """Return the sandbox worker of one thread of one process; it ends with that thread."""
+    """Return the sandbox worker of one thread of one process; the worker ends with the thread."""
     return SandboxWorker(sandboxed=sandboxed, private=private)
 
 

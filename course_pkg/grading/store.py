@@ -18,7 +18,7 @@ NOBODY = ""
 
 
 def handed_in(grade: Grade, submission: Submission) -> Grade:
-    """Return the grade of a notebook for this submission: its student, and how it was handed in."""
+    """Return the grade of a notebook with the student and the origin of this submission."""
     return replace(
         grade,
         student=submission.student,
@@ -29,9 +29,9 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 
 
 class Store:
-    """The finished grades, by their keys. Each file is complete, and none contains a name.
+    """The finished grades, by their keys. Each file is complete, and no file contains a student's name.
 
-    Only the instructor may read the folder: the secret in it determines all random inputs of the checks.
+    Only the instructor may read the folder, because it contains the seed of all random inputs of the checks.
     """
 
     def __init__(self, out: Path) -> None:
@@ -45,7 +45,7 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is kept under `key` for this submission, or None if there is none."""
+        """Return the grade that is stored under `key`, for this submission, or None if there is none."""
         try:
             grade = grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
@@ -53,7 +53,7 @@ class Store:
         return handed_in(grade, submission)
 
     def keep(self, grade: Grade) -> None:
-        """Keep `grade` under its key, unless a part could not be examined: the next run tries again."""
+        """Store `grade` under its key, unless a part could not be examined; the next run tries it again."""
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             return
         nameless = replace(grade, student=NOBODY, origin=NOBODY, late=0.0)
@@ -61,13 +61,12 @@ class Store:
             write_json(self._folder / f"{grade.key}.json", nameless.as_dict())
         except OSError as error:
             raise GradingError(
-                f"The grades cannot be written ({error.strerror}). Free some disk space, and type the same "
-                f"command "
-                "again: it continues where it stopped."
+                f"The grades cannot be written ({error.strerror}). Free some disk space, and type the "
+                "same command again. The run then continues."
             ) from error
 
     def forget(self) -> None:
-        """Remove every grade that is kept."""
+        """Remove all stored grades."""
         for path in self._folder.glob("*.json"):
             path.unlink(missing_ok=True)
 

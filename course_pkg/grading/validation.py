@@ -1,6 +1,6 @@
-"""nbval's run of a rebuilt notebook: it finds the cells with the same output as the reference.
+"""The run of a rebuilt notebook with nbval, which finds the cells with the same output as the reference.
 
-It earns no points.
+The results earn no points.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
     """Run nbval on `notebook` in a sandbox, with at most `cell` s for each cell.
 
-    Returns an empty tuple if the whole takes more than `timeout` s.
+    Returns an empty tuple if the notebook takes more than `timeout` s.
     """
     command = sandbox_command([sys.executable, "-m", "course_pkg.grading.nbval_process", str(cell)])
     with subprocess.Popen(

@@ -1,6 +1,6 @@
-"""The fields, values, strings and commands of any service or message type; needs no master and no rospy.
+"""The fields, values, strings and commands of any service or message type; without a master and rospy.
 
-The names are looked up on first use.
+Each name is imported when it is first used.
 """
 
 from typing import TYPE_CHECKING

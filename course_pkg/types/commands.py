@@ -22,7 +22,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
     duration, the whole request is one YAML dict. Raises FieldError.
     """
     plain = kind.request.check(values)
-    # rosservice reads an empty argument as an empty string, but a person would type quotes.
+    # The tool rosservice also reads an empty argument as an empty string, but people usually type quotes.
     given = ["" if each == '""' else each for each in _arguments(kind.request.fields, plain)]
     return _shell_line("rosservice", "call", service, *_end_of_options(given), *given)
 
@@ -50,7 +50,7 @@ def rostopic_line(
     rate: float | None = None,
     latch: bool = False,
 ) -> str:
-    """Return the `rostopic pub` line for bash that publishes these values, once or `rate` times a second.
+    """Return the `rostopic pub` line for bash that publishes these values, once or `rate` times per second.
 
     With `latch` and no rate, rostopic keeps the message for later subscribers until Ctrl-C.
     Raises FieldError.
@@ -70,7 +70,7 @@ def publisher_lines(
     latch: bool = False,
     queue_size: int = 10,
 ) -> str:
-    """Return the lines of Python that publish these values, once or `rate` times a second, in a node.
+    """Return the lines of Python that publish these values in a node, once or `rate` times per second.
 
     A type that is not built is generated from its text. Raises FieldError.
     """
@@ -100,7 +100,7 @@ def _call_lines(called: str, keywords: list[str]) -> str:
 
 
 def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWriter) -> list[str]:
-    """Return the lines that define the names in the other lines."""
+    """Return the lines that define the names for the following lines."""
     package, _, short = kind.name.partition("/")
     lines = ["import rospy", *writer.imports()]
     if kind.built:
@@ -112,9 +112,9 @@ def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWr
 
 
 class _PythonWriter:
-    """Writes plain values as Python expressions, and stores the message classes that these need.
+    """Writes plain values as Python expressions, and stores the message classes that they need.
 
-    `taken` are the names that the other lines already use.
+    `taken` are names that the lines already use for something else.
     """
 
     def __init__(self, fields: tuple[Field, ...], taken: Iterable[str]) -> None:
@@ -194,14 +194,14 @@ def _python_block(text: str) -> str:
 
 
 def _arguments(fields: tuple[Field, ...], values: Mapping[str, Plain]) -> list[str]:
-    """Return one argument for each field if all fields are scalars, else one YAML dict with all fields."""
+    """Return one argument for each field if all fields are scalars, or else one YAML dict with all fields."""
     if all(field.kind.is_scalar for field in fields):
         return [_yaml(field, values[field.name]) for field in fields]
     return [_yaml_dict(fields, values)]
 
 
 def _end_of_options(given: list[str]) -> list[str]:
-    """Return "--", if it is needed, so that an option parser does not read -1.0 as an option."""
+    """Return ["--"] if an option parser could read an argument such as -1.0 as an option, or else []."""
     return ["--"] if any(each.startswith("-") for each in given) else []
 
 
@@ -232,7 +232,7 @@ def _yaml_float(number: float) -> str:
 
 
 def _yaml_string(text: str) -> str:
-    """Return a string in a form that YAML reads back as that string."""
+    """Return a string in a form that YAML reads as the same string."""
     if text.isprintable() and ":=" not in text and _is_plain(text):
         return text
     quoted: str = yaml.safe_dump(text, default_style='"', allow_unicode=True, width=math.inf)

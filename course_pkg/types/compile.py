@@ -1,7 +1,7 @@
-"""Makes classes for rospy from the text of a definition, without a build, a file or an entry in sys.modules.
+"""Makes classes for rospy from the text of a definition, without a build, files or changes of sys.modules.
 
-genpy.dynamic can only compile messages, and leaves a module and a folder behind for each of them. Here,
-genpy's generator writes the code, and the code runs in a separate namespace.
+The module genpy.dynamic can only compile messages, and it does not remove the module and the folder that it
+creates for each message. Here, genpy's generator writes the code, and the code runs in a separate namespace.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def dependency(cls: MessageClass, name: str) -> MessageClass:
 class _Generation:
     """The generation of one type, with the message types that it depends on.
 
-    `classes` contains the classes of the dependencies: the built class, or a new one if the type is not built
-    or its definition has changed since the build.
+    `classes` contains the classes of the dependencies. Each class is the built class, or a new class if the
+    type is not built or its definition has changed since the build.
     """
 
     def __init__(self) -> None:
@@ -95,7 +95,7 @@ class _Generation:
     def load_message(
         self, name: str, text: str, source: str, strict: bool = False, within: tuple[str, ...] = ()
     ) -> MsgSpec:
-        """Return the specification of a message; `within` are the types that contain it, outermost first."""
+        """Return the specification of a message; `within` are the types around it, outermost first."""
         text = self._validated(name, text, source, "msg", strict)
         try:
             spec: MsgSpec = load_msg_from_string(self.context, text, name)
@@ -128,7 +128,7 @@ class _Generation:
         return generated
 
     def _code(self, spec: MsgSpec) -> str:
-        """Return genpy's code for a message without the imports and the text that genpy does not escape."""
+        """Return genpy's code for a message without imports and the text that genpy does not escape."""
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))
         copied = ("  _full_text = ", *(f"  {each.name} = " for each in make_python_safe(spec).constants))
@@ -182,7 +182,7 @@ def _circle(source: str, text: str, type_name: str, chain: tuple[str, ...]) -> B
 
 
 def _refused(source: str, text: str, error: Exception) -> BrokenDefinition:
-    """Return the error for a definition that passed the diagnosis, but that genmsg or genpy refuses."""
+    """Return the error for a definition that the diagnosis accepts, but that genmsg or genpy refuses."""
     first = text.split("\n", maxsplit=1)[0]
     return BrokenDefinition(
         source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg"

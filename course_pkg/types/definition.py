@@ -1,7 +1,7 @@
 """The lines of a .srv or .msg text: the declaration in each line, and its comments.
 
-The rules are those of genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text has to be one that genmsg
-accepts; `diagnosis` explains what is wrong with any other text.
+The rules are the rules of genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The functions expect a text that
+genmsg accepts; the module `diagnosis` explains the mistakes in any other text.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def lines(text: str) -> Iterator[Line]:
 
 
 def with_unix_line_ends(text: str) -> str:
-    """Return the text with the line ends that Python's open() gives to the builder."""
+    """Return the text with the line endings of Linux, as the build reads it with Python's open()."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

@@ -1,7 +1,7 @@
-"""Finds what is wrong with the text of a definition, where, and what to write instead.
+"""Finds the first mistake in the text of a definition, its place, and a correction.
 
-genmsg stops at the first line that it cannot read, and its message often does not even show that line. So
-each line is first checked here for the mistakes that people often make.
+genmsg stops at the first line that it cannot read, and its message often does not show this line. So this
+module first checks each line for common mistakes.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def validate(
 ) -> None:
     """Raise BrokenDefinition for the first mistake in a .srv or .msg text.
 
-    `exists` returns whether there is a message type with a full name. With `strict`, mistakes that genmsg
-    accepts are refused, too.
+    The function `exists` returns whether there is a message type with the given full name. With `strict`,
+    mistakes that genmsg accepts are refused, too.
     """
     _Diagnosis(source, package, kind, exists, strict).read(text)
 
@@ -271,7 +271,7 @@ class _Diagnosis:
 
 
 def _unreadable(type_name: str, text: str) -> tuple[str, str] | None:
-    """Return what a constant's value should be, and what to write; None if genmsg can read the value."""
+    """Return the kind of value that a constant needs, and a correction; None if genmsg can read the value."""
     reader: Callable[[str], object]
     if type_name == "bool":
         reader, wanted, advice = ast.literal_eval, "a bool", "True or False"

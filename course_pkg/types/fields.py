@@ -1,4 +1,4 @@
-"""The fields of a message: kind, range and parts."""
+"""The fields of a message: the kind, the range and the parts of each field."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 # The values that JSON can contain. An array is a sequence of plain values, a message a mapping by field name.
 Plain: TypeAlias = "bool | int | float | str | Sequence[Plain] | Mapping[str, Plain] | None"
-# The same shape, but with a string for every number and bool.
+# A tree of the same shape, but with a string in place of each number and bool.
 StringTree: TypeAlias = "str | Sequence[StringTree] | Mapping[str, StringTree]"
 
 FLOAT32_MAX: float = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
@@ -111,14 +111,15 @@ def elements(value: Plain) -> Sequence[Plain]:
 
 
 def members(value: Plain) -> Mapping[str, Plain]:
-    """Return the values of a message's fields by name, or those of a time's secs and nsecs."""
+    """Return the values of a message's fields by name, or the values of a time's secs and nsecs."""
     assert isinstance(value, Mapping)
     return value
 
 
 def integer_range(type_name: str) -> tuple[int, int] | None:
     """Return the smallest and the largest value of an integer type, or None for another type."""
-    # ROS 1 keeps two old names with the opposite of their meaning in C: byte is signed, char is not.
+    # ROS 1 has two old names whose meaning is the opposite of their meaning in C: byte is signed, and char is
+    # unsigned.
     name = {"byte": "int8", "char": "uint8"}.get(type_name, type_name)
     unsigned, _, bits = name.rpartition("int")
     if unsigned not in ("", "u") or bits not in ("8", "16", "32", "64"):

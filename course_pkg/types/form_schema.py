@@ -1,4 +1,4 @@
-"""A type as plain data, for a form that is not written in Python."""
+"""The description of a type as plain data, for a form that is not written in Python."""
 
 from __future__ import annotations
 

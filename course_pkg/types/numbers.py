@@ -1,4 +1,4 @@
-"""Converts numbers to the shortest strings that give the same numbers, and explains mistyped numbers."""
+"""Converts numbers to the shortest strings with the same values, and corrects mistyped numbers."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _fits(number: float) -> bool:
 def parse_float(text: str) -> float:
     """Return the number in a string; `inf` and `nan` are numbers, too. Raises ValueError."""
     if _NAN.fullmatch(text):
-        # always return the same object for nan, so that a list or dict with it equals itself
+        # Always the same object for nan, so that two lists or dicts that contain it are equal.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")

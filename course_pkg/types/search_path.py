@@ -40,8 +40,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This imports the module of the type, not the module of its package: Python finds it even if the type was
-    # built after the package was imported. genpy.message would still treat the type as missing.
+    # This imports the module of the type, and not the module of its package. So Python finds a type that was
+    # built after its package was imported. genpy.message would not find this type.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -73,12 +73,12 @@ def read_definition(file: Path) -> str:
 
 
 def list_service_types(package: str | None = None) -> list[str]:
-    """Return the sorted names of all service types on ROS_PACKAGE_PATH, or of those in one package."""
+    """Return the sorted names of all service types on ROS_PACKAGE_PATH, or in one package."""
     return list_types("srv", package)
 
 
 def list_message_types(package: str | None = None) -> list[str]:
-    """Return the sorted names of all message types on ROS_PACKAGE_PATH, or of those in one package."""
+    """Return the sorted names of all message types on ROS_PACKAGE_PATH, or in one package."""
     return list_types("msg", package)
 
 
@@ -127,7 +127,8 @@ def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
         if similar:
             return sorted(similar)[:count]
     lower = {each.lower(): each for each in names}
-    # A long package name makes all its types similar, so only the short names are compared.
+    # If two types have the same long package name, their full names are always similar. So only the short
+    # names are compared.
     similar = [each for each in lower if _similarity(short, each.rpartition("/")[2]) >= 0.65]
     if "/" not in name:
         shorts = {each.rpartition("/")[2]: lower[each] for each in similar}
@@ -142,7 +143,8 @@ def _similarity(one: str, other: str) -> float:
 def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
-    # RosPack caches the places of packages, so each search uses a new one. This takes a few milliseconds.
+    # A RosPack object caches the paths of packages, so each search creates a new object. This takes a few
+    # milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

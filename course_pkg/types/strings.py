@@ -1,8 +1,8 @@
-"""Converts values to strings that a person reads and types, and converts such strings back to values.
+"""Converts values to strings that people can read and type, and converts such strings to values.
 
-A string tree has the shape of a message, but a string for every number, string or bool. An array may also be
-one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in YAML's flow
-style. A time or duration may be a number of seconds (`1.5`).
+A string tree has the shape of a message, but a string in place of each number, string or bool. An array may
+also be one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in
+YAML's flow style. A time or duration may be a number of seconds (`1.5`).
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
     if field.kind is Kind.MESSAGE or field.fields:
         return parse_fields(field.fields, text, path, allowed(field))
     if not isinstance(text, str):
-        # a plain value is allowed instead of its string
+        # A plain value is also allowed.
         return check(field, text, path)
     if field.kind is Kind.STRING:
         return check(field, text, path)
@@ -83,7 +83,7 @@ def _parse_flow(text: str, opening: str, closing: str, path: str, expected: str)
     if not whole.startswith(opening):
         whole = f"{opening}{whole}{closing}"
     try:
-        # BaseLoader makes every scalar a string; each field then parses its own string
+        # BaseLoader reads every scalar as a string; each field then parses its own string.
         tree: StringTree = yaml.load(whole, Loader=yaml.BaseLoader)  # noqa: S506 - it constructs only strings
     except yaml.YAMLError as error:
         reason = getattr(error, "problem", None) or "it cannot be read"

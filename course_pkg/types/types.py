@@ -128,7 +128,7 @@ def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
 def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
     """Return the message type for a full name (`geometry_msgs/Point`) or for a generated class.
 
-    For the rest, see `service_type`.
+    The rules for types that are not built, and the errors, are the same as for `service_type`.
     """
     if isinstance(type_or_name, MessageType):
         return type_or_name
@@ -144,7 +144,7 @@ def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
 
 
 def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
-    """Return a type as its .srv or .msg file defines it now, even if an older version is built.
+    """Return the type that a .srv or .msg file defines now, even if an older version is built.
 
     Raises UnknownType, or BrokenDefinition for a text that ROS does not accept.
     """
@@ -169,7 +169,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 def compile_message(name: str, text: str) -> MessageType:
     """Return the message type for a .msg text, as if it were built with the name `name`.
 
-    For the rest, see `compile_service`.
+    The rules and the errors are the same as for `compile_service`.
     """
     return _message(compiled_message(name, text, f"{name}.msg", strict=True))
 

@@ -1,4 +1,4 @@
-"""The plain values of a field: the default, the check, and the conversion to and from a genpy message."""
+"""The plain values of a field: the default value, the check of a value, and the conversion for genpy."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def build(cls: MessageClass, fields: tuple[Field, ...], values: Mapping[str, Pla
 
 
 def allowed(field: Field) -> str:
-    """Return a phrase for the values of a field: `a float32 from -3.4e38 to 3.4e38, such as 1.5`."""
+    """Return a description of a field's values, such as `a float32 from -3.4e38 to 3.4e38, such as 1.5`."""
     if field.kind is Kind.INTEGER:
         return f"{_article(field.type)} {field.type} from {field.low} to {field.high}"
     if field.kind is Kind.FLOAT:
@@ -131,7 +131,7 @@ def _check_array(field: Field, value: object, path: str) -> list[Plain]:
     if field.is_bytes and isinstance(value, (bytes, bytearray)):
         value = list(value)
     if hasattr(value, "tolist"):
-        # It is slow to convert the numbers of numpy one at a time.
+        # tolist() is much faster than a separate conversion of each NumPy number.
         value = value.tolist()
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Collection):
         raise FieldError(path, value, allowed(field), f"{brief(value)} is not a list")

@@ -1,4 +1,4 @@
-"""The student's catkin workspace, and explanations of the messages of its build; needs no rospy."""
+"""The student's catkin workspace, and explanations of the messages of its build; without rospy."""
 
 from typing import TYPE_CHECKING
 

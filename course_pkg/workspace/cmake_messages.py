@@ -1,8 +1,8 @@
 """The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
 
-CMake breaks its messages into lines of about 75 characters. It names the file that reported the error; the
-student's line that caused it is in the call stack below. A row of a table is (pattern, file, problem,
-remedy). The file is given only if it is not the file that the message names.
+CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error.
+The student's line that caused the error is in the call stack below the message. A row of a table is (pattern,
+file, problem, remedy). Its file is empty if the fault is in the file that the message names.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ _HEAD = re.compile(
     r"CMake (?P<kind>Error|Warning)(?: \(dev\))?"
     r"(?: at (?P<file>.+?):(?P<line>\d+)(?: \(\w+\))?)?:(?P<rest>.*)"
 )
-# CMake names catkin's top-level file without a folder, and files outside of src with an absolute path.
+# CMake writes the name of catkin's top-level file without a folder, and paths outside of src as absolute
+# paths.
 _OURS = re.compile(r"(?P<file>[\w.+-]+(?:/[\w.+-]+)*/CMakeLists\.txt):(?P<line>\d+)")
 _STACK = "Call Stack (most recent call first):"
 _COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")
@@ -77,16 +78,19 @@ def _indented(lines: list[str]) -> Iterator[str]:
 
 
 def cmake_commands(text: str) -> Iterator[Command]:
-    """Yield the commands of a CMakeLists.txt, including those that are commented out."""
+    """Yield the commands of a CMakeLists.txt, including the commands in comments."""
     for number, line in enumerate(text.splitlines(), 1):
         if found := _COMMAND.match(line.strip()):
             yield Command(found["name"].lower(), number, bool(found["comment"]))
 
 
 def unknown_command(name: str, message: Message) -> Fault:
-    """Return why CMake does not know a command: its package was not found before, or its name is misspelt."""
+    """Return the fault for an unknown command: its package was not found before, or its name is misspelt."""
     if name.lower() in GENERATION:
-        problem = f"CMake does not know {name} here. message_generation defines it, but was not found before."
+        problem = (
+            f"CMake does not know {name} here. The package message_generation defines it, but was not "
+            "found before."
+        )
         remedy = "Write find_package(catkin REQUIRED COMPONENTS message_generation) above this line."
     elif name.lower() in CATKIN:
         problem = f"CMake does not know {name} here. catkin defines it, but was not found before."
@@ -122,7 +126,8 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"file '\S*?/(?P<name>[^/']+)' does not exist.*(?:service|message|action) file not found",
         "",
         "There is no file {name} in the folder of this command.",
-        "Compare the spelling, upper and lower case too. Do not write the folder srv in front of the name.",
+        "Compare the spelling, including upper and lower case. Do not write the folder srv in front of "
+        "the name.",
     ),
     (
         r"(?P<name>add_\w+)\(\) directory not found: \S*/(?P<package>[^/\s]+)/(?P<folder>\w+)",
@@ -205,14 +210,14 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"Parse error\.\s+Function missing ending",
         "",
-        "A bracket that is opened here is never closed.",
+        "A parenthesis that is opened here is never closed.",
         "Write the missing ).",
     ),
     (
         r"Parse error.*got (?P<what>.+) with text \"(?P<text>.*?)\"",
         "",
-        "CMake cannot read this line: there is {text} in the place of a command.",
-        "A command is a name and brackets, such as project(my_services). A comment begins with #.",
+        "CMake cannot read this line: it contains {text} where a command should begin.",
+        "A command is a name and parentheses, such as project(my_services). A comment begins with #.",
     ),
     (
         r"Cannot find source file:\s+(?P<name>\S+)",
@@ -231,18 +236,18 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"No CMAKE_CXX_COMPILER could be found|Could not find compiler set in environment variable CXX",
         "",
         "CMake finds no C++ compiler.",
-        "Install one: g++ on Debian and Ubuntu, or the package compilers of conda.",
+        "Install a compiler: the package g++ on Debian and Ubuntu, or the package compilers of conda.",
     ),
     (
         r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
         "{package}",
         "The package has no CMakeLists.txt.",
-        "Write this file. Spell its name exactly like this, with the same upper and lower case.",
+        "Write this file. Its name must be exactly CMakeLists.txt, with the same upper and lower case.",
     ),
     (
         r"current CMakeCache\.txt directory .* is different",
         "",
-        "The folder build was made in another place, because the workspace was moved or copied.",
+        "The folder build was made at another path, because the workspace was moved or copied.",
         "Remove the folders build and devel, and build again.",
     ),
 )

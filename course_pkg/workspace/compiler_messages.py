@@ -36,13 +36,13 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r"no return statement in function returning|control reaches end of non-void",
-        "This function must return a value, but it can end without one.",
+        "This function must return a value, but it can end without a return statement.",
         "Write return true or return false at the end of every path through the function.",
     ),
     (
         r"expected .*[';]",
         "The compiler expected something that is missing: {message}.",
-        "Look at this line and the one above it for a missing ; or bracket.",
+        "Look for a missing ; or bracket in this line and in the line above it.",
     ),
     (
         r".(?P<name>\w+). (?:was not declared in this scope|has not been declared)",
@@ -54,7 +54,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
 
 
 def compiler_faults(text: str) -> Iterator[Fault]:
-    """Yield the compiler's errors, in the student's files first; then the linker's."""
+    """Yield the errors in the student's files first, then other compiler errors, then the linker's errors."""
     found = list(_ERROR.finditer(text))
     for each in sorted(found, key=lambda each: each["file"].startswith(("/usr/", "/opt/"))):
         problem, remedy = _explained(each["text"])
@@ -68,14 +68,14 @@ def _explained(message: str) -> tuple[str, str]:
         if found := re.search(pattern, message):
             known = {"message": message.rstrip("."), **found.groupdict()}
             return problem.format(**known), remedy.format(**known)
-    raise AssertionError("the last row matches everything")
+    raise AssertionError("the last row matches every message")
 
 
 def _unlinked(name: str) -> Fault:
     if name == "main":
         return Fault("The program has no function main.", "Write int main(int argc, char** argv) { … }.")
     return Fault(
-        f"The program uses {name}, but it is linked with no library that contains it.",
-        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. For a function of "
-        "your own, look for its definition.",
+        f"The program uses {name}, but it is not linked with a library that contains {name}.",
+        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If it is your own "
+        "function, look for its definition.",
     )

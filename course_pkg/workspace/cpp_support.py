@@ -1,4 +1,4 @@
-"""What is needed to build a program that uses roscpp, and how to install the missing parts."""
+"""The tools that a build of a program with roscpp needs, and the commands that install missing tools."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-WARNINGS = ("-Werror=return-type",)  # without it, a handler without a return statement builds, but may crash
+WARNINGS = ("-Werror=return-type",)  # otherwise, a handler without a return statement builds, but may crash
 
 
 def missing_for_cpp() -> str:
-    """Return what is missing here to build C++ programs and how to install it; empty if nothing is."""
+    """Return a sentence about a missing tool for C++ programs and its installation, or an empty string."""
     if not _compiler_here():
         return _advice(f"There is no C++ compiler here ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):
@@ -21,7 +21,7 @@ def missing_for_cpp() -> str:
 
 
 def compiler() -> str:
-    """Return the command of the C++ compiler: the variable CXX, which CMake uses, too, or else c++."""
+    """Return the command of the C++ compiler: the value of CXX, which CMake also uses, or c++."""
     return os.environ.get("CXX") or "c++"
 
 

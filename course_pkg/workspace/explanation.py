@@ -1,8 +1,8 @@
-"""Explains the output of catkin_make, rosrun and other tools when a package is wrong, and the remedy.
+"""Explains the errors of catkin_make, rosrun and other tools: what is wrong with a package, and what to do.
 
-A row matches a part of a message that is the same in every release (seen with catkin 0.8.10, CMake 3.25,
-genmsg 0.6 and rosbash of Debian 12). The first row that matches is used. Names in braces are replaced by the
-groups of the pattern.
+A row matches a part of a message that is probably the same in every release. The messages come from catkin
+0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is used. Names in
+braces are replaced by the groups of the pattern.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ _PATH = re.compile(r"/\S*/src/(?=[\w.+-]+/)")
 
 
 def explain(output: str) -> Fault | None:
-    """Return the first fault in the output of a tool, None if no known error is in it.
+    """Return the first fault in the output of a tool, or None if the output contains no known error.
 
-    For a message of CMake that is in no table, the problem is the message itself, with its line.
+    If a message of CMake is in no table, the fault contains the message itself and its line.
     """
     text = _COLOUR.sub("", output).replace("\r\n", "\n")
     return next(_faults(text), None)
 
 
 def _faults(text: str) -> Iterator[Fault]:
-    """Yield faults, causes first: CMake's errors are often only a consequence of another tool's error."""
+    """Yield faults, first the causes: CMake's errors are often only consequences of another tool's error."""
     yield from _matching(FROM_BUILD, text)
     found = list(cmake_messages(text))
     errors = [message for message in found if message.is_error]

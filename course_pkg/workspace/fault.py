@@ -16,7 +16,7 @@ _DEPENDENCY_TAGS = {
 
 @dataclass(frozen=True)
 class Fault:
-    """What is wrong with a package, where it is, and what to do about it.
+    """A fault in a package, its place, and its remedy.
 
     `problem` and `remedy` are whole sentences. `file` is relative to the workspace's src. `line` counts from
     1; it is 0 if the line is not known.
@@ -70,7 +70,7 @@ def locate(fault: Fault, text: str) -> Fault:
 
 
 def _unclosed(text: str) -> Tag | None:
-    """Return the first tag, except the outermost one, that is opened more often than closed."""
+    """Return the first tag, except the outermost tag, that is opened more often than it is closed."""
     opened = list(manifest_tags(text))
     for tag in opened[1:]:
         if sum(each.name == tag.name for each in opened) > text.count(f"</{tag.name}>"):

@@ -1,4 +1,4 @@
-"""The student's own packages, in `workspace` next to `notebooks`: how a kernel finds them."""
+"""Makes the student's own packages, in `workspace` next to `notebooks`, available to a kernel."""
 
 from __future__ import annotations
 
@@ -20,18 +20,19 @@ if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
 NAME = "workspace"
-REMEDY = "Move the course to a folder that you can write to and that has no blank in its path."
+REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
-MODULES = ("lib/python3/dist-packages",)  # in devel; used if the course's has no such folder
-MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)  # in modules that genpy writes
+MODULES = ("lib/python3/dist-packages",)  # in devel; used if the course's devel folder has no such folder
+# The MD5 sum in a module that genpy has written.
+MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
 KINDS = (".srv", ".msg")  # packages whose names have these endings contain only generated modules
 
 
 def own_workspace() -> Path:
-    """Return the student's catkin workspace: COURSE_WORKSPACE, or else `workspace` in the checkout.
+    """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` in the checkout.
 
-    When notebooks are validated or graded, COURSE_WORKSPACE is set, or COURSE_STATE, whose folder then
-    contains `workspace`. So they see no packages of another run.
+    When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set. If only COURSE_STATE is
+    set, the workspace is the folder `workspace` in it. So a run does not find packages of another run.
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
@@ -39,9 +40,9 @@ def own_workspace() -> Path:
 
 
 def make_own_workspace() -> Path:
-    """Return the student's workspace, after making its empty folder `src` if that is missing.
+    """Return the student's workspace; if its folder `src` is missing, make it first.
 
-    Raises SetupError, before it writes anything, if the tools of ROS do not work there.
+    Raises SetupError before it changes a file if the tools of ROS do not work in this folder.
     """
     root = own_workspace()
     problem = _unfit(root)
@@ -56,16 +57,16 @@ def make_own_workspace() -> Path:
 
 
 def _unfit(root: Path) -> str:
-    """Return why the tools of ROS do not work in a folder, or an empty string if they do."""
+    """Return the reason why the tools of ROS do not work in a folder, or an empty string if they work."""
     if any(letter.isspace() for letter in str(root)):
-        return "its path contains a blank, and catkin cannot build there"
+        return "its path contains a space, and catkin cannot build there"
     if root.exists() and not (root / "src").is_dir() and any(root.iterdir()):
         return "it has no folder src, but contains other files"
     return ""
 
 
 class OwnPackages:
-    """The packages of one workspace, as this process sees them."""
+    """The packages of one workspace that this process can use."""
 
     def __init__(self, root: Path) -> None:
         self._source = root / "src"
@@ -77,7 +78,7 @@ class OwnPackages:
         }
         # the time at which each generated file was written, by its path, in ns
         self._seen: dict[str, int] = {}
-        self._unreadable: set[str] = set()  # the messages about package.xml files at the last refresh()
+        self._unreadable: set[str] = set()  # the messages of the last refresh() about package.xml files
 
     def follow_cells(self, shell: InteractiveShell | None) -> None:
         """Refresh now and, in the kernel of a notebook, before each cell; print the message, if any."""
@@ -86,7 +87,7 @@ class OwnPackages:
             shell.events.register("pre_run_cell", lambda _info: self._refresh_and_print())
 
     def refresh(self) -> str:
-        """Make all packages that are built available to this process and to the programs that it starts.
+        """Make all built packages available to this process and to the programs that it starts.
 
         The folders come last on each search path, so that no package of the student replaces one of the
         course. Return a message if an imported type has another definition now, or if a package.xml cannot be
@@ -133,7 +134,7 @@ def _module_folders() -> list[str]:
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
     """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
 
-    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and one that is not XML ends all of them.
+    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and end if one of these files is not XML.
     """
     found, messages, visited = [], [], set()
     for folder, inside, files in os.walk(source, followlinks=True):
@@ -170,7 +171,7 @@ def _append(name: str, folders: list[Path]) -> None:
 def _follow(module: ModuleType) -> list[str]:
     """Import the types that were added to a package; return the type in `module` if it was changed."""
     if module.__name__.endswith(KINDS):
-        # a build is running, or has failed: the student's own import shows the error
+        # A build is running or has failed; the student's own import will show the error.
         with suppress(Exception):
             importlib.reload(module)
         return []

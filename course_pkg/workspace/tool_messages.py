@@ -8,16 +8,14 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r'from catkin_pkg\.package import parse_package" failed',
         "",
-        "The build runs another Python, which is first on PATH, and not the Python for which ROS is "
-        "installed.",
-        "Build with catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3. If you correct PATH instead, remove "
-        "the "
-        "folder build, too: it remembers the path of the other Python.",
+        "The build uses the Python that is first on PATH, but ROS is installed for another Python.",
+        "Build with catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3. If you correct PATH instead, also "
+        "remove the folder build, because it contains the path of the other Python.",
     ),
     (
         r"The manifest contains invalid XML:\s*mismatched tag: line (?P<line>\d+)",
         "package.xml",
-        "A tag is not closed, or it is closed with another name, in this line or above it.",
+        "In this line or above it, a tag is not closed, or it is closed with another name.",
         "Close every <tag> with </tag>.",
     ),
     (
@@ -45,7 +43,7 @@ FROM_BUILD: tuple[Row, ...] = (
         r"generic dependency on .(?P<name>\w+). is redundant with: (?P<tags>\w+)",
         "package.xml",
         "{name} is listed twice: in <depend> and in <{tags}>.",
-        "Keep only <depend>: it stands for both <build_depend> and <exec_depend>.",
+        "Keep only <depend>: it means both <build_depend> and <exec_depend>.",
     ),
     (
         r"must declare at least one maintainer",
@@ -69,7 +67,7 @@ FROM_BUILD: tuple[Row, ...] = (
         r'Package name "(?P<package>[^"]*)" does not follow naming conventions',
         "package.xml",
         "{package} is not a valid name for a package.",
-        "Use only lower-case letters, digits and _, begin with a letter, and use no blanks.",
+        "Use only lower-case letters, digits and _, begin with a letter, and use no spaces.",
     ),
     (
         r'Package version "(?P<version>[^"]*)" does not follow version conventions',
@@ -93,13 +91,13 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
         "",
-        "A .srv file has the line {text!s} in the place of the three dashes.",
+        "A .srv file has the line {text!s} instead of the three dashes.",
         "Write --- and nothing else.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[^\n]*)",
         "",
-        "A .srv file has the line {text}, which is not a type and a name with one blank between them.",
+        "A .srv file has the line {text}, which is not a type and a name with one space between them.",
         "Write it as in this example: float32 length.",
     ),
     (
@@ -140,32 +138,33 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"No module named '(?P<name>\w+)'",
         "",
         "Python does not find {name} on its path.",
-        "Source devel/setup.bash of its workspace. If you have done that, look for generate_messages there.",
+        "Source devel/setup.bash of its workspace. If you have done that, look for generate_messages in "
+        "its CMakeLists.txt.",
     ),
     (
         r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",
         "",
         "{module} has no {name}.",
-        "Compare it with the name of the .srv file. Upper and lower case are different.",
+        "Compare {name} with the name of the .srv file. Upper and lower case are different.",
     ),
     (
         r"Couldn't find executable named (?P<name>\S+) below",
         "",
         "The package has no program {name}.",
-        "Make the file executable: chmod +x. If it is executable, compare the name, with its ending.",
+        "Make the file executable: chmod +x. If it is executable, compare the name, including its ending.",
     ),
     (
         r"(?:import|from): command not found|syntax error near unexpected token"
         r"|import(?:-im\d\S*)?: unable to open X server",
         "",
         "The shell executed the Python script as a shell script.",
-        "Make #!/usr/bin/env python3 its first line.",
+        "Write #!/usr/bin/env python3 as its first line.",
     ),
     (
         r"env: .python3?\\r.: No such file",
         "",
         "The lines of the script end as on Windows, so the name python3 in line 1 has an extra character.",
-        "Save it with the line ends of Linux: sed -i 's/\\r$//' FILE.",
+        "Save it with the line endings of Linux: sed -i 's/\\r$//' FILE.",
     ),
     (
         r"\[(?P<name>[^\]]+)\] is neither a launch file in package",
@@ -182,8 +181,8 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"(?P<tool>ros\w+) args\tprint service arguments|Usage: (?P<other>ros\w+) ",
         "",
-        "{tool}{other} does not know that command. Its output lists the commands that it knows.",
-        "Use one of them. rossrv show prints the fields of a type; rosservice info names the server of a "
-        "service.",
+        "{tool}{other} does not know this command. The output lists the known commands.",
+        "Use one of these commands. rossrv show prints the fields of a type, and rosservice info prints "
+        "the server of a service.",
     ),
 )

@@ -1,4 +1,4 @@
-"""The shop: a camera that sees customers, a detector that tells of them, a cashier who greets them."""
+"""The programs of chapter 03: the camera of the shop, the detector of customers, and the cashier."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "
 
 
 def run(name: str, *arguments: str) -> NodeProcess:
-    """Start a program of the shop, and return it once it answers."""
+    """Start a program of the shop, and return it when its service answers."""
     process = NodeProcess(["rosrun", "course_pkg", name, *arguments])
     process.wait_for_service(SERVES[name])
     return process
 
 
 @pytest.fixture(autouse=True)
-def settings_of_nobody(master: PrivateMaster) -> None:
-    """What a program was started with, such as _rate:=5, stays at the master for the next of its name."""
+def without_parameters(master: PrivateMaster) -> None:
+    """Remove the parameters of earlier programs, such as _rate:=5, which the master would keep."""
     with ServerProxy(master.uri) as parameters:
         for node in SERVES:
             parameters.deleteParam("/tests", f"/{node}")
@@ -49,14 +49,14 @@ def settings_of_nobody(master: PrivateMaster) -> None:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg shop_camera`, with nobody at the counter."""
+    """`rosrun course_pkg shop_camera`, without customers."""
     with run("shop_camera") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg detector`, with a camera."""
+    """`rosrun course_pkg detector`, with a running camera."""
     with run("detector") as process:
         yield process
 
@@ -67,18 +67,18 @@ def let_in(*after: float, stay: float = FOR_GOOD) -> LetInResponse:
 
 
 def detect(after: int = 0, patience: float = 0.0) -> DetectCustomerResponse:
-    """Ask the detector."""
+    """Call the detector."""
     return BoundedProxy("/detect_customer", DetectCustomer, timeout=70.0)(after, patience)
 
 
 def report() -> CashierReportResponse:
-    """Ask the cashier what it has done."""
+    """Return the cashier's report."""
     return BoundedProxy("/cashier/report", CashierReport)()
 
 
 @pytest.mark.usefixtures("detector")
-def test_a_look_says_who_is_there() -> None:
-    """With no patience there is an answer at once: nobody, or the customer who is there, and since when."""
+def test_call_with_patience_0() -> None:
+    """With the patience 0, the response contains no customer, or a customer and the time of arrival."""
     assert (detect().detected, detect().number) == (False, 0)
     came = let_in(0.0)
     answer = detect(patience=10.0)
@@ -89,8 +89,8 @@ def test_a_look_says_who_is_there() -> None:
 
 
 @pytest.mark.usefixtures("detector")
-def test_a_question_that_waits_is_answered_when_somebody_comes() -> None:
-    """The answer comes after the customer, and long before the patience is over."""
+def test_waiting_call_ends_when_a_customer_comes() -> None:
+    """The response comes after the customer's arrival, and long before the patience is over."""
     came = let_in(0.5)
     answer = detect(patience=30.0)
     assert came.comes[0].to_sec() <= time.time() < came.comes[0].to_sec() + 10.0
@@ -98,16 +98,16 @@ def test_a_question_that_waits_is_answered_when_somebody_comes() -> None:
 
 
 @pytest.mark.usefixtures("detector")
-def test_patience_ends() -> None:
-    """Where nobody comes, the answer is no, after the time that was given."""
+def test_call_without_a_customer_ends_after_its_patience() -> None:
+    """If no customer comes, the response comes after the given time, with detected=False."""
     started = time.monotonic()
     assert not detect(patience=0.5).detected
     assert 0.5 <= time.monotonic() - started < 5.0
 
 
 @pytest.mark.usefixtures("detector")
-def test_those_who_come_together_are_told_one_by_one() -> None:
-    """Each question goes on from the customer that its caller knows."""
+def test_customers_who_come_together_are_returned_one_by_one() -> None:
+    """Three customers come at the same time; each call returns the next customer above `after`."""
     first = let_in(0.0, 0.0, 0.0).first
     numbers = [first - 1]
     for _ in range(3):
@@ -116,8 +116,8 @@ def test_those_who_come_together_are_told_one_by_one() -> None:
 
 
 @pytest.mark.usefixtures("detector")
-def test_everybody_who_waits_is_answered() -> None:
-    """Callers do not stand in line: one customer answers them all."""
+def test_all_waiting_calls_return_the_customer() -> None:
+    """Ten calls wait at the same time, and all of them return the same customer."""
     with ThreadPoolExecutor(10) as pool:
         answers = [pool.submit(detect, patience=30.0) for _ in range(10)]
         first = let_in(0.5).first
@@ -126,8 +126,8 @@ def test_everybody_who_waits_is_answered() -> None:
 
 @pytest.mark.parametrize("patience", [-1.0, math.nan, math.inf, 61.0])
 @pytest.mark.usefixtures("detector")
-def test_a_patience_that_cannot_be_is_refused(patience: float) -> None:
-    """It is refused with what is right, and the detector is well."""
+def test_impossible_patience_is_refused_with_the_range(patience: float) -> None:
+    """The error message contains the allowed range, and the next call works."""
     words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
     with pytest.raises(rospy.ServiceException, match=words):
         detect(patience=patience)
@@ -135,8 +135,8 @@ def test_a_patience_that_cannot_be_is_refused(patience: float) -> None:
 
 
 @pytest.mark.usefixtures("detector")
-def test_a_flood_of_callers_is_bounded() -> None:
-    """At most 64 wait; the others are refused at once, and those who wait get their answer."""
+def test_number_of_waiting_calls_is_limited() -> None:
+    """At most 64 calls wait, and get a response later; further calls are refused immediately."""
     with ThreadPoolExecutor(80) as pool:
         waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
         eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
@@ -147,10 +147,11 @@ def test_a_flood_of_callers_is_bounded() -> None:
         assert sum(future.exception(20) is None for future in waiting) == 64
 
 
-def test_a_camera_that_is_gone_is_not_an_empty_shop(camera: NodeProcess, detector: NodeProcess) -> None:
-    """A call that waits gets an error long before its patience is over; it works again with a new camera.
+def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
+    """A call fails soon after the camera is killed; with a new camera, calls work again.
 
-    The customers of the new one have higher numbers, so that those who wait for the next one get them.
+    The customers of the new camera have higher numbers, so that clients that wait for the next number find
+    them.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first
@@ -174,8 +175,8 @@ def _answers() -> bool:
     return True
 
 
-def test_a_detector_without_a_camera_says_so() -> None:
-    """It serves all the same, and refuses."""
+def test_detector_refuses_without_a_camera() -> None:
+    """The detector offers its service, but refuses the call."""
     with run("detector"), pytest.raises(rospy.ServiceException, match="customers cannot be detected"):
         detect()
 
@@ -190,8 +191,8 @@ def test_a_detector_without_a_camera_says_so() -> None:
     ],
 )
 @pytest.mark.usefixtures("camera")
-def test_customers_who_cannot_be_are_refused(after: list[float], stay: float, words: str) -> None:
-    """The camera names the field, and goes on."""
+def test_impossible_customers_are_refused(after: list[float], stay: float, words: str) -> None:
+    """The error message contains the field, and the next call works."""
     with pytest.raises(rospy.ServiceException, match=words):
         let_in(*after, stay=stay)
     assert len(let_in(5.0, 1.0).comes) == 2
@@ -199,7 +200,7 @@ def test_customers_who_cannot_be_are_refused(after: list[float], stay: float, wo
 
 @pytest.mark.usefixtures("detector")
 def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) -> None:
-    """Also those who come together, and however often the camera repeats who is there."""
+    """The camera repeats its messages, and two customers come together; each number is published once."""
     kernel.run("from course_pkg import join\nfrom std_msgs.msg import UInt32\nnode = join('listener')")
     kernel.run("heard = node.subscribe('/customers', UInt32)")
     with ServerProxy(MasterClient(master.uri).lookup_node("/detector") or "") as node:
@@ -215,8 +216,8 @@ def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) 
     "settings", [["_design:=poll", "_rate:=20"], ["_design:=topic"], ["_design:=wait", "_patience:=0.5"], []]
 )
 @pytest.mark.usefixtures("detector")
-def test_a_cashier_greets_everybody_once(settings: list[str]) -> None:
-    """In each design, in the order in which they come, and with the times of it."""
+def test_cashier_greets_each_customer_once(settings: list[str]) -> None:
+    """In each design, customers are greeted once and in order, and the report contains the times."""
     with run("cashier", *settings) as cashier:
         came = let_in(0.2, 0.2, 0.9)
         eventually(lambda: len(report().greeted) >= 3, timeout=20)
@@ -229,8 +230,8 @@ def test_a_cashier_greets_everybody_once(settings: list[str]) -> None:
         assert cashier.running
 
 
-def test_a_cashier_survives_a_detector_that_is_gone(camera: NodeProcess) -> None:
-    """It says once that there is no answer, asks on, and greets when there is a detector again."""
+def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
+    """The cashier logs the failure once, calls again, and greets a customer after a detector has started."""
     with run("cashier", "_design:=poll", "_rate:=50") as cashier:
         eventually(lambda: "No answer, so the next call follows soon" in cashier.output())
         with run("detector"):
@@ -241,10 +242,8 @@ def test_a_cashier_survives_a_detector_that_is_gone(camera: NodeProcess) -> None
 
 @pytest.mark.parametrize("answer", ["(True, 1, rospy.Time())", "(False, 0, rospy.Time())"])
 @pytest.mark.parametrize("settings", [["_design:=wait", "_patience:=0.5"], ["_design:=poll", "_rate:=2"]])
-def test_a_cashier_does_not_hammer_a_detector_that_answers_at_once(
-    kernel: Kernel, answer: str, settings: list[str]
-) -> None:
-    """A detector that does not wait, or tells of one customer again, is asked twice a second all the same."""
+def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings: list[str]) -> None:
+    """The cashier makes two calls per second even if each response comes at once or has the same customer."""
     kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
     kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
     started = time.monotonic()
@@ -264,32 +263,32 @@ def test_a_cashier_does_not_hammer_a_detector_that_answers_at_once(
         (["_patience:=-1"], "/cashier/patience is -1"),
     ],
 )
-def test_a_cashier_with_a_wrong_setting_ends_with_words(settings: list[str], words: str) -> None:
-    """One line that says what is right, exit status 1, and no traceback."""
+def test_cashier_with_a_wrong_parameter_ends_with_a_message(settings: list[str], words: str) -> None:
+    """The program prints the allowed values without a traceback, and its exit status is 1."""
     done = program("cashier", *settings)
     assert done.returncode == 1
     assert words in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_customers_may_come_by_themselves() -> None:
-    """With _every:= the shop needs nobody who lets them in."""
+def test_random_customers_come() -> None:
+    """With _every:=0.1, customers come without a call of /let_in."""
     with run("shop_camera", "_every:=0.1"), run("detector"):
         assert detect(patience=20.0).detected
 
 
 def test_the_launch_file_runs_the_whole_shop() -> None:
-    """A camera, a detector and a cashier who greets those who come."""
+    """The launch file starts a camera, a detector and a cashier, and customers are greeted."""
     with NodeProcess.roslaunch("course_pkg", "shop.launch", "every:=0.2", "design:=topic") as process:
         process.wait_for_service("/cashier/report", timeout=20)
         eventually(lambda: report().greeted, timeout=20)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_the_shop_closes_when_it_is_told(
+def test_nodes_end_after_a_signal(
     number: signal.Signals, detector: NodeProcess, camera: NodeProcess, master: PrivateMaster
 ) -> None:
-    """Each ends at once, without a traceback and without a registration left, even with callers who wait."""
+    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters, even if a call waits."""
     with ThreadPoolExecutor(2) as pool, run("cashier", "_design:=wait", "_patience:=60") as cashier:
         waiting = pool.submit(detect, patience=60.0)
         eventually(lambda: report().asked)
@@ -303,7 +302,7 @@ def test_the_shop_closes_when_it_is_told(
 
 @pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
 def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master a node says that it waits for one, and Ctrl-C ends the wait."""
+    """Without a master, a node prints that it waits for a master, and Ctrl-C ends the wait."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", name]) as process:
         eventually(lambda: "Waiting for one" in process.output())
@@ -314,10 +313,10 @@ def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
 def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) -> None:
-    """Ctrl-C before it serves ends it too, and leaves nothing behind."""
+    """Ctrl-C during the start of a node ends it, and no registration is left."""
     client = MasterClient(master.uri)
     with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
-        eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)  # in the midst of init_node()
+        eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)  # during init_node()
         os.kill(process.pid, signal.SIGINT)
         assert process.wait(20) == 0
         assert "Traceback" not in process.output()

@@ -1,4 +1,4 @@
-"""Chapter 07's check of an import: a script that never ends is told from a busy machine."""
+"""Chapter 07's check of an import distinguishes a script that never ends from a busy machine."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Replying:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return the result of a command; times in the reply are shares of the limit."""
+        """Return the result of a command; times in the reply are fractions of the time limit."""
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
         return Finished({**self.reply, **times, "took": within})
@@ -44,22 +44,22 @@ def imported(**reply: float | int | str | None) -> CheckContext:
     return context
 
 
-def test_an_import_that_a_busy_machine_delays_is_no_mistake() -> None:
-    """It waits for a processor nearly all the time, or nothing is known about it: the check says so."""
+def test_slow_import_on_a_busy_machine_is_not_a_mistake() -> None:
+    """The import waited for a processor, or its times are not known: the check reports a busy machine."""
     for reply in ({"ran": 0.02, "queued": 0.9}, {}):
         with pytest.raises(CheckError, match=r"the machine is busy\. Run this cell again"):
             imported(status=None, **reply)
 
 
-def test_an_import_that_waits_or_computes_for_ever_is_one() -> None:
-    """It sleeps nearly all the time, or has computed for longer than any import does."""
+def test_import_that_never_ends_is_a_mistake() -> None:
+    """The import slept most of the time, or computed longer than any import: the assertion fails."""
     for reply in ({"ran": 0.02, "queued": 0.05}, {"ran": 0.5, "queued": 0.5}):
         with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
             imported(status=None, **reply)
 
 
 def test_an_import_that_ends_is_accepted() -> None:
-    """Definitions only: nothing is printed, and the exit status is 0."""
+    """The script contains only definitions: it prints nothing, and its exit status is 0."""
     assert [each.holds for each in imported(status=0).assertions] == [True]
 
 
@@ -72,7 +72,7 @@ def folders(tmp_path: Path) -> Iterator[CommandFolders]:
 
 
 def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
-    """A command that sleeps neither runs nor waits for a processor; one that computes does."""
+    """A sleeping command does not use or wait for a processor, but a computing command does."""
     number = folders.folder([], {})["folder"]
     assert isinstance(number, int)
     sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))

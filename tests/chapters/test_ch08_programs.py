@@ -1,4 +1,4 @@
-"""The programs of chapter 08: the adder, its clients, the server of two states, and the switch."""
+"""The programs of chapter 08: the adder and its clients, the server of ON and OFF, and the switch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def adder() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg add_two_ints_server`, answering."""
+    """`rosrun course_pkg add_two_ints_server`, ready for calls."""
     with NodeProcess(["rosrun", "course_pkg", "add_two_ints_server"]) as process:
         process.wait_for_service("/add_two_ints")
         yield process
@@ -38,15 +38,15 @@ def adder() -> Iterator[NodeProcess]:
     ],
 )
 def test_adder_client_prints_the_sum(numbers: list[str], printed: str) -> None:
-    """The client prints the sum and nothing else, for numbers below zero and for the largest, too."""
+    """The client prints only the sum, even for negative numbers and for the largest int64."""
     done = program("add_two_ints_client", *numbers)
     assert (done.returncode, done.stdout, done.stderr) == (0, printed, "")
 
 
 @pytest.mark.usefixtures("adder")
 @pytest.mark.parametrize(("a", "b"), [(LARGEST, 1), (-LARGEST - 1, -1)])
-def test_sum_that_no_int64_holds(a: int, b: int) -> None:
-    """A sum that cannot be sent is refused in words, and is no fault of the server."""
+def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
+    """If the sum is too large for an int64, the client prints the error message of the refusal."""
     done = program("add_two_ints_client", str(a), str(b))
     assert done.returncode == 1
     assert f"cannot process request: {a + b} is more than an int64 can hold" in done.stderr
@@ -54,14 +54,14 @@ def test_sum_that_no_int64_holds(a: int, b: int) -> None:
 
 @pytest.mark.parametrize("words", [[], ["1"], ["1", "2", "3"], ["1", "2.5"], ["1", str(LARGEST + 1)]])
 def test_adder_client_with_wrong_arguments(words: list[str]) -> None:
-    """What are not two numbers that an int64 holds is the usage text and exit status 2, without a server."""
+    """If the arguments are not two int64 numbers, the client prints its usage and ends with 2."""
     done = program("add_two_ints_client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_ints_client A B")
 
 
 def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
-    """Client and server compare MD5 sums, and the client gets both of them, and no sum."""
+    """The server compares the MD5 sums, and the client prints an error message with both of them."""
     done = program("add_two_floats_client", "20", "22")
     ours = service_type("course_pkg/AddTwoInts").md5
     assert (done.returncode, done.stdout) == (1, "")
@@ -74,7 +74,7 @@ def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
 
 
 def test_client_of_another_definition_with_wrong_arguments() -> None:
-    """Its usage is its own, and comes without a server."""
+    """This client prints its own usage text, without a server."""
     done = program("add_two_floats_client", "one", "2")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_floats_client A B")
@@ -82,21 +82,21 @@ def test_client_of_another_definition_with_wrong_arguments() -> None:
 
 @pytest.fixture
 def on_off() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg on_off_server`, answering."""
+    """`rosrun course_pkg on_off_server`, ready for calls."""
     with NodeProcess(["rosrun", "course_pkg", "on_off_server"]) as process:
         process.wait_for_service("/on_off")
         yield process
 
 
 @pytest.mark.parametrize(("number", "state"), [("0", "OFF"), ("1", "ON")])
-def test_on_off_two_numbers_have_an_answer(on_off: NodeProcess, number: str, state: str) -> None:
-    """0 is OFF, 1 is ON."""
+def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) -> None:
+    """The response is OFF for 0, and ON for 1."""
     assert terminal("rosservice", "call", "/on_off", number).stdout == f'state: "{state}"\n'
 
 
 @pytest.mark.parametrize("number", ["2", "-1", "2147483647"])
 def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
-    """Any other number is refused in words that name it and say what would be right; the server goes on."""
+    """The error message contains the wrong number and the right numbers, and the next call works."""
     done = terminal("rosservice", "call", "/on_off", "--", number)
     assert done.returncode == 2
     assert f"cannot process request: {number} is neither 0 (OFF) nor 1 (ON)" in done.stderr
@@ -105,7 +105,7 @@ def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
 
 
 def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
-    """The client prints what it sent and what it got, and sends now the one, now the other."""
+    """The client prints the number and the state, and several runs send both numbers."""
     seen: set[str] = set()
 
     def both() -> bool:
@@ -119,21 +119,21 @@ def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
 
 
 def test_on_off_client_takes_no_arguments() -> None:
-    """A number on the command line is a wrong line: usage, and exit status 2, at once."""
+    """With an argument, the client immediately prints its usage and ends with 2."""
     done = program("on_off_client", "1")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: on_off_client")
 
 
 def test_on_off_client_without_a_server() -> None:
-    """Without a server the client gives up after 5 s, in one line, with exit status 1."""
+    """Without a server, the client prints one line after 5 s, and ends with 1."""
     done = program("on_off_client")
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == "timeout exceeded while waiting for service /on_off\n"
 
 
 def test_on_off_client_without_a_master() -> None:
-    """Without a master the client says so, in one line, with exit status 1."""
+    """Without a master, the client prints one line, and ends with 1."""
     done = program("on_off_client", ROS_MASTER_URI="http://localhost:1")
     assert (done.returncode, done.stdout) == (1, "")
     assert "No ROS master at http://localhost:1" in done.stderr
@@ -142,7 +142,7 @@ def test_on_off_client_without_a_master() -> None:
 
 @pytest.fixture
 def switch(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg switch`, answering."""
+    """`rosrun course_pkg switch`, ready for calls."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         process.wait_for_service("/switch/reset")
         yield process
@@ -161,8 +161,8 @@ def trigger(name: str) -> tuple[bool, str]:
 
 
 @pytest.mark.usefixtures("switch")
-def test_it_moves_and_says_so() -> None:
-    """It starts closed, goes where it is told, and says what it did."""
+def test_set_moves_the_switch() -> None:
+    """The switch starts closed; a call moves it to the wanted position, and the message describes it."""
     assert trigger("report") == (True, "closed")
     assert move(True) == (True, "opened")
     assert trigger("report") == (True, "open")
@@ -170,8 +170,8 @@ def test_it_moves_and_says_so() -> None:
 
 
 @pytest.mark.usefixtures("switch")
-def test_asked_twice_it_says_that_it_is_there() -> None:
-    """A switch that stands where it is told to go does not move: no success, and no error."""
+def test_set_to_the_present_position_does_not_move() -> None:
+    """If the switch is in the wanted position, success is False, and the message contains "already"."""
     assert move(False) == (False, "already closed")
     move(True)
     assert move(True) == (False, "already open")
@@ -179,21 +179,21 @@ def test_asked_twice_it_says_that_it_is_there() -> None:
 
 
 @pytest.mark.usefixtures("switch")
-def test_a_toggle_moves_it_each_time() -> None:
-    """A toggle sent twice leaves it where it was, which set does not."""
+def test_toggle_moves_the_switch_each_time() -> None:
+    """Each toggle changes the position, so two toggles restore it."""
     assert [trigger("toggle") for _ in range(3)] == [(True, "opened"), (True, "closed"), (True, "opened")]
 
 
 @pytest.mark.usefixtures("switch")
-def test_a_reset_closes_it_without_a_word() -> None:
-    """The answer to a reset is empty, and the switch is closed after it."""
+def test_reset_closes_the_switch_with_an_empty_response() -> None:
+    """The response to a reset is empty, and the switch is closed after the reset."""
     move(True)
     BoundedProxy("/switch/reset", Empty)()
     assert trigger("report") == (True, "closed")
 
 
-def test_its_log_tells_more_when_it_is_asked_to(switch: NodeProcess) -> None:
-    """Moves are logged as they are; what changed nothing only at the level debug."""
+def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None:
+    """The node logs each move, but calls without effect only at the level debug."""
     move(True)
     move(True)
     eventually(lambda: "Opened" in switch.output())
@@ -205,8 +205,8 @@ def test_its_log_tells_more_when_it_is_asked_to(switch: NodeProcess) -> None:
     eventually(lambda: re.search(pattern, switch.output()))
 
 
-def test_its_services_go_by_its_name(master: PrivateMaster) -> None:
-    """Two switches of different names do not meet."""
+def test_services_are_in_the_namespace_of_the_node(master: PrivateMaster) -> None:
+    """Two switches with different node names have different services."""
     command = ["rosrun", "course_pkg", "switch"]
     with NodeProcess([*command, "__name:=left"]) as left, NodeProcess([*command, "__name:=right"]) as right:
         left.wait_for_service("/left/reset")
@@ -215,8 +215,8 @@ def test_its_services_go_by_its_name(master: PrivateMaster) -> None:
         assert BoundedProxy("/right/report", Trigger)().message == "closed"
 
 
-def test_many_toggles_at_once_are_all_counted() -> None:
-    """Callers who come at the same moment move it one after the other."""
+def test_simultaneous_toggles_are_all_counted() -> None:
+    """After 101 simultaneous toggles, 51 responses are "opened" and 50 are "closed"."""
     switch = Switch()
     with ThreadPoolExecutor(8) as pool:
         told = list(pool.map(switch.handle_toggle, range(101)))
@@ -228,8 +228,8 @@ def test_many_toggles_at_once_are_all_counted() -> None:
     ("program", "service"),
     [("switch", "/switch/reset"), ("on_off_server", "/on_off"), ("add_two_ints_server", "/add_two_ints")],
 )
-def test_servers_end_when_told(program: str, service: str, master: PrivateMaster) -> None:
-    """Ctrl-C ends a server of this chapter without a traceback and without a registration left."""
+def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMaster) -> None:
+    """Ctrl-C ends each server without a traceback, and the server unregisters."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(service)
         os.kill(process.pid, signal.SIGINT)
@@ -240,7 +240,7 @@ def test_servers_end_when_told(program: str, service: str, master: PrivateMaster
 
 @pytest.mark.parametrize("attempt", range(4))
 def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster) -> None:
-    """Ctrl-C between the first registration and the last ends a server too, every time."""
+    """Ctrl-C while the node registers its services ends it, and no registration is left."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         eventually(lambda: "Serving" in process.output(), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
@@ -250,7 +250,7 @@ def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster)
 
 @pytest.mark.parametrize("program", ["switch", "on_off_server", "add_two_ints_server"])
 def test_servers_wait_for_a_master(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master a server says that it waits for one, and Ctrl-C ends the wait."""
+    """Without a master, a server prints that it waits for a master, and Ctrl-C ends the wait."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         eventually(lambda: "Waiting for one" in process.output())

@@ -1,4 +1,4 @@
-"""The server that adds up for each session, its client, and the bare echo."""
+"""The programs of chapter 11: the server with a total for each session, its client, and the TCP echo."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ KIND = "course_pkg/AddUp"
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg session_server`, answering."""
+    """`rosrun course_pkg session_server`, ready for calls."""
     with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
         process.wait_for_service("/add_up", timeout=20)
         yield process
 
 
 def added(session: str, amount: int) -> tuple[int, int]:
-    """Add up in a session; return its total and its calls."""
+    """Add an amount in a session; return the total and the number of calls of the session."""
     answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
     return answer.total, answer.calls
 
 
 @pytest.mark.usefixtures("server")
 def test_each_session_has_its_own_total() -> None:
-    """Two sessions from one node keep apart, and one goes on from another node."""
+    """Two sessions of one node have separate totals, and another node can continue a session."""
     assert [added("alice", 5), added("bob", 100), added("alice", -7)] == [(5, 1), (100, 1), (-2, 2)]
     assert program("session_client", "alice", "10", "10").stdout.splitlines() == [
         "alice: 8 after 3 calls",
@@ -41,8 +41,8 @@ def test_each_session_has_its_own_total() -> None:
 
 
 @pytest.mark.usefixtures("server")
-def test_refusals_say_what_is_missing() -> None:
-    """Without a session, or beyond what an int32 holds, the reason is in words, and the total stays."""
+def test_refusals_contain_the_reason() -> None:
+    """A call without a session, or a total above the int32 range, is refused; the total does not change."""
     done = terminal("rosservice", "call", "/add_up", "5")
     assert done.returncode == 2
     assert "cannot process request: the connection header has no field session" in done.stderr
@@ -52,22 +52,22 @@ def test_refusals_say_what_is_missing() -> None:
 
 
 @pytest.mark.usefixtures("server")
-def test_a_rate_goes_on_until_it_is_ended() -> None:
-    """With a rate the amounts come again and again, over one connection."""
+def test_client_with_a_rate_repeats_its_amount() -> None:
+    """With _rate:=20, the client sends its amount repeatedly until it is stopped."""
     with NodeProcess(["rosrun", "course_pkg", "session_client", "steady", "1", "_rate:=20"]) as client:
         client.wait_for_output("after 5 calls")
     assert "Traceback" not in client.output()
 
 
-def test_the_line_is_read() -> None:
-    """A session and whole numbers that fit, or None."""
+def test_arguments_are_read() -> None:
+    """The result is a session and int32 numbers, or None for invalid arguments."""
     assert read_arguments(["alice", "5", "-3"]) == ("alice", [5, -3])
     for words in ([], ["alice"], ["", "5"], ["alice", "five"], ["alice", str(2**31)]):
         assert read_arguments(words) is None
 
 
-def test_the_client_alone() -> None:
-    """A wrong line is usage and status 2; nobody who serves is one line and status 1."""
+def test_client_without_a_server_or_with_wrong_arguments() -> None:
+    """Wrong arguments lead to the usage and status 2; a missing server leads to one line and status 1."""
     done = program("session_client", "alice")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("usage: session_client")
@@ -75,8 +75,8 @@ def test_the_client_alone() -> None:
     assert (done.returncode, done.stderr) == (1, "timeout exceeded while waiting for service /add_up\n")
 
 
-def test_the_echo_says_what_it_was_told(master: PrivateMaster) -> None:
-    """Its port is a parameter, and it sends back every byte."""
+def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
+    """The port is in a parameter, and the program sends back every byte."""
     with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
         echo.wait_for_output("Echoing")
         port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))
@@ -89,7 +89,7 @@ def test_the_echo_says_what_it_was_told(master: PrivateMaster) -> None:
 
 @pytest.mark.usefixtures("server")
 def test_a_program_uses_the_master_of_its_argument() -> None:
-    """With __master:= server and client meet on another master, and the first server counts nothing."""
+    """With __master:=, server and client use another master; the server on the first master gets no call."""
     with PrivateMaster() as other:
         there = f"__master:={other.uri}"
         with NodeProcess(["rosrun", "course_pkg", "session_server", there]):

@@ -1,4 +1,4 @@
-"""The robot cashier of the course follows the specification of chapter 15."""
+"""The course's own programs follow the specification of chapter 15."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 
 def run(name: str, service: str) -> NodeProcess:
-    """Run a program of the system, and return it when it serves `service`."""
+    """Start a program of the system, and return it when it serves `service`."""
     process = NodeProcess(["rosrun", "course_pkg", name])
     process.wait_for_service(service)
     return process
@@ -36,14 +36,14 @@ def run(name: str, service: str) -> NodeProcess:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg counter_camera`, with nobody at the counter."""
+    """`rosrun course_pkg counter_camera`, without customers."""
     with run("counter_camera", "/let_in") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg customer_detector`, with a camera and a node that looks at its frames."""
+    """`rosrun course_pkg customer_detector`, with a camera and the node vision."""
     with (
         run("vision", "/vision/get_loggers"),
         run("customer_detector", "/detect_customer") as process,
@@ -74,7 +74,7 @@ def detect(patience: float = 0.0) -> bool:
 
 
 def answered() -> bool | None:
-    """Return whether a customer is there now, None if the call is refused."""
+    """Return whether a customer is there now, or None if the call is refused."""
     try:
         return detect()
     except rospy.ServiceException:
@@ -103,14 +103,14 @@ def test_a_call_ends_when_its_patience_is_over() -> None:
 @pytest.mark.usefixtures("detector")
 @pytest.mark.parametrize("patience", [-0.1, 60.1, float("nan"), float("inf")])
 def test_impossible_patience_is_refused(patience: float) -> None:
-    """The call is refused at once, and the message names the patience."""
+    """The call is refused immediately, and the error message contains the word "patience"."""
     with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
         detect(patience)
 
 
 @pytest.mark.usefixtures("detector")
 def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
-    """The customer in its last frame no longer counts after one second."""
+    """One second after the last frame, the detector refuses, although this frame shows a customer."""
     let_in(0.0)
     eventually(detect)
     camera.kill()
@@ -137,7 +137,7 @@ def test_a_till_adds_up_and_refuses() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
-    """The second reset succeeds, too, and says that the till was empty."""
+    """Simultaneous calls add up; a second reset succeeds, too, with the message that the till is empty."""
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(lambda number: BoundedProxy("/till/set", TillSet)(str(number), number), range(1, 9)))
     reset = BoundedProxy("/till/reset", Trigger)
@@ -149,7 +149,7 @@ def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_an_item_that_is_not_printed_does_not_count() -> None:
-    """The printer has paper for twelve lines."""
+    """After twelve lines, the paper is used up: the till refuses the item, and the total does not change."""
     put = BoundedProxy("/till/set", TillSet)
     for number in range(12):
         put(str(number), 1)
@@ -159,7 +159,7 @@ def test_an_item_that_is_not_printed_does_not_count() -> None:
 
 
 def test_the_launch_file_leaves_the_hardware_out() -> None:
-    """With hardware:=false, another node can play the camera, the arm and the printer."""
+    """With hardware:=false, other nodes can replace the camera, the arm and the printer."""
     nodes = [
         set(terminal("roslaunch", "--nodes", *LAUNCH, *more).stdout.split())
         for more in ([], ["hardware:=false"])
@@ -168,7 +168,7 @@ def test_the_launch_file_leaves_the_hardware_out() -> None:
     assert nodes[1] == {"/vision", "/customer_detector", "/robot_cashier", "/till"}
 
 
-def test_the_whole_system_greets_once_and_mirrors_meanwhile(kernel: Kernel) -> None:
+def test_whole_system_greets_once_and_mirrors_at_the_same_time(kernel: Kernel) -> None:
     """The arm is mirrored while a call waits. A customer is greeted once, and the till is reset."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch(*LAUNCH, "wait:=20") as system:

@@ -1,4 +1,4 @@
-"""The programs of chapter 16: the bridge to programs without ROS, and the robot that fetches things."""
+"""The programs of chapter 16: the bridge for programs without ROS, and the robot that fetches things."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def geometry() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def bridge() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg bridge _port:=0`, listening."""
+    """`rosrun course_pkg bridge _port:=0`, ready for connections."""
     with NodeProcess(["rosrun", "course_pkg", "bridge", "_port:=0"]) as process:
         process.wait_for_output("ws://", timeout=20)
         yield process
@@ -38,7 +38,7 @@ def bridge() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def line(bridge: NodeProcess) -> Iterator[websocket.WebSocket]:
-    """A connection to it."""
+    """A websocket connection to the bridge."""
     found = re.search(r"ws://\S+\d", bridge.output())
     assert found
     connection = websocket.create_connection(found[0], timeout=20)
@@ -47,22 +47,22 @@ def line(bridge: NodeProcess) -> Iterator[websocket.WebSocket]:
 
 
 def said(line: websocket.WebSocket, message: JSON) -> dict[str, JSON]:
-    """Send one message and return the answer."""
+    """Send one message and return the reply."""
     line.send(message if isinstance(message, str) else json.dumps(message))
     answer: dict[str, JSON] = json.loads(line.recv())
     return answer
 
 
 def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
-    """Return a message that asks for a call."""
+    """Return a message that requests a call."""
     return {"op": "call_service", "service": service, "args": args, **more}
 
 
 @pytest.mark.parametrize("args", [SIDES, [1.5, 2.0, 3.0]], ids=["by name", "by position"])
-def test_a_call_brings_the_fields_of_the_response(
+def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The answer names the service, has the id that was given, and says that all went well."""
+    """The reply contains the service, the given id, the fields of the response, and the result True."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",
@@ -78,16 +78,16 @@ def test_a_call_brings_the_fields_of_the_response(
         ("/getGeometry", {"length": -1.0}, "cannot process request: length is -1"),
         ("/getGeometry", {"hieght": 1.0}, "No field name"),
         ("/getGeometry", [1.0], "Not enough arguments"),
-        ("/getGeometry", "a text", "neither an object"),
-        ("/getGeometry", 5, "neither an object"),
+        ("/getGeometry", "a text", "must be an object"),
+        ("/getGeometry", 5, "must be an object"),
         ("/getGeometry", {"length": "long"}, "length"),
         ("/nobody", {}, "not available"),
     ],
 )
-def test_a_call_that_fails_says_why_and_the_bridge_goes_on(
+def test_failed_call_gets_its_error_message(
     line: websocket.WebSocket, geometry: NodeProcess, service: str, args: object, words: str
 ) -> None:
-    """The result is false, and the values are the words of the error."""
+    """The result is False, the values are the error message, and the next call works."""
     answer = said(line, call(service, args))
     assert answer["result"] is False
     assert words in answer["values"]
@@ -95,27 +95,27 @@ def test_a_call_that_fails_says_why_and_the_bridge_goes_on(
 
 
 @pytest.mark.parametrize("message", ["no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}])
-def test_what_is_no_call_gets_a_status(line: websocket.WebSocket, message: object) -> None:
-    """The protocol has a status for that, with a level and words."""
+def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket, message: object) -> None:
+    """The reply to a message that is not a call is a status with the level "error"."""
     answer = said(line, message)
     assert (answer["op"], answer["level"]) == ("status", "error")
 
 
-def test_nested_fields_come_as_objects(line: websocket.WebSocket) -> None:
-    """Messages within messages are objects within objects."""
+def test_nested_message_becomes_an_object(line: websocket.WebSocket) -> None:
+    """A nested message becomes a nested object."""
     loggers = said(line, call("/bridge/get_loggers", {}))["values"]["loggers"]
     assert {"name", "level"} == set(loggers[0])
 
 
-def test_it_ends_at_once_with_a_connection_open(line: websocket.WebSocket, bridge: NodeProcess) -> None:
-    """Ctrl-C ends it by itself, with nothing printed but its address, and the port is free."""
+def test_bridge_ends_with_an_open_connection(line: websocket.WebSocket, bridge: NodeProcess) -> None:
+    """Ctrl-C ends the bridge without a traceback, even with an open connection."""
     bridge.interrupt()
     assert bridge.wait() == 0
     assert "Traceback" not in bridge.output()
 
 
-def test_it_listens_on_this_computer_alone(bridge: NodeProcess) -> None:
-    """Nobody from outside can call services through it."""
+def test_bridge_listens_only_on_loopback(bridge: NodeProcess) -> None:
+    """The bridge listens only on the loopback address."""
     port = int(bridge.output().rpartition(":")[2].split()[0])
     assert port in listening_ports(bridge.pid)
     with open("/proc/net/tcp") as table:
@@ -123,8 +123,8 @@ def test_it_listens_on_this_computer_alone(bridge: NodeProcess) -> None:
     assert addresses[0].startswith("0100007F")
 
 
-def test_a_port_that_is_taken_is_said(bridge: NodeProcess) -> None:
-    """Exit status 1, and what to type instead."""
+def test_bridge_reports_a_port_in_use(bridge: NodeProcess) -> None:
+    """The exit status is 1, and the output contains the port."""
     port = bridge.output().rpartition(":")[2].split()[0]
     done = program("bridge", f"_port:={port}", "__name:=second")
     assert done.returncode == 1
@@ -156,14 +156,14 @@ def carry_out(goal):
 
 @pytest.fixture
 def asking(kernel: Kernel) -> Iterator[Kernel]:
-    """A kernel with a client, and the robot."""
+    """A kernel with an action client, and the running robot."""
     with NodeProcess(["rosrun", "course_pkg", "fetcher"]):
         kernel.run(FETCHING)
         yield kernel
 
 
-def test_a_goal_is_carried_out_with_feedback(asking: Kernel) -> None:
-    """As many things as were asked for, and a word after each of them; the last may come with the result."""
+def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
+    """The robot fetches all things, with feedback after each; the last feedback may come after the result."""
     counts, fetched, succeeded = asking.run("""
         client.send_goal(FetchGoal(things=5, seconds=0.05), feedback_cb=tell)
         assert client.wait_for_result(rospy.Duration(20))
@@ -173,8 +173,8 @@ def test_a_goal_is_carried_out_with_feedback(asking: Kernel) -> None:
     assert (fetched, succeeded) == (5, True)
 
 
-def test_a_goal_that_is_called_off_ends_with_what_there_is(asking: Kernel) -> None:
-    """Between two things it notices, and the result says how many there are."""
+def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
+    """After a cancellation, the result is the number of things that were fetched before."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)
@@ -189,8 +189,8 @@ def test_a_goal_that_is_called_off_ends_with_what_there_is(asking: Kernel) -> No
 @pytest.mark.parametrize(
     "goal", ["things=-1, seconds=0.1", "things=1, seconds=-1", "things=1, seconds=float('nan')"]
 )
-def test_a_goal_that_cannot_be_is_aborted_in_words(asking: Kernel, goal: str) -> None:
-    """It is not begun, the words say why, and the robot is there for the next goal."""
+def test_impossible_goal_is_aborted_with_a_message(asking: Kernel, goal: str) -> None:
+    """An impossible goal is aborted with an error message, and the next goal succeeds."""
     aborted, words, after = asking.run(f"""
         carry_out(FetchGoal({goal}))
         result = [client.get_state() == GoalStatus.ABORTED, client.get_goal_status_text()]

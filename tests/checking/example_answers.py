@@ -18,8 +18,8 @@ The source of the answer is below its header, in one of four forms:
       replace("old", "new", times=3)        the old text occurs three times, and all three are replaced
       replace("begin … end", "new text")    the old text begins and ends with these two texts
 
-  Replacements are made one after the other. A replacement of whole lines starts with a line break.
-  If the other answer is a change, too, it has to come earlier in the file.
+Replacements are made one after the other. The old text of a replacement of whole lines starts with a line
+break. If the other answer is also a change, it has to come earlier in the file.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Answer:
     right: bool
     title: str
     hint: str
-    source: str  # runs instead of the exercise cell
+    source: str  # the source that runs instead of the exercise cell
 
     @property
     def quotes(self) -> list[str]:
@@ -89,7 +89,7 @@ class Replacement:
 class Change:
     """A source that is described by its differences from another answer's source."""
 
-    base: str  # the title of the other answer; if empty: the part's first right answer
+    base: str  # the title of the other answer; empty for the part's first right answer
     replacements: tuple[Replacement, ...]
     place: str
 
@@ -101,7 +101,7 @@ class Change:
         base = self.base or next(iter(programs), "")
         if base not in programs:
             raise ValueError(f"{self.place}: no earlier answer to this part has the title {base!r}")
-        # with this line break, the first line, too, can be replaced as a whole line
+        # with this line break, a replacement of whole lines can also replace the first line
         source = "\n" + programs[base]
         for replacement in self.replacements:
             source = replacement.apply(source)
@@ -168,7 +168,7 @@ def _solutions(chapter: str) -> dict[str, str]:
 
 
 def _body(source: str, check: str, path: Path, header_line: int) -> str | Change:
-    """Return the source of an answer to the part `check`, or the change that leads to it."""
+    """Return the source of an answer to the part `check`, or the change from which it is made."""
     statements = _parse(source, path, header_line + 1).body
     match statements:
         case [ast.Expr(ast.Constant(str(text)))]:
@@ -198,7 +198,7 @@ def _change(statements: list[ast.stmt], path: Path, header_line: int) -> Change:
 
 
 def _times(keywords: list[ast.keyword]) -> int:
-    """Return the value of the keyword `times`, 1 without keywords, 0 for anything else."""
+    """Return the value of the keyword `times`; 1 if there are no keywords; 0 if they are wrong."""
     match keywords:
         case []:
             return 1

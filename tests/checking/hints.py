@@ -1,4 +1,4 @@
-"""The hints in the code of checks, as far as they can be found without running a check.
+"""Finds the hints in the source code of checks without running a check.
 
 A hint is a sentence. The only other sentences in a check are docstrings, goals and error messages.
 """
@@ -45,13 +45,13 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints of which no header in `answers` quotes a part."""
+    """Return the hints that no header in `answers` quotes."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the pieces of the hint that contains `text`; nothing if several hints contain it.
+    """Return the pieces of the hint that contains `text`, or an empty set if several hints contain it.
 
     If `text` is a whole hint, this hint is returned, even if other hints contain the text.
     """

@@ -27,14 +27,14 @@ ANSWERS = sorted(every_answer(), key=lambda answer: -PARTS[answer.check].deadlin
 # the first answer of each part
 RIGHT = {answer.check: answer for answer in reversed(ANSWERS) if answer.right}
 pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits in the queue
-# The numbers of the right and the wrong answers of a part in a usual run; the others are slow. The first
-# right answer is the solution's, whose check test_validation.py runs.
+# The numbers of the right and the wrong answers of a part in a usual run; all other answers are slow. The
+# first right answer is the solution; test_validation.py runs its check.
 USUAL = {True: (2,), False: (1, 2, 3)}
 # parts that build or start programs
 BUILDS = ("04.1", "04.3", "04.4", "04.5", "07.", "09.", "13.", "14.", "15.")
 # number of answers of such a part in a usual run
 BUILT: dict[bool, tuple[int, ...]] = {True: (), False: (1,)}
-A_CORE = 2  # sandboxes per core: answers often wait for nodes and messages
+A_CORE = 2  # sandboxes per core, because answers wait for nodes and messages most of the time
 STORED = {
     check: cell["outputs"][0]["data"]
     for path in NotebookStore().solutions()
@@ -54,7 +54,7 @@ def _job(case: Answer | Part) -> PartJob:
 
 @pytest.fixture(scope="session")
 def pool(request: pytest.FixtureRequest) -> Iterator[WorkerPool]:
-    """The sandboxes that run answers as they run submissions; all answers of this run are in their queue."""
+    """The sandboxes that run answers as in grading; all answers of this test run are in their queue."""
     with WorkerPool(A_CORE * (os.cpu_count() or 1)) as pool:
         pool.submit(_job(case) for item in request.session.items if (case := _case(item)) is not None)
         yield pool
@@ -82,7 +82,7 @@ def _case(item: pytest.Item) -> Answer | Part | None:
 
 
 def _params() -> Iterator[ParameterSet]:
-    """Yield the answers; the answers that are too many for a usual run are marked as slow."""
+    """Yield the answers; answers that a usual run leaves out are marked as slow."""
     count: Counter[tuple[str, bool]] = Counter()
     for answer in ANSWERS:
         count[answer.check, answer.right] += 1
@@ -97,7 +97,7 @@ def _name(answer: Answer) -> str:
 
 @pytest.mark.parametrize("answer", list(_params()))
 def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report: Report) -> None:
-    """A right answer passes; a wrong one fails, and the report contains the hint for its mistake.
+    """A right answer passes; a wrong answer fails, and the report contains the hint for its mistake.
 
     The text and the HTML of a pass are stored in the solution, and nbval compares both. So they must not
     contain the drawn inputs.
@@ -112,14 +112,14 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report:
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)
-def test_exercise_left_as_it_is_reads_not_attempted(part: Part, report: Report) -> None:
+def test_blank_exercise_is_not_attempted(part: Part, report: Report) -> None:
     """A blank exercise is neither a failure nor an error: its result is "not attempted"."""
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)
 def test_part_has_enough_answers(part: Part) -> None:
-    """Each part has two right answers and four wrong ones, and each wrong answer has a hint."""
+    """Each part has at least two right answers, and wrong answers with at least four different hints."""
     right = [answer for answer in ANSWERS if answer.check == part.check and answer.right]
     hints = {answer.hint for answer in ANSWERS if answer.check == part.check and not answer.right}
     assert len(right) >= 2

@@ -97,7 +97,7 @@ def test_source_is_a_program_a_string_or_a_change(tmp_path: Path, title: str, so
 
 
 def test_solution_is_the_exercise_cell_of_the_notebook(tmp_path: Path) -> None:
-    """An answer need not repeat the solution in the notebook, and other answers can be changes of it."""
+    """`solution()` is the solution in the notebook, and other answers can be changes of it."""
     one, other = _read(
         tmp_path,
         """# %% 09.6 right: the solution

@@ -43,7 +43,7 @@ def test_not_same(expected: Json, seen: Json) -> None:
     assert not same(expected, seen, 1e-3)
 
 
-def test_hints_recognise_values_words_and_what_a_predicate_says() -> None:
+def test_hint_of_the_first_matching_condition() -> None:
     """The first matching condition is used; a function that raises an exception does not match."""
     hints = [
         (3.5, "value"),
@@ -59,7 +59,7 @@ def test_hints_recognise_values_words_and_what_a_predicate_says() -> None:
     assert hint_for("always", 7) == "always"
 
 
-def test_a_rule_is_told_once_and_may_fail_later() -> None:
+def test_assertion_is_reported_once_and_may_fail_later() -> None:
     """An assertion about three inputs is reported in one line; it fails if one of the three inputs fails."""
     results = Results()
     results.passes("a")

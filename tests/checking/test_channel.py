@@ -54,9 +54,7 @@ def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
         b"{}\n",
     ],
 )
-def test_what_the_protocol_does_not_allow_breaks_the_link(
-    ends: tuple[Channel, socket.socket], line: bytes
-) -> None:
+def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], line: bytes) -> None:
     """A line is not a reply if it is not JSON, not an object, a reply to another request, or an error."""
     channel, client = ends
     client.sendall(line)
@@ -82,7 +80,7 @@ def test_a_line_has_a_limit(ends: tuple[Channel, socket.socket]) -> None:
     writer.join()
 
 
-def test_silence_and_absence_are_told_apart(ends: tuple[Channel, socket.socket]) -> None:
+def test_timeout_and_closed_channel_are_different_errors(ends: tuple[Channel, socket.socket]) -> None:
     """A timeout and a closed channel raise different errors."""
     channel, client = ends
     with pytest.raises(ChannelTimeout):
@@ -92,7 +90,7 @@ def test_silence_and_absence_are_told_apart(ends: tuple[Channel, socket.socket])
         channel.receive(1.0)
 
 
-def test_a_check_runner_that_is_not_there_is_named() -> None:
+def test_missing_check_runner_is_reported_with_its_address() -> None:
     """The error message contains the address."""
     with pytest.raises(ChannelClosed, match="/nowhere/check_runner"):
         connect("/nowhere/check_runner")

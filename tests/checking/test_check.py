@@ -80,7 +80,7 @@ def record(state: Path) -> dict[str, Json]:
     return kept
 
 
-def test_a_pass_reads_the_same_every_time_and_is_on_record(master: PrivateMaster, tmp_path: Path) -> None:
+def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster, tmp_path: Path) -> None:
     """Two passes have the same text, the record contains the points, and no check runner is left."""
     out = output(SERVE + '    print(check("05.1"))\n    print(check("05.1"))', tmp_path)
     first, second = out[: len(out) // 2], out[len(out) // 2 :]
@@ -106,7 +106,7 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
         ('    print(check("05.1"))', "handle_geometry is not defined: run the cell above first."),
         ('    handle_geometry = ...\n    print(check("05.1"))', "05.1 not attempted"),
         ('    print(check("99.9"))', "There is no check '99.9'."),
-        ('    handle_geometry = 1\n    print(check("05.1"))', "nobody who serves it"),
+        ('    handle_geometry = 1\n    print(check("05.1"))', "no server"),
         (
             '    handle_geometry = 1\n    import os\n    os.environ["ROS_MASTER_URI"] = "http://localhost:1"\n'
             '    print(check("05.1"))',
@@ -118,13 +118,13 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_stands_in_the_way_is_told_in_the_report(tmp_path: Path, cells: str, words: str) -> None:
+def test_report_says_what_to_do_first(tmp_path: Path, cells: str, words: str) -> None:
     """The report contains what to do, without a traceback."""
     assert words in output(cells, tmp_path)
 
 
 def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path) -> None:
-    """A subscription that the student's function made is removed; an earlier one stays."""
+    """The check removes a subscription that the student's function made, but not an earlier subscription."""
     cells = """
     import time
     from std_msgs.msg import UInt32
@@ -147,7 +147,7 @@ def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path
 
 
 def test_the_check_runner_ends_with_a_killed_kernel(master: PrivateMaster, tmp_path: Path) -> None:
-    """After SIGKILL in the middle of a check, no check runner stays on the graph."""
+    """If the kernel is killed during a check, no check runner stays on the graph."""
     with program(HANG + '    check("05.1")', tmp_path) as process:
         eventually(lambda: check_runners(master))
         process.send_signal(signal.SIGKILL)

@@ -39,7 +39,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """A kernel that has joined the graph; its student's record is in a folder of its own."""
+    """A kernel that has joined the graph, with a separate folder for the student's record."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel
@@ -70,7 +70,7 @@ def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
     assert notebook.run(HANDLER.replace("return", "return return"), "handler").ename == "SyntaxError"
     assert " ".join(report(notebook).split()) == (
         "05.1 not examined handle_geometry is older than the last run of its cell, which ended with "
-        "SyntaxError. Correct that cell and run it, then this one."
+        "SyntaxError. Correct that cell and run it, and then run this cell again."
     )
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
@@ -85,7 +85,7 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
     text = " ".join(report(notebook).split())
     assert text == (
         "05.1 not examined /getGeometry is answered by a version of handle_geometry that is older than the "
-        "last run of its cell. Run the cell that creates the service, then this one."
+        "last run of its cell. Run the cell that creates the service, and then run this cell again."
     )
     notebook.run(SERVICE, "service")
     assert report(notebook).startswith("05.1 not yet")

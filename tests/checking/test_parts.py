@@ -15,9 +15,9 @@ from course_pkg.errors import UnknownCheck
 from tests.selection import chapter_paths
 
 COMPILED = ("13.", "14.")  # a compiler runs before the check, possibly on a busy machine
-# Deadlines in s. To build a package and run it six times takes 9 s of processor time, and to compile six
-# programs 25 s. Grading runs two submissions for each core. At a load of 15 on two cores, 60 s were not
-# enough.
+# Deadlines in s. A check that builds a package and runs it six times needs 9 s of processor time; a check
+# that compiles six programs needs 25 s. Grading runs two submissions for each core. At a load of 15 on two
+# cores, 60 s were not enough.
 USUAL, BUILT = 60, 180
 
 
@@ -34,7 +34,7 @@ def test_ids_are_unique_and_belong_to_their_chapter() -> None:
     assert all(part.check.startswith("05.") for part in parts_of("05"))
 
 
-def test_every_part_says_what_it_is_worth() -> None:
+def test_every_part_has_points_and_a_goal() -> None:
     """A part has points, a goal of one sentence, the names that it needs, and an acceptable deadline."""
     for part in every_part():
         assert part.points > 0

@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add some."""
+        """Add `count`, or twice this number."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things
@@ -88,7 +88,7 @@ class Drawer:
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the side of the check runner."""
+    """Return the check runner's end of the proxies."""
     with PlacedObjects() as placed:
         yield placed
 
@@ -106,7 +106,7 @@ def proxy(placed: PlacedObjects, item: object) -> Value:
 
 
 def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
-    """Return a socket that has sent the key, or another one."""
+    """Return a socket that has sent the right key, or the given key."""
     where = placed.place(Drawer())
     sock = socket.create_connection(("127.0.0.1", int(str(where["port"]))), timeout=SOON)
     sock.sendall(json.dumps({"key": key or where["key"]}).encode() + b"\n")
@@ -114,7 +114,7 @@ def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
 
 
 def ended(sock: socket.socket) -> bool:
-    """Return whether the other end closes the connection without an answer."""
+    """Return whether the other end closes the connection without a reply."""
     try:
         return sock.recv(1000) == b""
     except ConnectionError:
@@ -131,8 +131,8 @@ def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjec
     assert type(other).__name__ == "Drawer"
 
 
-def test_only_what_is_remote_is_there(placed: PlacedObjects, drawer: Drawer) -> None:
-    """Another attribute of the real object is no attribute of the proxy, and not of the connection."""
+def test_only_remote_attributes_exist(placed: PlacedObjects, drawer: Drawer) -> None:
+    """An attribute without @remote cannot be used through the proxy, nor through the connection."""
     other = proxy(placed, drawer)
     with pytest.raises(AttributeError, match="'Drawer' object has no attribute 'hidden'"):
         _ = other.hidden
@@ -152,7 +152,7 @@ def test_only_what_is_remote_is_there(placed: PlacedObjects, drawer: Drawer) -> 
 
 
 def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObjects, drawer: Drawer) -> None:
-    """The student can replace a proxy's methods, and reaches only the proxy."""
+    """If the student replaces a method of a proxy, the real object does not change."""
     other = proxy(placed, drawer)
     type(other).add = lambda _self, _count: 1000
     assert other.add(1) == 1000
@@ -160,7 +160,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A built-in error is the built-in class; another one is a class of the same name, the same each time."""
+    """A built-in error has its built-in class; any other error gets a new class with the same name."""
     other = proxy(placed, drawer)
     with pytest.raises(KeyError, match="the drawer is stuck"):
         other.stick("known")
@@ -174,13 +174,13 @@ def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: D
 
 
 def test_an_object_that_is_returned_is_a_proxy(placed: PlacedObjects, drawer: Drawer) -> None:
-    """An object that the real one returns stays in the check runner, too."""
+    """An object that a remote method returns stays in the check runner, and the kernel gets a proxy."""
     other = proxy(placed, drawer)
     assert other.itself() is other
 
 
-def test_threads_wait_at_once_and_are_told_apart(placed: PlacedObjects, drawer: Drawer) -> None:
-    """Each thread of the kernel has a thread in the check runner; it ends with the thread of the kernel."""
+def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObjects, drawer: Drawer) -> None:
+    """Each thread of the kernel has its own thread in the check runner, and both end together."""
     other = proxy(placed, drawer)
     with ThreadPoolExecutor(3) as pool:
         assert sorted(pool.map(lambda _: other.meet(), range(3))) == [0, 1, 2]
@@ -209,7 +209,7 @@ def test_threads_wait_at_once_and_are_told_apart(placed: PlacedObjects, drawer: 
 def test_a_malformed_line_ends_its_connection_only(
     placed: PlacedObjects, drawer: Drawer, line: bytes
 ) -> None:
-    """A line that no proxy sends, or one without end, ends the connection; others go on."""
+    """A line that no proxy sends, or that is too long, ends its connection; other connections still work."""
     other = proxy(placed, drawer)
     with connect(placed) as sock:
         sock.sendall(line)
@@ -218,7 +218,7 @@ def test_a_malformed_line_ends_its_connection_only(
 
 
 def test_another_key_is_refused(placed: PlacedObjects) -> None:
-    """A program that does not know the key can use no object."""
+    """A program that does not know the key cannot use any object."""
     for key in ("another", "\ud800"):
         with connect(placed, key=key) as sock:
             assert ended(sock)
@@ -241,7 +241,7 @@ def test_connections_and_calls_are_limited(placed: PlacedObjects, drawer: Drawer
 
 
 def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
-    """The kernel gets an error, later ones too, and the check runner keeps no thread."""
+    """A waiting call and each later call raise an error, and no thread is left in the check runner."""
     before = threading.active_count()
     with ThreadPoolExecutor(1) as pool:
         with PlacedObjects() as placed:
@@ -255,7 +255,7 @@ def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
 
 
 def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer) -> None:
-    """The connections of a process that is killed are closed here."""
+    """After the kernel is killed, its connections are closed, and no thread is left."""
     where = placed.place(drawer)
     program = (
         "from course_pkg.checking.kernel.object_proxy import ObjectProxies\n"
@@ -270,7 +270,7 @@ def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer)
 
 
 def test_an_interrupted_call_does_not_spoil_the_next_one(placed: PlacedObjects, drawer: Drawer) -> None:
-    """The answer to a call that was interrupted is not taken for the answer to the next one."""
+    """After an interrupted call, the next call gets its own reply."""
     other = proxy(placed, drawer)
 
     def interrupt(*_: object) -> None:

@@ -1,4 +1,4 @@
-"""Any value of a student's code is converted to plain data."""
+"""Each value of a student's code is converted to plain data."""
 
 from __future__ import annotations
 
@@ -57,13 +57,13 @@ def test_values_become_plain(value: Value, expected: Json) -> None:
     json.dumps(plain(value))
 
 
-def test_an_object_equal_to_everything_loses_that() -> None:
+def test_number_with_a_wrong_eq_becomes_a_plain_number() -> None:
     """A number with a wrong __eq__ becomes a plain number, which compares correctly."""
     assert type(plain(Everything(3.0))) is float
     assert plain(Everything(3.0)) != 4.0
 
 
-def test_what_has_no_end_is_cut() -> None:
+def test_endless_values_are_cut() -> None:
     """A list that contains itself is cut, and a long string is cut."""
     endless: list[Value] = []
     endless.append(endless)

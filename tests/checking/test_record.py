@@ -49,7 +49,7 @@ def record(tmp_path: Path) -> StudentRecord:
 
 
 def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
-    """A later check that fails, or that cannot run, changes only the last result."""
+    """If a later check fails or cannot run, only the last result changes, and the part stays passed."""
     assert record.store("05.1", FAILED) == ""
     first, _ = record.read(["05.1"])
     assert (first["05.1"].verdict, first["05.1"].passed, first["05.1"].checks) == ("not yet", "", 1)
@@ -83,8 +83,8 @@ def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -
     assert record.store("05.1", PASSED) == ""
 
 
-def test_a_second_damage_replaces_no_file(record: StudentRecord) -> None:
-    """Each damaged file gets a name of its own.
+def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
+    """Each damaged file gets a new name.
 
     A folder in the place of a file is treated in the same way.
     """
@@ -118,8 +118,8 @@ def test_kernels_that_check_at_the_same_time_lose_nothing(record: StudentRecord)
     assert sorted(path.name for path in record.folder.iterdir()) == [".lock", "05.1.json"]
 
 
-def test_a_lock_that_stays_is_a_message(record: StudentRecord) -> None:
-    """A program that does not release the lock does not block a check for ever."""
+def test_lock_that_is_not_released_leads_to_a_message(record: StudentRecord) -> None:
+    """If a program does not release the lock, the check continues with a message."""
     with locked(record.folder), pytest.raises(TimeoutError), locked(record.folder, timeout=0.0):
         pass
     with locked(record.folder):
@@ -128,7 +128,7 @@ def test_a_lock_that_stays_is_a_message(record: StudentRecord) -> None:
     assert record.store("05.1", PASSED) == ""
 
 
-def test_a_full_disk_is_a_message(tmp_path: Path) -> None:
+def test_full_disk_leads_to_a_message(tmp_path: Path) -> None:
     """On a full disk, the earlier result stays, and the message explains why the new one is missing."""
     if not shutil.which("bwrap"):
         pytest.skip("bubblewrap makes the small disk")
@@ -152,7 +152,7 @@ def test_a_check_reports_a_problem_with_its_record_and_still_counts(tmp_path: Pa
 
 
 @pytest.mark.usefixtures("master")
-def test_a_check_without_any_place_for_its_record_still_counts(tmp_path: Path) -> None:
+def test_check_without_a_record_still_passes(tmp_path: Path) -> None:
     """If the state folder cannot be made, the check still passes, and its report contains the folder."""
     (tmp_path / "file").write_text("")
     out = output(SERVE + '    print(check("05.1"))', tmp_path / "file")

@@ -1,4 +1,4 @@
-"""A report has the same content as text, as HTML, and after its transport through the channel."""
+"""A report has the same content as text, as HTML, and after it was sent through the channel."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ FAILED = Report(
 )
 
 
-def test_a_pass_tells_no_values() -> None:
-    """Nbval compares the text of a pass, so it contains no random value, even if the record does."""
+def test_pass_contains_no_values() -> None:
+    """The text of a pass contains no random value, because nbval compares this text."""
     assertion = Assertion("it answers", True, asked="f(0.123)", expected="1", actual="1", hint="none")
     text = str(Report("05.1", Verdict.PASSED, "Answer.", 2, 2, (assertion,), printed="0.123"))
     assert text == "05.1 passed: 2 of 2 points\n  ✓ it answers"
 
 
-def test_a_failure_tells_what_was_asked_expected_and_seen_and_the_hint() -> None:
+def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
     """A failure shows all details, in lines of limited length."""
     text = str(FAILED)
     for word in (
@@ -42,7 +42,7 @@ def test_a_failure_tells_what_was_asked_expected_and_seen_and_the_hint() -> None
 
 
 def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -> None:
-    """Text and HTML show first what is right, then what to fix next, then the goal."""
+    """Text and HTML first show the assertions that hold, then the thing to fix next, and then the goal."""
     lines = str(FAILED).splitlines()
     assert lines[:4] == [
         "05.1 not yet: 0 of 2 points",
@@ -58,14 +58,14 @@ def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -
 
 
 def test_a_failure_at_once_has_one_thing_to_fix_first() -> None:
-    """No assertion holds yet, so the report does not list what is right."""
+    """If the first assertion fails, the report has no list of assertions that hold."""
     report = Report("05.1", Verdict.FAILED, "Answer.", 0, 2, FAILED.assertions[1:])
     assert str(report).splitlines()[1:3] == ["  Fix this first:", "  ✗ <b>area</b>"]
     assert "Right so far" not in report.html()
 
 
 def test_a_part_that_is_not_attempted_has_one_thing_to_do() -> None:
-    """The first line after the headline says what to do; the goal is repeated after it."""
+    """The first line after the headline says what to do; the goal follows."""
     report = Report("05.1", Verdict.NOT_ATTEMPTED, "Answer.", 0, 2, note="Replace the ... in f.")
     assert str(report).splitlines()[1:] == ["  Replace the ... in f.", "  The goal: Answer."]
     assert "<ul" not in report.html()
@@ -90,6 +90,6 @@ def test_html_is_escaped() -> None:
     assert "&lt;script&gt;" in html
 
 
-def test_a_report_survives_the_wire() -> None:
+def test_report_does_not_change_in_the_channel() -> None:
     """The client shows the report that the runner sends."""
     assert report_from(json.loads(json.dumps(FAILED.as_dict()))) == FAILED

@@ -1,4 +1,4 @@
-"""Several sandbox workers at the same time, because an answer mostly waits for nodes and messages."""
+"""Several sandbox workers at the same time, because an answer often waits for nodes and messages."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class WorkerPool:
             worker.close()
 
     def submit(self, jobs: Iterable[PartJob]) -> None:
-        """Queue the jobs that are not queued yet, those with the longest deadlines first."""
+        """Queue the jobs that are not in the queue yet; the jobs with the longest deadlines come first."""
         for job in sorted(jobs, key=lambda each: -each.deadline):
             if job not in self._futures:
                 self._futures[job] = self._threads.submit(self._run, job)

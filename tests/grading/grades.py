@@ -51,7 +51,7 @@ def report(check: str, verdict: Verdict = Verdict.PASSED, **more: object) -> Rep
 
 def class_of(count: int, chapters: tuple[str, ...] = ("05",), seed: int = 5) -> list[Grade]:
     """Return grades of `count` students: s01, s02 and so on."""
-    draw = random.Random(seed)  # noqa: S311 -- a class that is the same each time
+    draw = random.Random(seed)  # noqa: S311 -- the class is the same in each run
     made = []
     for number in range(1, count + 1):
         strength = draw.random()
@@ -104,7 +104,7 @@ def refused(
 
 
 def nasty(student: str = "../" + NASTY, **more: object) -> Grade:
-    """Return a grade with something harmful in every text."""
+    """Return a grade in which each text contains harmful characters."""
     rule = Assertion(NASTY, False, NASTY, NASTY, NASTY, NASTY)
     bad = Report("05.1", Verdict.FAILED, NASTY, 0, 2, (rule,), NASTY, NASTY * 1000)
     cells = (CellOutcome(NASTY, NASTY, NASTY),)

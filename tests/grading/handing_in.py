@@ -1,4 +1,4 @@
-"""Submissions in all layouts, made from the real notebooks."""
+"""Makes submissions in all layouts from the real notebooks."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def write_package(root: Path, place: str, files: Mapping[str, bytes]) -> Path:
 
 
 def work_files(files: Mapping[str, bytes], name: str = "my_geometry") -> tuple[WorkFile, ...]:
-    """Return the files of a package as a job has them."""
+    """Return the files of a package in the form that a job needs."""
     return tuple(
         work_file(f"src/{name}/{path}", content, executable=is_script(path))
         for path, content in files.items()

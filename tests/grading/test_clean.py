@@ -23,7 +23,7 @@ NASTY = {
 
 
 @pytest.mark.parametrize(("given", "kept"), NASTY.values(), ids=NASTY)
-def test_text_shows_what_it_is(given: str, kept: str) -> None:
+def test_harmful_characters_are_removed(given: str, kept: str) -> None:
     """The text contains no terminal codes, no invisible characters, and nothing that breaks XML or UTF-8."""
     assert clean.text(given) == kept
     assert clean.text(clean.text(given)) == kept
@@ -33,14 +33,14 @@ def test_text_shows_what_it_is(given: str, kept: str) -> None:
     "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
 )
 def test_length_is_bounded(given: str) -> None:
-    """Of a long text, only a limited part is kept; cutting it again changes nothing."""
+    """A long text is cut at a limit, and cleaning the result again does not change it."""
     kept = clean.text(given)
     assert len(kept) <= clean.LONG
     assert kept.count("\n") <= clean.LINES
     assert clean.text(kept) == kept
 
 
-def test_what_is_cut_says_so() -> None:
+def test_cut_text_has_a_mark() -> None:
     """A mark shows that the text was cut."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
@@ -54,17 +54,17 @@ def test_a_line_is_one_line() -> None:
     "start", ["=", "+", "-", "@", "\t=", "\r=", "\n=", " =", "\x00=", "\u200b=", "\uff1d"]
 )
 def test_no_cell_is_a_formula(start: str) -> None:
-    """A spreadsheet shows it as text, with any characters before the sign."""
+    """A cell that begins like a formula is shown as text, even with invisible characters before the sign."""
     assert clean.cell(start + "HYPERLINK(1)").startswith("'")
 
 
 def test_markup_is_text() -> None:
-    """A page shows it as text, also in an attribute."""
+    """Markup is escaped, so a page shows it as text, even in an attribute."""
     assert clean.html("<script>'\"&") == "&lt;script&gt;&#x27;&quot;&amp;"
 
 
 def test_data_of_any_shape_is_cleaned() -> None:
-    """Texts in lists and dicts are cleaned, and keys as well; numbers stay, and long lists are cut."""
+    """Texts and keys in lists and dicts are cleaned, numbers do not change, and long lists are cut."""
     given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
     cleaned = clean.record(given)
     assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
@@ -97,7 +97,7 @@ WILD = [
 ]
 
 
-def test_a_wild_name_stays_in_its_folder() -> None:
+def test_unusual_name_stays_in_its_folder() -> None:
     """Names contain no separators, devices or leading dots, have a limited length, and stay different."""
     names = [clean.file_name(name) for name in WILD]
     for name in names:
@@ -108,7 +108,7 @@ def test_a_wild_name_stays_in_its_folder() -> None:
     assert len({name.lower() for name in names}) == len(WILD)
 
 
-def test_a_name_cannot_take_the_place_of_another() -> None:
+def test_changed_names_stay_different() -> None:
     """A student whose name equals another's changed name gets a third name."""
     changed = clean.file_name("S01")
     assert changed != clean.file_name("s01")

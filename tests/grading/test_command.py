@@ -1,4 +1,4 @@
-"""`course grade` as an instructor types it: whole runs, killed and continued, with threads and a cluster."""
+"""Whole runs of `course grade`: undisturbed, killed and continued, with threads, and with a cluster."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ COURSE = Places.of().checkout / "course"
 
 @pytest.fixture(scope="module")
 def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write submissions of four students: all right, one part wrong, a copy of the first, no notebook."""
+    """Write four submissions: all right, one wrong part, a copy of the first, and a broken file."""
     folder = tmp_path_factory.mktemp("submissions")
     hand_in(folder, "s01")
     hand_in(folder, "s02", answers={"05.1": WRONG})
@@ -57,8 +57,8 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     return out
 
 
-def test_everybody_gets_what_they_deserve(undisturbed: Path) -> None:
-    """The grades are full marks, one part less, the same as the first, and zero with a reason."""
+def test_students_get_the_right_points(undisturbed: Path) -> None:
+    """The four students get full points, one part less, full points, and zero points with a reason."""
     earned = points(undisturbed)
     assert earned["s01"] == earned["s03"] > earned["s02"] > earned["s04"] == 0
     record = json.loads((undisturbed / "results" / "s04" / "05.json").read_text())
@@ -80,7 +80,7 @@ def test_every_report_is_there(undisturbed: Path) -> None:
     } <= names
 
 
-def test_what_is_graded_is_not_graded_again(submissions: Path, undisturbed: Path) -> None:
+def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path) -> None:
     """The same command again reads all grades from the previous run."""
     before = points(undisturbed)
     done = grade(submissions, undisturbed)
@@ -92,7 +92,7 @@ def test_what_is_graded_is_not_graded_again(submissions: Path, undisturbed: Path
 def test_a_run_that_was_killed_goes_on(
     submissions: Path, undisturbed: Path, tmp_path: Path, after: float
 ) -> None:
-    """SIGKILL leaves no process, and the next run gives the same grades as an undisturbed one."""
+    """SIGKILL leaves no process, and the next run gives the same grades as an undisturbed run."""
     with subprocess.Popen(
         [COURSE, "grade", submissions, "--out", tmp_path, "--validate", "none"], stderr=subprocess.DEVNULL
     ) as process:
@@ -118,7 +118,7 @@ def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, t
 
 
 def test_private_parts_count_and_are_not_shown(submissions: Path, tmp_path: Path) -> None:
-    """An instructor's own checks and points are in the grade, and not in the students' pages."""
+    """An instructor's own checks and points count in the grade, but are not shown in the students' pages."""
     private = tmp_path / "private"
     private.mkdir()
     (private / "private_05.py").write_text("""
@@ -178,7 +178,7 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
         (["{here}", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
     ],
 )
-def test_what_makes_no_sense_is_said_in_one_message(
+def test_wrong_options_lead_to_one_message(
     submissions: Path, tmp_path: Path, words: list[str], said: str
 ) -> None:
     """The message has no traceback and names the next step."""

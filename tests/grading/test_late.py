@@ -1,4 +1,4 @@
-"""Late days from a table, and the points that they cost."""
+"""The table of late days, and the deduction of points."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ def _table(folder: Path, content: str | bytes) -> Path:
         (None, 2, 2.5, 0.0),
     ],
 )
-def test_what_lateness_costs(
+def test_deduction_for_lateness(
     tmp_path: Path, per_day: float | None, max_days: float | None, late: float, factor: float
 ) -> None:
-    """Each started day costs its share; after the last day no points are left."""
+    """Each started day takes off the percentage; after the maximum number of days, no points are left."""
     assert late_policy(tmp_path, per_day, max_days).factor(late) == pytest.approx(factor)
 
 
-def test_without_a_table_nothing_costs() -> None:
+def test_without_a_table_no_submission_is_late() -> None:
     """Without the options, no submission is late."""
     assert late_policy(None, None, None).factor(9) == 1.0
 
@@ -60,7 +60,7 @@ def test_without_a_table_nothing_costs() -> None:
         (Path("late.csv"), 10, math.nan, "--late-max-days nan .*0 or more"),
     ],
 )
-def test_a_policy_that_makes_no_sense_is_refused(
+def test_invalid_policy_is_refused(
     table: Path | None, per_day: float | None, max_days: float | None, message: str
 ) -> None:
     """The message names the option and the expected value."""
@@ -74,7 +74,7 @@ def test_a_table_by_student(tmp_path: Path) -> None:
     assert [table.days(each, "05") for each in ("s01", "s02", "s03")] == [2.0, 0.5, 0.0]
 
 
-def test_a_row_for_a_chapter_is_nearer(tmp_path: Path) -> None:
+def test_row_for_a_chapter_replaces_the_general_row(tmp_path: Path) -> None:
     """A row for a chapter replaces the student's general row; "5" means chapter 05."""
     table = late_table(_table(tmp_path, "student,chapter,days\ns01,,1\ns01,5,3\n"))
     assert (table.days("s01", "05"), table.days("s01", "06")) == (3.0, 1.0)
@@ -118,7 +118,7 @@ def test_no_table(tmp_path: Path) -> None:
 
 
 def test_lateness_goes_to_the_submissions(tmp_path: Path) -> None:
-    """Each student gets their own days; a student of the table without a submission is counted."""
+    """Each submission gets its student's days; students in the table without a submission are counted."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns99,1\n"))
     given = [Submission(name, "05", b"", "") for name in ("s01", "s02")]
     assert [each.late for each in table.applied(given)] == [2.0, 0.0]

@@ -79,8 +79,8 @@ def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, ch
     assert grade.earned == grade.possible > 0
 
 
-def test_each_part_is_credited_by_itself(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A wrong answer, one that ends its process, and a blank one cost only their own points."""
+def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> None:
+    """A wrong answer, an answer that ends its process, and a blank answer lose only their own points."""
     answers = {"05.1": WRONG, "05.2": "import os; os._exit(1)", "05.3": ""}
     grade = graded(worker, hand_in(tmp_path, "s01", answers=answers))
     verdicts = [report.verdict for report in grade.reports]
@@ -132,7 +132,7 @@ def test_a_student_cannot_choose_not_examined(worker: SandboxWorker, tmp_path: P
     assert store.find("key", submission) is not None
 
 
-def test_what_a_cell_raised_is_said(worker: SandboxWorker, tmp_path: Path) -> None:
+def test_error_of_a_cell_is_in_the_feedback(worker: SandboxWorker, tmp_path: Path) -> None:
     """The feedback shows the error of a cell that fails."""
     grade = graded(
         worker, hand_in(tmp_path, "s01", answers={"05.1": "def handle_geometry(request:\n    pass\n"})
@@ -140,8 +140,8 @@ def test_what_a_cell_raised_is_said(worker: SandboxWorker, tmp_path: Path) -> No
     assert "SyntaxError" in grade.reports[0].note
 
 
-def test_an_answer_may_use_what_the_notebook_has_above(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A later answer can use a function of an earlier one, and the course's imports."""
+def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> None:
+    """An answer can use a function of an earlier answer, and the imports of the course."""
     first = (
         "import math\n\ndef product(*sides):\n    return math.prod(sides)\n\n\n"
         "def handle_geometry(request):\n    area = product(request.width, request.length)\n"
@@ -161,8 +161,8 @@ def test_an_answer_may_use_what_the_notebook_has_above(worker: SandboxWorker, tm
     assert [report.verdict for report in grade.reports[:3]] == [Verdict.PASSED] * 3
 
 
-def test_a_notebook_without_a_cell_is_graded_as_far_as_it_goes(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A deleted exercise costs its own points, with a reason."""
+def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
+    """For a deleted exercise, only its own points are lost, with a reason."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])

@@ -1,4 +1,4 @@
-"""What a package earns: its files are examined in the sandbox, in place of the notebook's cells."""
+"""The grade of a package: its files are examined in the sandbox instead of the notebook's cells."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def worker(sandbox: None) -> Iterator[SandboxWorker]:
 
 
 class Jobs:
-    """Stands for a sandbox worker: keeps the jobs, and answers each with a pass."""
+    """Replaces a sandbox worker: stores the jobs, and returns a pass for each job."""
 
     def __init__(self) -> None:
         self.given: dict[str, PartJob] = {}
 
     def __call__(self, job: PartJob) -> PartResult:
-        """Keep the job."""
+        """Store the job."""
         self.given[job.check] = job
         return PartResult(Report(job.check, Verdict.PASSED, "", 1, 1).as_dict(), "")
 
@@ -61,7 +61,7 @@ def verdicts(grade: Grade) -> dict[str, Verdict]:
     return {report.check: report.verdict for report in grade.reports}
 
 
-def test_the_package_takes_the_place_of_the_cells(tmp_path: Path, seven: Plan) -> None:
+def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -> None:
     """No cell runs for a part whose files are in the package; all other parts use the cells."""
     hand_in(tmp_path, "s01", "07", answers={"07.4": "import os; os._exit(1)"})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
@@ -78,7 +78,7 @@ def test_the_package_takes_the_place_of_the_cells(tmp_path: Path, seven: Plan) -
 
 
 def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
-    """The cell that writes it counts; if that is blank, the report names the file."""
+    """The cell that writes the missing file is used; if the cell is blank, the report names the file."""
     files = {path: content for path, content in my_geometry().items() if path not in ("README.md", SERVER)}
     hand_in(tmp_path, "s01", "07", answers={"07.7": ""})
     write_package(tmp_path, "s01/my_geometry", files)
@@ -92,7 +92,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """Its parts are examined; each other part says that there is no notebook."""
+    """The parts of the package are examined; the reports of all other parts say that there is no notebook."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -101,7 +101,7 @@ def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
-    """The package beside it is examined all the same."""
+    """If the notebook cannot be read, the package in the same folder is still examined."""
     hand_in(tmp_path, "s01", "07").write_text("{")
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
@@ -110,7 +110,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """Another file, and another permission, is another submission."""
+    """A change of a file or of a permission changes the key of the grade."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):
@@ -121,7 +121,7 @@ def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", ["../x", "/x", "a/../../x", "a//x", "./x", "", "a/" * 300 + "x"])
 def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None:
-    """The supervisor is trusted, so it writes below the part's folder only."""
+    """The supervisor does not write a file outside of the part's folder."""
     with pytest.raises(ValueError, match="no path of a file"):
         work_file(path, b"x").write(tmp_path / "work")
     assert os.listdir(tmp_path) == []
@@ -131,7 +131,7 @@ def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None
 def test_the_solution_as_a_package_earns_full_marks(
     tmp_path: Path, seven: Plan, worker: SandboxWorker
 ) -> None:
-    """It is built and run in the sandbox; a wrong server costs its own points only."""
+    """The solution's package gets all points; with a wrong server, only the server's points are lost."""
     write_package(tmp_path / "right", "s01/my_geometry", my_geometry())
     right = graded(tmp_path / "right", seven, worker)
     assert [report.check for report in right.reports if report.verdict is Verdict.PASSED] == list(MINE), right
@@ -142,7 +142,7 @@ def test_the_solution_as_a_package_earns_full_marks(
 
 
 def test_a_script_that_is_not_executable(tmp_path: Path, seven: Plan, worker: SandboxWorker) -> None:
-    """The permissions of the package count."""
+    """A script without the executable permission loses the points of its part."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / SERVER).chmod(0o644)
     only = Plan(
@@ -204,7 +204,7 @@ def counter(context: CheckContext) -> None:
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize(("calls", "earned"), [("++calls", 3), ("calls", 0)])
 def test_a_program_in_cpp(tmp_path: Path, sandbox: None, calls: str, earned: int) -> None:
-    """It is compiled and run in the sandbox, for a part that an instructor has added."""
+    """A C++ program is compiled and run in the sandbox, for a part that an instructor has added."""
     (tmp_path / "private_07.py").write_text(PRIVATE)
     tmp_path.chmod(0o755)
     files = {path: text.replace("++calls", calls).encode() for path, text in CPP.items()}

@@ -1,4 +1,4 @@
-"""Each report states the points and the reasons for its readers, and contains nothing harmful."""
+"""Each report contains the points and the reasons, but no harmful text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # tags without an e
 
 
 class Outline(HTMLParser):
-    """Collects the tags of a page; a tag that closes another one than the last open one is an error."""
+    """Collects the tags of a page, and asserts that each end tag closes the last open tag."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -71,7 +71,7 @@ def _files(out: Path) -> Iterator[Path]:
 
 
 def _two() -> list[Grade]:
-    """Return two students: one all right but late, one with each verdict and no chapter 06."""
+    """Return the grades of two students: one has all points but is late, the other has each verdict once."""
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
     full = tuple(report(f"05.{number}") for number in range(1, 6))
@@ -116,7 +116,7 @@ def test_the_records(tmp_path: Path) -> None:
 
 
 def test_reports_from_records(tmp_path: Path) -> None:
-    """Reports can be written on the part that was graded before a run was killed."""
+    """Reports can be written from the records that a killed run has left."""
     for grade in class_of(3):
         write_record(tmp_path, grade)
     write_reports(read_grades(tmp_path), tmp_path)
@@ -124,7 +124,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
-def test_a_record_that_is_none(tmp_path: Path, content: str) -> None:
+def test_invalid_record(tmp_path: Path, content: str) -> None:
     """The message names the file, and not the student."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
@@ -152,7 +152,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """It has the columns that identify a student, the possible points, and no grade for missing work."""
+    """The file has columns that identify a student, the possible points, and no grade for missing work."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -216,7 +216,7 @@ def test_feedback_teaches(tmp_path: Path) -> None:
 
 
 def test_the_class_page(tmp_path: Path) -> None:
-    """The page shows results by part, hints by frequency, and the submissions that need a look."""
+    """The page shows the results of each part, the frequent hints, and the students who need attention."""
     write_reports([*class_of(30), refused("s31")], tmp_path)
     outline = Outline((tmp_path / "class.html").read_text())
     page = " ".join("".join(outline.text).split())
@@ -239,15 +239,15 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
     assert re.search(rf"{re.escape(HINTS['05.1'])}</td><td class=\"number\">2<", page)
 
 
-def test_a_broken_rule_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """Failures without a hint are listed, for the author of the check."""
+def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
+    """The page also lists failed assertions without a hint, so that the author of the check sees them."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)
     assert "(no hint) area is width times length" in (tmp_path / "class.html").read_text()
 
 
-def test_nobody_and_nothing(tmp_path: Path) -> None:
+def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
     """An empty class, and files without a student, can be reported."""
     write_reports([], tmp_path)
     assert "nothing to show" in (tmp_path / "class.html").read_text()
@@ -257,8 +257,8 @@ def test_nobody_and_nothing(tmp_path: Path) -> None:
     assert len(_rows(tmp_path / "canvas.csv")) == 2
 
 
-def test_who_needs_a_look() -> None:
-    """These need a look: problems, unexamined parts, no submission, no points; late or odd ones do not."""
+def test_students_who_need_attention() -> None:
+    """Problems, unexamined parts, no submission and no points need attention; lateness and notes do not."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -268,7 +268,7 @@ def test_who_needs_a_look() -> None:
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
-    """The feedback is text, also for one of many submissions."""
+    """Each report contains the warning once, even if the reports are written again."""
     write_reports([replace(grade, sandboxed=False) for grade in class_of(2)], tmp_path)
     for path in _files(tmp_path):
         assert "without a sandbox" in path.read_text().replace(
@@ -280,7 +280,7 @@ def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
 
 
 def test_private_parts_stay_private(tmp_path: Path) -> None:
-    """A student's page does not show how the check works; the instructor's does."""
+    """A student's page does not show details of a private check, but the instructor's page does."""
     secret = report("05.1", Verdict.FAILED, goal="secret goal", note="secret note", printed="secret print")
     secret = replace(
         secret,
@@ -316,7 +316,7 @@ def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
     ElementTree.parse(out / "junit.xml")  # noqa: S314 -- our own file
 
 
-def test_names_that_could_meet_stay_apart(tmp_path: Path) -> None:
+def test_similar_names_have_different_files(tmp_path: Path) -> None:
     """Each student has a page and a record, even on a file system that ignores capitals."""
     names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
     write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
@@ -330,7 +330,7 @@ def _pages(out: Path) -> list[str]:
 
 
 def test_pages_stand_alone(tmp_path: Path) -> None:
-    """There are no scripts and no foreign resources; the policy permits only the page's own style."""
+    """A page contains no scripts and loads no other files; its policy permits only its own style."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         names = {tag for tag, _ in outline.tags}
@@ -344,7 +344,7 @@ def test_pages_stand_alone(tmp_path: Path) -> None:
 
 
 def test_pages_can_be_read_by_everybody(tmp_path: Path) -> None:
-    """Language, title, one main part, ordered headings, headers with a scope, labels; all tags are closed."""
+    """A page has a language, a title, one main part, ordered headings, headers with a scope, and labels."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         assert outline.wrong == []
@@ -359,7 +359,7 @@ def test_pages_can_be_read_by_everybody(tmp_path: Path) -> None:
         assert "width=device-width" in page
 
 
-def test_names_stay_out_of_what_is_said(
+def test_reports_print_and_log_nothing(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
 ) -> None:
     """Writing reports prints nothing and logs nothing."""
@@ -376,7 +376,7 @@ def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
 
 
 def test_long_texts_are_cut(tmp_path: Path) -> None:
-    """Much text in a submission gives short reports."""
+    """Long texts in a submission are cut in the reports."""
     flood = report("05.1", Verdict.FAILED, printed=NASTY * 100_000, note="x" * 1_000_000)
     write_reports([Grade("s01", "05", (flood,), notes=("y" * 1_000_000,))], tmp_path)
     assert max(path.stat().st_size for path in _files(tmp_path)) < 60_000

@@ -1,4 +1,4 @@
-"""nbval's run of a notebook in a sandbox: feedback for each cell, without points."""
+"""The run of a notebook with nbval in a sandbox, which gives feedback for each cell, but no points."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
 
 
 @pytest.mark.usefixtures("sandbox")
-def test_each_cell_is_held_to_what_is_stored() -> None:
+def test_each_cell_is_compared_with_its_stored_output() -> None:
     """Equal outputs pass, other outputs fail, and a cell that ends the kernel ends the run."""
     seen = outcomes_of(notebook(("1 + 1", "2"), ("1 + 1", "3"), ("'over'", "'over'")))
     assert [(each.cell, each.outcome) for each in seen] == [
@@ -46,7 +46,7 @@ def test_each_cell_is_held_to_what_is_stored() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel sees no notebook, no check and no other process, and only its own network."""
+    """The kernel cannot access the notebook, the checks, other processes or another network."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters
@@ -97,7 +97,7 @@ def plain_nbval(path: Path, *words: str) -> str:
     ],
 )
 def test_plain_nbval_ends_with_a_line_for_each_part(tmp_path: Path, shown: str, line: str) -> None:
-    """Run by hand, the plug-in shows the result of each part."""
+    """If nbval is run without the course's command, the plug-in shows the result of each part."""
     path = tmp_path / "chapter.ipynb"
     says = f"from IPython.display import display\ndisplay({{'text/plain': {shown!r}}}, raw=True)"
     path.write_text(json.dumps(notebook(("1", "1"), (says, ""), check="05.1")))

@@ -1,4 +1,4 @@
-"""Files that notebooks write do not disturb ROS, and the stored reports of all checks are passes."""
+"""Files that notebooks write do not disturb ROS, and all checks in the stored solutions have passed."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 
 @pytest.fixture(params=SOLUTIONS, ids=lambda path: path.stem)
 def cells(request: pytest.FixtureRequest) -> list[Cell]:
-    """Return the cells of one chapter, their sources joined."""
+    """Return the cells of one chapter; each source is one string."""
     notebook = json.loads(request.param.read_text("utf-8"))
     return [{**cell, "source": "".join(cell["source"])} for cell in notebook["cells"]]
 
@@ -32,8 +32,8 @@ def code(cells: list[Cell]) -> list[str]:
     return [cell["source"] for cell in cells if cell["cell_type"] == "code"]
 
 
-def test_a_chapter_begins_with_what_it_is_for(cells: list[Cell]) -> None:
-    """The first cell is a title, what you will do, what you need, and how long it takes."""
+def test_chapter_begins_with_contents_requirements_and_time(cells: list[Cell]) -> None:
+    """The first cell contains a title, the contents, the requirements and the time."""
     first = cells[0]["source"]
     assert first.startswith("# ")
     assert [word for word in ("**You will**", "**You need**", "**Time**") if word not in first] == []
@@ -48,7 +48,7 @@ def test_a_chapter_has_a_prediction_a_picture_and_three_exercises(cells: list[Ce
     assert source.count('check("') >= 3
 
 
-def test_a_chapter_ends_with_a_recap_and_a_way_on(cells: list[Cell]) -> None:
+def test_chapter_ends_with_a_summary_and_a_link(cells: list[Cell]) -> None:
     """The last section is a summary, and the last cell links to another chapter."""
     assert "## What you saw" in prose(cells)
     assert re.search(r"\]\(\d\d_\w+\.ipynb\)", cells[-1]["source"])
@@ -79,5 +79,5 @@ def test_prose_is_plain_markdown(cells: list[Cell]) -> None:
 
 
 def test_every_name_a_reader_needs_is_imported_where_it_is_taught(cells: list[Cell]) -> None:
-    """There is no star import."""
+    """A chapter contains no star import."""
     assert [source for source in code(cells) if "import *" in source] == []

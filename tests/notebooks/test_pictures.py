@@ -20,11 +20,11 @@ ROOT = Path(__file__).parents[2]
 SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 NAMES = "|".join([*panels.__all__, "predictions"])
 OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
-LIMIT = 1_000_000  # bytes; GitHub shows no larger notebook
+LIMIT = 1_000_000  # bytes; GitHub does not show a larger notebook
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield the outputs of a stored notebook that have a form as text, with this text."""
+    """Yield the outputs of a stored notebook that have a plain text, with this text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):
@@ -44,11 +44,11 @@ def test_each_panel_and_plot_has_a_picture(path: Path) -> None:
 
 @pytest.mark.parametrize("path", SOLUTIONS, ids=lambda path: path.stem)
 def test_a_stored_notebook_is_small(path: Path) -> None:
-    """With all its pictures a notebook stays below 1 MB."""
+    """A notebook with all its pictures has less than 1 MB."""
     assert path.stat().st_size < LIMIT
 
 
-def test_a_plain_page_shows_the_pictures_and_not_the_text() -> None:
+def test_page_of_nbconvert_shows_the_pictures() -> None:
     """`jupyter nbconvert --to html` starts no kernel and uses no template of the course."""
     path = next(path for path in SOLUTIONS if path.name.startswith("05"))
     page, _ = HTMLExporter().from_filename(str(path))  # type: ignore[no-untyped-call]

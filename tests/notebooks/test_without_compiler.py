@@ -20,7 +20,7 @@ def shown(cell: Cell) -> str:
 
 @pytest.mark.timeout(300)
 def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its checks read 'not attempted', and name what is missing and the command to install it."""
+    """The checks are "not attempted"; they name the missing tool and the command that installs it."""
     monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake uses it, too
     notebook = read(next((ROOT / "solutions").glob("13_*.ipynb")))
     executed: list[Notebook] = []

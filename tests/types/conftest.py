@@ -1,4 +1,4 @@
-"""Packages for these tests: one is built as catkin builds it, the other is not built."""
+"""Two packages for these tests: one is built as catkin builds it, and the other is not built."""
 
 from __future__ import annotations
 

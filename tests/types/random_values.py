@@ -25,7 +25,7 @@ MESSAGES = (
     "geometry_msgs/Polygon",
     "geometry_msgs/PoseWithCovariance",
 )
-# YAML or a shell gives these a special meaning.
+# These strings have a special meaning in YAML or in a shell.
 AWKWARD = (
     *("", " ", "yes", "No", "on", "null", "~", "1.0", "-1", "0x10", "1e5", "1_000", "12:30:45", "2020-01-02"),
     *(
@@ -151,7 +151,7 @@ def number(chance: random.Random, type_name: str) -> float:
 
 
 def text(chance: random.Random) -> str:
-    """Return a string, usually a difficult one."""
+    """Return a string, which is usually difficult for YAML or a shell."""
     if chance.random() < 0.7:
         return chance.choice(AWKWARD)
     return "".join(chance.choices(AWKWARD, k=3))

@@ -1,4 +1,4 @@
-"""The commands are the same that a person would type, and they work unchanged."""
+"""The commands are the same as those that people type, and they work without a change."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expec
     assert line(text, **values) == expected
 
 
-def test_bash_hands_on_what_was_meant() -> None:
+def test_bash_passes_the_same_arguments() -> None:
     """The shell passes one argument for each field to rosservice, on one line, and changes no byte."""
     fields = "\n".join(f"string f{index}" for index in range(len(AWKWARD)))
     command = line(fields, **{f"f{index}": text for index, text in enumerate(AWKWARD)})
@@ -66,7 +66,7 @@ def test_bash_hands_on_what_was_meant() -> None:
 
 
 def test_values_that_do_not_fit_make_no_command() -> None:
-    """Values that the service refuses give no command."""
+    """There is no command for values that do not fit the type."""
     with pytest.raises(FieldError, match="length"):
         rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
 
@@ -92,13 +92,13 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """Types that are not built are made from their texts, and so are the messages in them."""
+    """Types that are not built, and the messages in them, are made from their texts."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
     lines = rospy_line("/x", kind, value)
     names: dict[str, object] = {}
-    exec(lines.rpartition("\nresponse")[0], names)  # noqa: S102 - the test is whether they run
+    exec(lines.rpartition("\nresponse")[0], names)  # noqa: S102 - the test asserts that they run
     assert {"Pack", "Crate", "Part"} <= set(names)
 
 
@@ -122,7 +122,7 @@ services = [
 
 @pytest.fixture
 def server(packages: Path, master: PrivateMaster) -> Iterator[Kernel]:
-    """Run a node that serves the built types and keeps the requests."""
+    """Run a node that serves the built types and stores the requests."""
     assert packages.is_dir()
     assert master.running
     with Kernel() as kernel:
@@ -137,7 +137,7 @@ def shell(command: str) -> str:
     return done.stdout
 
 
-def test_lines_call_a_living_service(server: Kernel) -> None:
+def test_lines_call_a_running_service(server: Kernel) -> None:
     """A shell line, run by bash, and Python lines, run by Python, send exactly these values to a server."""
     scalars, everything = service_type("odd_pkg/Scalars"), service_type("odd_pkg/Everything")
     one = {"a": -1.5, "b": -7, "c": True, "d": "it's 'yes': a:=b\n$HOME 🐢", "e": 2**64 - 1}
@@ -222,7 +222,7 @@ def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
     kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
     lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
     names: dict[str, object] = {}
-    exec(lines.partition("\npublisher")[0], names)  # noqa: S102 - the test is whether they run
+    exec(lines.partition("\npublisher")[0], names)  # noqa: S102 - the test asserts that they run
     assert {"Spot", "Point"} <= set(names)
     assert 'publisher.publish(at=Point(x=1.0, y=2.0, z=3.0), what="a")' in lines
 
@@ -237,7 +237,7 @@ words = node.subscribe("/words", "std_msgs/String")
 """
 
 
-def test_lines_publish_to_a_living_subscriber(master: PrivateMaster) -> None:
+def test_lines_publish_to_a_running_subscriber(master: PrivateMaster) -> None:
     """Shell lines, run by bash, and Python lines, run by Python, send exactly these values."""
     assert master.running
     joint, text = message_type("sensor_msgs/JointState"), message_type("std_msgs/String")

@@ -1,4 +1,4 @@
-"""Types from a text equal the built types, and leave no files."""
+"""Types from a text are the same as built types, and no files are left."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.types import compile_message, compile_service, message_type, ser
 from tests.types.conftest import EVERYTHING, PART, package
 
 
-def test_the_class_has_what_rospy_asks_for() -> None:
+def test_class_has_the_attributes_that_rospy_needs() -> None:
     """A service class has its type, its MD5, and the classes of request and response."""
     cls = compile_service("course_pkg/Demo", "int8 x\n---\nint8 y\n").cls
     assert cls._type == "course_pkg/Demo"
@@ -39,7 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """For fields of every kind, MD5, fields and bytes equal genpy's.
+    """For fields of every kind, the MD5 sum, the fields and the bytes are the same as from genpy.
 
     Nested messages have the same classes.
     """
@@ -70,10 +70,10 @@ def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> No
     assert kind.request.to_values(kind.request.to_message(value)) == value
 
 
-def test_a_part_that_changed_since_its_build_is_taken_as_it_is_now(
+def test_changed_text_of_a_nested_message_is_used(
     packages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The text of a nested message is used even if it differs from the built type, as in the next build."""
+    """If the text of a nested message differs from the built type, the text is used, as in the next build."""
     package(tmp_path, "odd_pkg", Part_msg=f"{PART}int8 added\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}")
     assert packages.is_dir()
@@ -81,7 +81,7 @@ def test_a_part_that_changed_since_its_build_is_taken_as_it_is_now(
     assert [each.name for each in kind.request.fields[0].fields] == ["size", "label", "added"]
 
 
-def test_what_a_build_accepts_is_accepted_from_a_path(
+def test_definitions_that_genmsg_accepts_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Everything that genmsg accepts works: some names get an underscore, and separators may be repeated."""
@@ -96,7 +96,7 @@ def test_what_a_build_accepts_is_accepted_from_a_path(
 
 
 def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If messages contain each other, the error lists them in their order, and the line of the last one."""
+    """If messages contain each other, the error lists them in order, with the line of the last message."""
     package(tmp_path, "round_pkg", A_msg="B b\n", B_msg="# back again\nA[] a\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition, match="round_pkg/A → round_pkg/B → round_pkg/A") as caught:
@@ -104,7 +104,7 @@ def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
     assert caught.value.line == 2
 
 
-def test_a_slip_in_a_part_is_placed_in_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An error in the text of a nested message names this message's file and its line."""
     package(tmp_path, "slip_pkg", Bad_msg="int8 x\nflaot32 y\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -114,7 +114,7 @@ def test_a_slip_in_a_part_is_placed_in_its_file(tmp_path: Path, monkeypatch: pyt
     assert caught.value.line == 2
 
 
-def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Fifty compilations leave no file, no entry of sys.path, and no module."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     compile_service("course_pkg/Demo", "geometry_msgs/Point p\n---\n")
@@ -126,7 +126,7 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_threads_may_compile_at_once() -> None:
-    """The generator of genpy is not thread-safe, but each of eight threads gets its own fields."""
+    """Eight threads compile at once, and each gets the right fields, although genpy is not thread-safe."""
     found: dict[int, list[str]] = {}
 
     def compile_one(index: int) -> None:
@@ -144,7 +144,7 @@ def test_threads_may_compile_at_once() -> None:
 
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
-def test_what_is_no_type_is_refused(given: object) -> None:
+def test_value_that_is_not_a_type_is_refused(given: object) -> None:
     """A number, or one half of a service, is not accepted as a service type."""
     with pytest.raises(UnknownType):
         service_type(given)
@@ -152,7 +152,7 @@ def test_what_is_no_type_is_refused(given: object) -> None:
         message_type(std_srvs.srv.SetBool)
 
 
-def test_the_half_of_a_service_is_told_its_whole() -> None:
+def test_half_of_a_service_type_is_explained() -> None:
     """If SetBoolRequest is passed instead of SetBool, the error message explains the mistake."""
     with pytest.raises(UnknownType, match="one half of a service type; pass the whole type, SetBool"):
         service_type(std_srvs.srv.SetBoolRequest)

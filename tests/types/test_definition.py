@@ -1,4 +1,4 @@
-"""The error for an invalid definition has place, problem and remedy.
+"""The error for an invalid definition contains the place, the problem and the remedy.
 
 A valid definition keeps its comments.
 """
@@ -71,7 +71,7 @@ def refused(text: str) -> BrokenDefinition:
         (" string X=a\n---\n", 1, 1, "first column"),
     ],
 )
-def test_a_slip_is_placed_and_put_right(text: str, line: int, column: int, remedy: str) -> None:
+def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, remedy: str) -> None:
     """Each mistake is found at its line and column, counted from 1, with a remedy."""
     error = refused(text)
     assert (error.line, error.column) == (line, column), error
@@ -99,7 +99,7 @@ def test_the_message_shows_the_line_with_a_mark() -> None:
         "float32   x\n--- # response\n",
     ],
 )
-def test_what_ros_accepts_is_accepted(text: str) -> None:
+def test_definitions_that_ros_accepts(text: str) -> None:
     """Empty halves, Windows line ends, tabs, comments and constants are accepted."""
     assert compile_service("course_pkg/Good", text).name == "course_pkg/Good"
 
@@ -120,7 +120,7 @@ def test_a_type_needs_its_package(name: str) -> None:
 def test_comments_are_kept_with_their_fields() -> None:
     """The comment after a field or directly above it is the field's help.
 
-    The one at the top is the message's.
+    The comment at the top is the help of the message.
     """
     text = "# A box.\n# All of it.\n\n# in metres\nfloat32 a\nfloat32 b # in feet\nfloat32 c\n"
     request = compile_service("course_pkg/Box", f"{text}---\nbool done # or not\n").request

@@ -23,7 +23,7 @@ SEEDS = range(4)  # 120 types, and 5 values for each half of each type
 
 def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
     """Yield random service types."""
-    chance = random.Random(seed)  # noqa: S311 - repeatable, not secret
+    chance = random.Random(seed)  # noqa: S311 - the values must be repeatable
     for index in range(TYPES):
         yield compile_service(f"course_pkg/Drawn{index}", service(chance)), chance
 
@@ -59,7 +59,7 @@ def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.Mo
             plain = kind.request.check(values(chance, kind.request))
             line = rosservice_line("/x", kind, plain)
             arrived = kind.request.to_values(sent(read_by_rosservice(line, kind, monkeypatch)))
-            # The bytes may differ, because the NaN of YAML has another sign.
+            # The values are compared and not the bytes, because the NaN of YAML has another sign.
             assert repr(arrived) == repr(plain), line
 
 
@@ -80,7 +80,7 @@ def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_python_lines_make_the_same_request(seed: int) -> None:
-    """Executed until the line with the call, the Python lines make the same request."""
+    """The Python lines, executed until the line with the call, make the same request."""
     for kind, chance in drawn(seed):
         plain = kind.request.check(values(chance, kind.request))
         lines = rospy_line("/x", kind, plain)
@@ -88,12 +88,12 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Return the request in the call in the last of some Python lines; the other lines are executed."""
+    """Execute some lines of Python except the last; return the request of the call in the last line."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)
     arguments = ast.Expression(ast.Call(ast.Name("dict", ast.Load()), [], last.value.keywords))
     names: dict[str, Any] = {}
-    exec(compile(ast.Module(before, []), "lines", "exec"), names)  # noqa: S102 - the test is whether they run
+    exec(compile(ast.Module(before, []), "lines", "exec"), names)  # noqa: S102 - the test asserts that they run
     keywords = eval(compile(ast.fix_missing_locations(arguments), "call", "eval"), names)  # noqa: S307 - our code
     return names["call"].request_class(**keywords)

@@ -22,9 +22,9 @@ from tests.types.conftest import build, package
 
 
 def test_all_types_on_the_path_are_listed(packages: Path) -> None:
-    """The sorted list has all types of all packages, or those of one package.
+    """The sorted list contains the types of all packages or of one package.
 
-    It is empty for an unknown one.
+    The list is empty for an unknown package.
     """
     assert packages.is_dir()
     everything = list_service_types()

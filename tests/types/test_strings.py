@@ -67,7 +67,7 @@ def test_numbers_are_shown_as_short_as_they_were_typed(geometry: MessageType) ->
         ("geometry_msgs/Point[]", "{x: 1, y: 2, z: 3}", [{"x": 1.0, "y": 2.0, "z": 3.0}]),
     ],
 )
-def test_what_can_be_typed(type_name: str, text: object, value: object) -> None:
+def test_notations_that_can_be_typed(type_name: str, text: object, value: object) -> None:
     """Each notation is converted to the right value."""
     assert parse(type_name, text) == value
 
@@ -106,8 +106,8 @@ def test_what_can_be_typed(type_name: str, text: object, value: object) -> None:
         ("geometry_msgs/Point", "7", "x.7: no such field"),
     ],
 )
-def test_what_is_said_about_a_slip(type_name: str, text: str, words: str) -> None:
-    """The error contains the field, the mistake, the allowed values, and probably the intended value."""
+def test_error_about_an_invalid_string(type_name: str, text: str, words: str) -> None:
+    """The error contains the field, the mistake, the allowed values, and the probable value."""
     assert words in str(refused(type_name, text))
 
 

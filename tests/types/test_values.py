@@ -56,7 +56,7 @@ def test_defaults_are_those_of_genpy(mixed: MessageType) -> None:
     assert mixed.to_values(mixed.cls()) == mixed.default()
 
 
-def test_fields_tell_type_kind_and_parts(mixed: MessageType) -> None:
+def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
     """A field has the right type, kind, length, element and nested fields."""
     fields = {field.name: field for field in mixed.fields}
     assert fields["points"].kind is Kind.ARRAY
@@ -83,7 +83,7 @@ def test_fields_tell_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """Both ends of a range are included, but not the next values; char starts at 0, byte does not."""
+    """The limits of a range are included, but not the next values; char starts at 0, and byte at -128."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):
@@ -109,7 +109,7 @@ def test_float32_is_kept_as_its_shortest_number(mixed: MessageType) -> None:
 
 @pytest.mark.parametrize("value", [math.inf, -math.inf, 3.4028234663852886e38, 3.4028235e38, 7])
 def test_floats_take_what_fits(mixed: MessageType, value: float) -> None:
-    """Infinity, the largest number, the rounded text of this number, and an int are valid for a float32."""
+    """A float32 accepts infinity, the largest number, the rounded text of this number, and an int."""
     assert mixed.check({**mixed.default(), "f32": value})["f32"] == pytest.approx(value)
 
 
@@ -169,7 +169,7 @@ def test_a_string_holds_what_utf_8_holds(mixed: MessageType, refusal: Callable[.
     assert "surrogate" in str(refusal(word="\ud800"))
 
 
-def test_what_no_field_can_hold_is_found_in_a_message(mixed: MessageType) -> None:
+def test_invalid_values_in_a_message_are_found(mixed: MessageType) -> None:
     """A message with invalid values, such as a handler may return, raises a FieldError."""
     message = mixed.cls()
     message.points = [None]

@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of the package, with a text in one of them replaced."""
+    """Return the files of the package; a text in one of the files is replaced."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text

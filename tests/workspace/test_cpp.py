@@ -12,7 +12,7 @@ from course_pkg.workspace import cpp_support, explain, missing_for_cpp
 needs_compiler = pytest.mark.skipif(bool(missing_for_cpp()), reason=missing_for_cpp())
 
 
-def test_nothing_is_missing_where_the_course_was_set_up() -> None:
+def test_nothing_is_missing_in_the_environment_of_the_course() -> None:
     """The environment of the course includes a compiler and roscpp."""
     assert missing_for_cpp() == ""
 
@@ -100,7 +100,7 @@ def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
 
 @needs_compiler
 def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
-    """An error in the system's headers is the result of one in the student's file, and comes after it."""
+    """An error in the student's file comes before an error in a system header, which is its consequence."""
     printed = (
         "/usr/include/boost/function.hpp:7:3: error: no type named 'type'\n"
         f"{tmp_path}/{FILE}:9:3: error: 'x' was not declared in this scope\n"

@@ -1,7 +1,7 @@
 """The messages of ROS's tools are explained, with the line and the next step.
 
-Each case is a package with one mistake, built by the real catkin_make; all share one workspace, so that CMake
-looks for the compilers once.
+Each case is a package with one mistake, which the real catkin_make builds. All cases use the same workspace,
+so that CMake searches for the compilers only once.
 """
 
 from __future__ import annotations
@@ -200,12 +200,14 @@ SLIPS = {
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a name so long that CMake breaks its messages in other places."""
+    """Create a workspace with a long name, so that CMake breaks its messages in other places."""
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 
 @pytest.mark.parametrize(("files", "place", "words"), SLIPS.values(), ids=SLIPS)
-def test_a_slip_is_named(workspace: Path, files: dict[str, str], place: str, words: str) -> None:
+def test_mistake_in_a_package_is_explained(
+    workspace: Path, files: dict[str, str], place: str, words: str
+) -> None:
     """The explanation contains the place, the problem and the remedy."""
     write(workspace, files)
     _, printed = build(workspace)
@@ -225,8 +227,8 @@ def test_a_slip_is_named(workspace: Path, files: dict[str, str], place: str, wor
     ],
     ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
 )
-def test_what_builds_is_not_found_fault_with(workspace: Path, files: dict[str, str]) -> None:
-    """A successful build with types has no fault."""
+def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
+    """The output of a successful build has no fault."""
     write(workspace, files)
     status, printed = build(workspace)
     assert (status, explain(printed)) == (0, None)
@@ -234,7 +236,7 @@ def test_what_builds_is_not_found_fault_with(workspace: Path, files: dict[str, s
 
 
 def test_another_python_is_recognised(tmp_path: Path) -> None:
-    """If a Python without ROS is first on PATH, the build folder remembers it."""
+    """If a Python without ROS is first on PATH, the remedy contains the option for the right Python."""
     subprocess.run(["python3", "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
     write(tmp_path, GOOD)
     for path in (str(tmp_path / "other" / "bin"), ""):
@@ -244,7 +246,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Output after the build; the second of each pair is in the remedy.
+# Lines that are run after the build, and a part of the remedy.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
@@ -256,7 +258,7 @@ SAID = {
     ),
     "no run bit": ("rosrun my_services plain.py", True, "chmod +x"),
     "no shebang": ("rosrun my_services shell.py", True, "#!/usr/bin/env python3"),
-    "Windows line ends": ("rosrun my_services windows.py", True, "line ends of Linux"),
+    "Windows line ends": ("rosrun my_services windows.py", True, "line endings of Linux"),
     "roslaunch instead of rosrun": ("roslaunch course_pkg server", True, "with rosrun"),
     "roslaunch of a script": ("roslaunch my_services plain.py", True, "with rosrun"),
     "rosservice show": ("rosservice show /box", True, "rossrv show"),
@@ -264,10 +266,8 @@ SAID = {
 
 
 @pytest.mark.parametrize(("line", "sourced", "words"), SAID.values(), ids=SAID)
-def test_what_the_other_tools_say_is_recognised(
-    workspace: Path, line: str, sourced: bool, words: str
-) -> None:
-    """The other mistakes between a definition and a running program are explained."""
+def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
+    """Mistakes after the build are explained: a wrong import, a missing shebang, a wrong command."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
     scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
     write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})
@@ -281,7 +281,7 @@ def test_what_the_other_tools_say_is_recognised(
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """The shell runs ImageMagick's program `import` instead of Python's statement."""
+    """A script without a shebang runs in the shell, which starts ImageMagick's program `import`."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -292,7 +292,7 @@ def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None
     assert alone == fault
 
 
-def test_types_that_were_not_generated_are_told_from_a_package_that_is_not_there(tmp_path: Path) -> None:
+def test_types_that_were_not_generated_are_explained(tmp_path: Path) -> None:
     """Without generate_messages, the build succeeds, but Python finds no types."""
     write(tmp_path, spoilt(C, (GENERATE, f"# {GENERATE}")))
     status, printed = build(tmp_path)
@@ -303,12 +303,12 @@ def test_types_that_were_not_generated_are_told_from_a_package_that_is_not_there
 
 
 @pytest.mark.parametrize("text", ["", "all is well", "CMake Warning at a/CMakeLists.txt:1 (x):\n  Old.\n"])
-def test_what_is_no_fault_is_none(text: str) -> None:
+def test_unknown_output_has_no_explanation(text: str) -> None:
     """Unknown output gets no explanation."""
     assert explain(text) is None
 
 
-def test_an_unknown_message_comes_back_in_its_own_words() -> None:
+def test_unknown_message_is_quoted() -> None:
     """The problem is one line with short paths; the place is the line of the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"

@@ -1,4 +1,4 @@
-"""A kernel sees the student's own packages as soon as they are built, after those of the course."""
+"""A kernel finds the student's own packages as soon as they are built, after the course's packages."""
 
 from __future__ import annotations
 
@@ -48,10 +48,10 @@ def package(root: Path, name: str, **files: str) -> None:
         (folder / "scripts" / script).chmod(0o755)
 
 
-def test_it_is_beside_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The file browser shows the workspace, and git ignores it.
+def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The workspace is in the checkout next to the notebooks, and git ignores it.
 
-    Notebooks under test have another workspace.
+    Notebooks in a test have another workspace.
     """
     for name in ("COURSE_STATE", "COURSE_WORKSPACE"):
         monkeypatch.delenv(name, raising=False)
@@ -90,8 +90,8 @@ def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root:
     assert packages.refresh() == ""
 
 
-def test_a_kernel_sees_them_after_join(root: Path) -> None:
-    """join() is enough: the next cell imports the new types, and stderr shows a message about a change."""
+def test_kernel_finds_the_packages_after_join(root: Path) -> None:
+    """After join(), a cell can import new types, and stderr shows a message about a changed type."""
     write(root, GOOD)
     change = f"open({str(root / 'src/my_services/srv/Box.srv')!r}, 'a').write('bool round\\n')"
     cells = [
@@ -113,7 +113,7 @@ def test_a_kernel_sees_them_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """A student's package or program with a name from the course does not replace the one of the course."""
+    """A student's package or program cannot replace a package or program of the course with the same name."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()
@@ -131,7 +131,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     "text", ["", "<package><name>my_arm</name>", "<package><version>1</version></package>"]
 )
 def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str) -> None:
-    """If one package.xml is not XML, the tools of ROS fail for all packages; a kernel leaves it out."""
+    """If one package.xml is not XML, the tools of ROS would fail, so a kernel leaves this package out."""
     package(root, "my_arm", client=SERVER)
     package(root, "my_hand", client=SERVER)
     manifest = root / "src" / "my_arm" / "package.xml"
@@ -174,7 +174,7 @@ def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path:
 
 
 def test_rosrun_searches_nothing_of_the_checkout_but_the_package() -> None:
-    """The links in the course's catkin workspace lead to the package, and not to `workspace` next to it."""
+    """Rosrun searches only the course's package, because a link in the catkin workspace leads only to it."""
     checkout = Places.of().checkout
     shown = Places.of().workspace / "src" / "course_pkg"
     assert shown.is_dir()

@@ -33,10 +33,10 @@ def test_a_workspace_is_made_once_and_then_left_as_it_is(root: Path) -> None:
         ("/proc/ws", "cannot be made"),
     ],
 )
-def test_a_folder_that_does_not_do_is_refused(
+def test_unsuitable_folder_is_refused(
     folder: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The folder is refused before anything is written, and the message suggests another one."""
+    """An unsuitable folder is refused before a file is written, and the message suggests another folder."""
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "cat.jpg").write_text("")
     place = folder.format(tmp=tmp_path)

@@ -133,5 +133,5 @@ replace("after - before - 1", "int(pause * 2)")
 replace("after - before - 1", "(after - before - 1) / 1")
 # %% 00.3 wrong: forgets to return | hint: without a return line
 replace("return before, after, after - before - 1", "missed = after - before - 1")
-# %% 00.3 wrong: another type | hint: with the type UInt32
+# %% 00.3 wrong: another type | hint: Receive messages of the type UInt32
 replace("UInt32", "String", times=2)

@@ -207,7 +207,7 @@ replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: generation and runtime the wrong way round | hint: <exec_depend>message_runtime</exec_depend>
 replace("message_generation", "message_runtime")
 replace("message_runtime</exec_depend>\n  <exec_depend>rospy", "message_generation")
-# %% 04.3 wrong: no message_generation | hint: message_generation makes classes from a .srv
+# %% 04.3 wrong: no message_generation | hint: message_generation generates classes from a .srv
 replace("\n  <build_depend>message_generation</build_depend>", "")
 # %% 04.3 wrong: a tag left open | hint: Close every
 replace("</name>", "")
@@ -262,7 +262,7 @@ replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
 # %% 04.4 wrong: generates before the files are named | hint: Move this line above generate_messages
 replace("\nadd_service_files(FILES Lamp.srv)", "")
 replace("catkin_package", "add_service_files(FILES Lamp.srv)\ncatkin_package")
-# %% 04.4 wrong: the file in lower case | hint: upper and lower case too
+# %% 04.4 wrong: the file in lower case | hint: including upper and lower case
 replace("Lamp.srv", "lamp.srv")
 # %% 04.4 wrong: generate_messages still a comment | hint: Line 7: generate_messages … is only a comment. Remove the
 replace("generate_messages(DEPENDENCIES std_msgs)\n", "# generate_messages()")

@@ -311,7 +311,7 @@ replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: bash passed the fields as one
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value: without
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value, for example False
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
@@ -324,7 +324,7 @@ replace("{shlex.quote(json.dumps(fields))}", "'{json.dumps(fields)}'")
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())')
 # %% 08.4 wrong: writes them as remappings | hint: Arguments with := are for ROS,
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())')
-# %% 08.4 wrong: as in a notebook | hint: The ! is only for a
+# %% 08.4 wrong: as in a notebook | hint: The character ! works only in a
 replace("rosservice", "!rosservice")
 # %% 08.4 wrong: quotes the whole line | hint: Quote only the fields
 replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.quote(f"rosservice call {service} {json.dumps(fields)}")')
@@ -345,7 +345,7 @@ replace("call {service}", "call /sum")
 # %% 08.4 wrong: calls twice | hint: The line calls the service more than once
 replace('return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', """line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
     return line + "; " + line""")
-# %% 08.4 wrong: as a call in Python | hint: without brackets
+# %% 08.4 wrong: as a call in Python | hint: without parentheses
 replace(" {service} {shlex.quote(json.dumps(fields))}", "({service}, {fields})")
 # %% 08.4 wrong: a list of words | hint: This is a list of words
 based_on("joined")

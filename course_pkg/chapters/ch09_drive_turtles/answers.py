@@ -105,9 +105,9 @@ replace('forward = not forward', 'forward = False')
 replace('    forward = not forward', '    calls.append(1)\n    forward = len(calls) == 0')
 replace('\nforward = True', '\ncalls = []\nforward = True')
 replace('            message.angular.z = 1.0', '            message.angular.z = float(len(calls) == 1)')
-# %% 09.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+# %% 09.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
 replace('Rate(2)', 'Rate(10)')
-# %% 09.2 wrong: a pause of two seconds | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+# %% 09.2 wrong: a pause of two seconds | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
 replace('rate.sleep()', 'rospy.sleep(2)')
 # %% 09.2 wrong: publishes once | hint: The program reached its last line and ended
 replace('while not rospy.is_shutdown():', 'for _ in range(3):')
@@ -153,7 +153,7 @@ replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = freque
 replace('    before = frequency\n    frequency = request.rate\n', '')
 replace('    used, rate = frequency, rospy.Rate(frequency)\n    while', '    used, rate = frequency, rospy.Rate(frequency)\n    while')
 replace('if used != frequency:', 'if used != frequency and 0 < frequency <= 100:')
-# %% 09.3 wrong: a toggle sets the first rate again | hint: It changes only the direction
+# %% 09.3 wrong: a toggle sets the first rate again | hint: but it has to change only the direction
 replace("global forward\n", "global forward, frequency\n    frequency = 2.0\n")
 # %% 09.3 wrong: a ValueError | hint: The handler failed with an error
 replace('rospy.ServiceException(', 'ValueError(')
@@ -355,11 +355,11 @@ solution()
 
 # %% 09.6 wrong: the course's driver | hint: the package and the file name of the program
 replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
-# %% 09.6 wrong: a tag that is not closed | hint: The file is not correct XML
+# %% 09.6 wrong: a tag that is not closed | hint: The file is not valid XML
 replace('</launch>', '<launch>')
 # %% 09.6 wrong: no default | hint: The argument has no default value
 replace(' default="false"', '')
-# %% 09.6 wrong: no in place of false | hint: The attribute "if" needs the value true or false
+# %% 09.6 wrong: no in place of false | hint: The value of the attribute "if" has to be true or false
 replace('default="false"', 'default="no"')
 # %% 09.6 wrong: an argument that is not declared | hint: The message above comes from roslaunch --nodes
 replace('$(arg addturtle)', '$(arg add)')
@@ -375,5 +375,5 @@ replace('if="$(arg addturtle)" ', '')
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
 # %% 09.6 wrong: turtlesim as the program | hint: The attributes pkg and type are the two words that follow rosrun
 replace('type="turtlesim_node"', 'type="turtlesim"')
-# %% 09.6 wrong: in a namespace | hint: Leave out ns, remap and args
+# %% 09.6 wrong: in a namespace | hint: Remove ns, remap and args
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

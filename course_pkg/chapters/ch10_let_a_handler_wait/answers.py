@@ -370,14 +370,14 @@ replace("(count - 1)\n        ", "(count - 1)\n            ")
 based_on("no lock")
 replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
 replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
-# %% 10.4 wrong: keeps the lock when sold out | hint: because a lock is not free
+# %% 10.4 wrong: keeps the lock when sold out | hint: because no thread releases the lock
 replace("with self. … count - 1)", """self.lock.acquire()
         count = self.shelf.read()
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)
         self.lock.release()""")
-# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because a lock is not free
+# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because no thread releases the lock
 replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
 replace("= self.shelf.read()", "= self.left()")
 # %% 10.4 wrong: refuses a caller while the lock is taken | hint: A client got no thing although some were left
@@ -613,7 +613,7 @@ def move(source, target):
 # %% 10.6 wrong: one lock after the other | hint: A count was changed without both locks
 replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
 replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
-# %% 10.6 wrong: one additional lock for all | hint: hold both locks for reading and for writing
+# %% 10.6 wrong: one additional lock for all | hint: hold both locks while you read and write
 replace("def move", "whole = threading.Lock()\n\n\ndef move")
 replace("with first.lock, second.lock", "with whole")
 # %% 10.6 wrong: does not look at the count | hint: The count of an empty shelf became negative

@@ -116,7 +116,7 @@ replace("return data", "return data[:count]")
 replace('raise ConnectionError("the other end has closed")', "break")
 # %% 11.2 wrong: forgets to return | hint: without a return line
 replace("\n    return data", "")
-# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the rest follows
+# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the other bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
 # %% 11.2 wrong: buffered file | hint: An earlier call read too many bytes and lost them, and now
 based_on("a short piece is taken for the end")
@@ -510,9 +510,9 @@ replace("return self", "self")
 # %% 11.5 wrong: recursion without end | hint: Your method called again and again
 replace("raise\n        self.proxy.close()", "raise")
 replace("()\n        return self.proxy", "()\n        return self.measure")
-# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and this is
+# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and this error is
 replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
-# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and this is
+# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and this error is
 replace(", AttributeError)", ")")
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("a loop of two")
@@ -570,7 +570,7 @@ class Remembering:
 based_on("looks up for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
 replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
-# %% 11.6 wrong: treats a refusal as a missing server | hint: The server refused, so its address was right
+# %% 11.6 wrong: treats a refusal as a missing server | hint: The server refused the call, so the address was right
 replace("OSError", "Exception")
 # %% 11.6 wrong: calls twice after a refusal | hint: Your method called twice
 class Remembering:

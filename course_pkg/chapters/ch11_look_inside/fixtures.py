@@ -1,4 +1,4 @@
-"""Code that runs before and after an answer of chapter 11 is tested alone; see checking/fixtures.py."""
+"""The cells before and after an answer of chapter 11 outside of its notebook; see checking/fixtures.py."""
 
 # %% before
 import socket

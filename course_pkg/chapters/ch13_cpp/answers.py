@@ -93,7 +93,7 @@ replace("0 || request.height < 0", "0")
 # %% 13.2 wrong: checks the volume only | hint: Return false in this case.
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
-# %% 13.2 wrong: refuses 0 | hint: A side was 0, and 0 is not below 0
+# %% 13.2 wrong: refuses 0 | hint: A side was 0, but 0 is allowed
 replace(" 0", "= 0", times=3)
 # %% 13.2 wrong: a whole number for the volume | hint: The part after the decimal point is missing, because an int contains
 replace("response.volume = response.area", "int volume = request.length * request.width")
@@ -172,7 +172,7 @@ replace("box.response.volume", "box.request.length * box.request.width * box.req
 replace("\n    ros::WallDuration(0.2).sleep();", "")
 # %% 13.3 wrong: five seconds | hint: The program waited too long,
 replace("(2)", "(5)")
-# %% 13.3 wrong: two milliseconds | hint: The program hardly waited, because ros::service::waitForService reads a plain number as milliseconds
+# %% 13.3 wrong: two milliseconds | hint: The program waited only a few milliseconds, because ros::service::waitForService reads a plain number as milliseconds
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
 replace("client.waitForExistence(ros::Duration(2))", 'ros::service::waitForService("box", 2)')
 replace("client.call(box)", 'ros::service::call("box", box)')
@@ -208,7 +208,7 @@ replace("  think();", "  std::lock_guard<std::mutex> lock(counting);\n  think();
 replace("6", "1")
 # %% 13.4 wrong: never started | hint: The AsyncSpinner executes no callbacks, because it was not started
 replace("\n  spinner.start();", "")
-# %% 13.4 wrong: main does not wait | hint: A spinner that was started does not stop main from ending
+# %% 13.4 wrong: main does not wait | hint: The function main ends although a spinner was started
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
 # %% 13.4 wrong: does not think | hint: Do not change the times in think() and count(), which replace real
 replace("\n  ros::WallDuration(0.4).sleep();", "")

@@ -1,4 +1,4 @@
-"""Code that runs before and after an answer of chapter 13 is tested alone; see checking/fixtures.py."""
+"""The cells before and after an answer of chapter 13 outside of its notebook; see checking/fixtures.py."""
 
 # %% before
 from course_pkg import join

@@ -1,4 +1,4 @@
-"""Code that runs before and after an answer of chapter 14 is tested alone; see checking/fixtures.py."""
+"""The cells before and after an answer of chapter 14 outside of its notebook; see checking/fixtures.py."""
 
 # %% before
 from pathlib import Path

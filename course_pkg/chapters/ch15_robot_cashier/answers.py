@@ -48,7 +48,7 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all others are very
+# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all other points are very
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
 # %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
@@ -86,7 +86,7 @@ replace("import Image", "import CompressedImage as Image")
 replace('"frames"', '"/frames"')
 # %% 15.1 wrong: another node name | hint: Call rospy.init_node … without anonymous=True, before
 replace('init_node("vision")', 'init_node("camera")')
-# %% 15.1 wrong: a misspelt topic | hint: The program runs, but nothing in it
+# %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
 # %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
 replace("\n    rospy.spin()", "")
@@ -117,12 +117,12 @@ def main():
 replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
 # %% 15.2 wrong: remembers a customer | hint: In the newest message, no customer is there, but found is True
 replace("self.customer = message.data", "self.customer = self.customer or message.data")
-# %% 15.2 wrong: does not wait | hint: The response came before the patience was over, although no customer was
+# %% 15.2 wrong: does not wait | hint: The response came too early, although no customer was
 based_on("a loop that looks again and again")
 replace("while not newest and", "while False and")
-# %% 15.2 wrong: waits for 1 s at most | hint: The response came before the patience was over, although no customer was
+# %% 15.2 wrong: waits for 1 s at most | hint: The response came too early, although no customer was
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
-# %% 15.2 wrong: waits without a limit | hint: The response came long after the patience was over
+# %% 15.2 wrong: waits without a limit | hint: The response came too late: use request.patience
 replace(", timeout=request.patience)", ", timeout=30)")
 # %% 15.2 wrong: always False | hint: In the newest message, a customer is there, but found is False
 based_on("a loop that looks again and again")
@@ -136,7 +136,7 @@ replace("        with self.changed:\n            end", "        with self.turn, 
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
 # %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but a call noticed
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
-# %% 15.2 wrong: no limits | hint: The patience has to be from 0 to 60 s
+# %% 15.2 wrong: no limits | hint: The field `patience` has to be from 0 to 60 s
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
 # %% 15.2 wrong: accepts nan | hint: Each comparison with nan (not a number) is False
@@ -207,7 +207,7 @@ if __name__ == "__main__":
 replace("return time.monotonic() - self.arrived > 1.0", "return False")
 # %% 15.3 wrong: an old customer counts | hint: The last message is older than 1 s
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
-# %% 15.3 wrong: refuses at once | hint: The node refused before the patience was over
+# %% 15.3 wrong: refuses at once | hint: The node refused too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
 # %% 15.3 wrong: a message counts for 0.2 s | hint: The last message was less than 1 s old
 replace("self.arrived > 1.0", "self.arrived > 0.2")
@@ -378,7 +378,7 @@ replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.slee
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
 # %% 15.6 wrong: another default | hint: has to be 2 s: rospy.get_param
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.6 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+# %% 15.6 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
 replace('rospy.get_param("~wait", 2.0)', '2.0')
 # %% 15.6 wrong: waits for the next customer at once | hint: In the last response, found was True, so a customer is there
 replace("    there = True\n", "    there = False\n")
@@ -452,7 +452,7 @@ replace("main()", """rospy.init_node("ask_customer")
         print("nobody")""")
 # %% 15.4 wrong: does not wait | hint: The service started 1 s after the program, but the program had
 replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
-# %% 15.4 wrong: a fixed patience | hint: The patience has to be the private parameter "~wait" of the node
+# %% 15.4 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
 replace('rospy.get_param("~wait", 2.0)', "2.0")
 # %% 15.4 wrong: another default | hint: the second argument of rospy.get_param is the default
 replace('"~wait", 2.0', '"~wait", 5.0')
@@ -471,7 +471,7 @@ replace("if response.found", "if response")
 replace('"customer" if response.found else "nobody"', "response")
 # %% 15.4 wrong: two lines | hint: The program printed other lines, too
 replace('    print("customer"', '    print("The detector says:")\n    print("customer"')
-# %% 15.4 wrong: an error status for nobody | hint: remove the sys.exit
+# %% 15.4 wrong: an error status for nobody | hint: remove the call of sys.exit
 replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
 # %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
@@ -589,7 +589,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
 # %% 15.8 wrong: the reason is lost | hint: has to contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the item counts
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the till counts the item
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
@@ -674,7 +674,7 @@ replace('        if not prices:\n            return True, "already empty"\n', ""
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, and its item is
+# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, but its item is
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"
@@ -682,7 +682,7 @@ replace("handle_reset(request):", """handle_reset(request):
 replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
 # %% 15.9 wrong: no lock | hint: The reset did not wait for the line
 replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
-# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, and its item was
+# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, but its item was
 replace("by item", "by item\npending = {}")
 replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
         pending[request.item] = request.cents
@@ -720,7 +720,7 @@ replace('name="hardware" default=', 'name="hardware" value=')
 replace('  <arg name="hardware" default="true" />\n', "")
 # %% 15.10 wrong: no default | hint: The file has to work without arguments
 replace('name="wait" default="2.0"', 'name="wait"')
-# %% 15.10 wrong: yes is no boolean | hint: The attribute "if" needs the value true or false
+# %% 15.10 wrong: yes is no boolean | hint: The value of the attribute "if" has to be true or false
 replace('if="$(arg hardware)"', 'if="$(arg wait)"')
 # %% 15.10 wrong: an unknown substitution | hint: Type roslaunch --nodes my_cashier
 replace('value="$(arg wait)"', 'value="$(value wait)"')
@@ -739,7 +739,7 @@ replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-# %% 15.10 wrong: another default | hint: Without an argument, the patience has to be 2 s: write default="2.0".
+# %% 15.10 wrong: another default | hint: Without an argument, the value of wait has to be 2 s: write default="2.0".
 replace('default="2.0"', 'default="3.0"')
 # %% 15.10 wrong: a fixed value | hint: The parameter has a fixed value
 replace('value="$(arg wait)"', 'value="2.0"')
@@ -830,7 +830,7 @@ replace('request.item = request.item or "no name"\n    return handle_set(self, r
 # %% 15.11 wrong: no reset after a visit | hint: The customer has left, but the till still has items
 change_node("robot_cashier", "robot_cashier.RobotCashier._empty_till = lambda self: None")
 
-# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only few mirror images
+# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only a few mirror images
 change_node("robot_cashier", """import random
 
 mirror = robot_cashier.RobotCashier.mirror

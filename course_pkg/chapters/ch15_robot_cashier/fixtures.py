@@ -1,4 +1,4 @@
-"""Code that runs before and after an answer of chapter 15 is tested alone; see checking/fixtures.py."""
+"""The cells before and after an answer of chapter 15 outside of its notebook; see checking/fixtures.py."""
 
 # %% before
 from pathlib import Path
@@ -28,7 +28,7 @@ RESPAWNING = """\
 
 
 def change_node(name, lines):
-    """Write a launch file, and a node of the course with these lines of Python that add a mistake."""
+    """Write a launch file, and the course's node `name` with `lines` of Python that add a mistake."""
     (package / "launch/cashier.launch").write_text(RESPAWNING)
     module = f"course_pkg.chapters.ch15_robot_cashier.programs.{name}"
     start = f'if __name__ == "__main__":\n    {name}.main()\n'

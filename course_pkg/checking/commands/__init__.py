@@ -1,1 +1,1 @@
-"""The commands that a check runs in folders of its own, on the computer of the student's kernel."""
+"""The commands that a check runs in its own folders, on the computer of the student's kernel."""

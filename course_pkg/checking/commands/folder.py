@@ -14,16 +14,16 @@ from course_pkg.errors import ChannelError, CheckError, GraphError
 from course_pkg.ros.protocol.snapshot import Snapshot, look
 from course_pkg.waiting import at_this_load, wait_until
 
-SLACK = 3.0  # s for the kernel to reply, in addition to the time limit of the command itself
+SLACK = 3.0  # additional s for the kernel to reply after the time limit of the command
 ENDING = 5.0  # s for a command to end after SIGINT, or after it is killed
 LOOK = 0.1  # s between two snapshots of a graph
 COLOUR = re.compile(r"\x1b\[\d*m")
 
 
 class Folder:
-    """Contains copies of the student's files, and files of the check's own; it is removed after the check.
+    """A folder with copies of the student's files and with the check's own files; removed after the check.
 
-    `doing` is called with each command when it begins.
+    `doing` is a function that is called with each command before the command begins.
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class Folder:
     def command(self, *argv: str, within: float = 10.0, worded: str = "") -> Finished:
         """Run a command here, for at most `within` s, or longer on a busy machine.
 
-        "python" stands for the kernel's own interpreter.
+        The command "python" starts the kernel's own interpreter.
 
         The environment is that of the course, without the student's sourced packages. A report shows the
         command, or `worded` if it is given. Raises ChannelError if the kernel does not reply.
@@ -54,7 +54,7 @@ class Folder:
         reply = self._channel.ask("start", timeout=at_this_load(SLACK), argv=argv, folder=self._number)
         number = reply.get("process")
         if not isinstance(number, int):
-            raise CheckError("The kernel did not start a command of the check: restart the kernel.")
+            raise CheckError("The kernel did not start a command of the check. Restart the kernel.")
         return Running(self._channel, number, lambda: self._doing(worded or " ".join(argv)))
 
 
@@ -64,7 +64,7 @@ class Running:
     def __init__(self, channel: Channel, number: int, show: Callable[[], None]) -> None:
         self._channel = channel
         self._number = number
-        self.show = show  # Report this command as the last one that was run in all assertions that follow.
+        self.show = show  # From now on, reports show this command as the last command.
 
     @property
     def status(self) -> int | None:
@@ -87,9 +87,9 @@ class Running:
 
 
 def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
-    """Return whether `condition` holds for the graph of the master at `uri` within `within` s.
+    """Return whether `condition` holds, within `within` s, for the graph of the master at `uri`.
 
-    Returns as soon as it holds. The master may not have started yet.
+    Wait until it holds, but at most this time. The master may start during the wait.
     """
 
     def holds() -> bool:
@@ -101,7 +101,7 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line that reports an error, or else the last line; without colours and this folder."""
+    """Return the last line with an error, or the last line, without colours and this folder's path."""
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
     return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")

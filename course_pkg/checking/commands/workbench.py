@@ -1,8 +1,8 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
 A check never works on the student's own files: it works on copies, together with its own files. The commands
-get the course's environment, not the kernel's. So packages that a student has built and sourced cannot
-replace the packages that the check builds.
+get the course's environment, not the kernel's. So a package that a student has built and sourced cannot
+replace a package that the check builds.
 """
 
 from __future__ import annotations
@@ -72,24 +72,24 @@ class CommandFolders:
 
 
 class _Running:
-    """A command that continues to run; it ends when the kernel ends, or before."""
+    """A command that continues to run, at most until the kernel ends."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self._started = time.monotonic()
-        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it stays open as long as this object
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 -- it stays open as long as this object exists
         in_folder = ["sh", "-c", 'cd "$0" && exec "$@"', str(folder), *command]
         self._process = SupervisedProcess(in_folder, output=self._output, env=_environment(folder))
         self._end: Reply | None = None
 
     @property
     def status(self) -> int | None:
-        """The exit status, None while it runs."""
+        """The exit status, or None while the command runs."""
         return self._process.returncode
 
     def stop(self) -> Reply:
         """End the command as Ctrl-C does, and by force if necessary.
 
-        Return its status, None if it was still running.
+        Return its result; the status is None if it was still running.
         """
         if self._end is None:
             status = self.status
@@ -103,7 +103,7 @@ class _Running:
 def _place(name: str) -> str:
     """Return the path of a copy: a relative path stays the same.
 
-    Of an absolute path, only the last part is used.
+    For an absolute path, only the last part is used.
     """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
@@ -159,10 +159,10 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return how long (s) the main thread of a process has used a processor, and has waited for one.
+    """Return how long (s) the main thread of a process has used a processor, and has waited for a processor.
 
-    Linux writes both into /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). The reply is
-    empty on systems without this file.
+    Linux writes both times into /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). The
+    reply is empty on systems without this file.
     """
     try:
         ran, queued, _ = Path(f"/proc/{pid}/schedstat").read_text().split()

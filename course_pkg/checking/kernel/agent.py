@@ -1,6 +1,6 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests it.
 
-It decides nothing. The check runner does not trust its replies if it cannot observe their effects.
+The agent makes no decisions. The check runner trusts a reply only if it can observe the effect itself.
 """
 
 from __future__ import annotations
@@ -148,11 +148,11 @@ class KernelAgent:
 
     def _prepare(self, code: str, within: float) -> Reply:
         """Run the check's own `code`; the names that it defines can be arguments of later calls."""
-        result = _result(lambda: exec(code, self._prepared), within)  # noqa: S102 -- the course wrote it
+        result = _result(lambda: exec(code, self._prepared), within)  # noqa: S102 -- it is the course's code
         return {"error": result.get("error")}
 
     def _place(self, name: str, port: int, key: str, item: dict[str, Json]) -> Reply:
-        """Define `name` as a proxy for an object of the check runner, as a name that `prepare` defines."""
+        """Define `name` as a proxy for an object of the check runner, next to the names of `prepare`."""
         if self._proxies is None:
             self._proxies = ObjectProxies(port, key)
         self._prepared[name] = self._proxies.proxy(item)
@@ -161,7 +161,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`: its handler keeps the streams that existed when it was created."""
+    """Let rospy's log print to `stream`, because its handler keeps the streams of its creation."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -180,8 +180,8 @@ def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
 def _result(function: Callable[[], Value], timeout: float) -> Reply:
     """Call a function, interrupt it after `timeout` s, and return {"value": …} or {"error": …}.
 
-    The call runs in the main thread, where an alarm can interrupt it. A thread could not be interrupted, so
-    it would still use the graph during the next check.
+    The call runs in the main thread, where an alarm can interrupt it. A call in another thread could not be
+    interrupted. It would still use the graph during the next check.
     """
     try:
         return {"value": TimeLimit(timeout).call(lambda: plain(function()))}
@@ -189,7 +189,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
         return {"error": {"type": "TimesUp", "bases": [], "text": f"it did not end within {timeout:g} s"}}
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # noqa: BLE001 -- sys.exit() in an exercise is a result like any other
+    except BaseException as error:  # noqa: BLE001 -- an exercise may call sys.exit(), which is a result, too
         return {"error": _described(error)}
 
 
@@ -213,7 +213,8 @@ def _defined_here(name: str, value: Value) -> bool:
 def is_blank(value: Value) -> bool:
     """Return whether an exercise is unchanged: `...`, or a function or class with this body."""
     if isinstance(value, type):
-        # The methods are examined separately: `inspect` finds no source of a class that a notebook defines.
+        # Each method is examined, because `inspect` does not find the source of a class that a notebook
+        # defines.
         methods = [inspect.unwrap(method) for method in _methods(value)]
         return bool(methods) and all(is_blank(method) for method in methods)
     if isinstance(value, FunctionType):
@@ -246,7 +247,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 
 def _does_nothing(code: CodeType) -> bool:
-    """Return whether the compiled code does nothing, for a function whose source is not available."""
+    """Return whether the compiled code of a function does nothing; used if its source is not available."""
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
 
@@ -255,7 +256,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file; if it is missing, also the files in its folder with similar names."""
+    """Return the kind of a file; if the file is missing, also return the similar names in its folder."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

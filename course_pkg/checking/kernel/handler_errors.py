@@ -1,4 +1,4 @@
-"""The exceptions that rospy catches in handlers: a check shows the student's own lines of the last one."""
+"""The exceptions that rospy catches in handlers; a check shows the student's lines of the last one."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from pathlib import Path
 from course_pkg.ros.notebook.tracebacks import readable_traceback, students_frames
 
 LOGGER = "rosout"
-ABOUT = "Error processing request"  # rospy's message about such an exception begins like this
+ABOUT = "Error processing request"  # rospy's log message about such an exception begins with this text
 HEADER = "Traceback of the handler (most recent call last):"
 
 
 class HandlerErrors(logging.Handler):
-    """Stores the last exception of a handler in this process, from open() to close()."""
+    """Stores the last exception of a handler in this process, between open() and close()."""
 
     def __init__(self) -> None:
         super().__init__(logging.ERROR)
@@ -30,20 +30,21 @@ class HandlerErrors(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Store the exception that the thread of `record` is handling, if the record is about it."""
+        """Store the exception that this thread is handling, if the log record reports it."""
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return
-        began = any(students_frames(error.__traceback__))  # not after a call with a wrong number of arguments
+        # This is False if the handler was called with a wrong number of arguments.
+        began = any(students_frames(error.__traceback__))
         self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
 
     def take(self) -> str:
-        """Return the traceback of the last exception, and delete it; empty if there was none."""
+        """Return the traceback of the last exception, or "" if there was none; then delete it."""
         last, self._last = self._last, ""
         return last
 
 
 def _place(filename: str) -> str:
-    """Return the name of a file; the code of a cell has none."""
+    """Return the name of a file as a traceback shows it; the code of a cell has no file name."""
     path = Path(filename)
     return path.name if path.is_file() else "Your cell"

@@ -1,7 +1,7 @@
 """Proxies in the kernel for objects of the check runner (see checking/placed).
 
-A proxy stores nothing: each call of a method, and each use of an attribute, is sent to the check runner,
-and returns when the check runner answers.
+A proxy stores nothing. It sends each call of a method and each use of an attribute to the check runner, and
+waits for the reply.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from course_pkg.errors import ChannelClosed, ChannelError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 
 CONNECT_TIMEOUT = 10.0  # s
-OVER = "the check has ended, and this object belonged to it"
+OVER = "this object belongs to a check that has ended"
 
 Ask = Callable[..., Value]
 
 
 class ObjectProxies:
-    """Makes proxies, and has a connection to the check runner for each thread that uses them."""
+    """Makes proxies; each thread that uses them has its own connection to the check runner."""
 
     def __init__(self, port: int, key: str) -> None:
         self.port = port
@@ -40,7 +40,7 @@ class ObjectProxies:
         self._closed = False
 
     def proxy(self, item: dict[str, Any]) -> Value:
-        """Return the proxy for the object that the check runner describes, the same one each time."""
+        """Return the proxy for the object that `item` describes; each object has only one proxy."""
         number = item["number"]
         with self._lock:
             if number not in self._made:
@@ -48,7 +48,7 @@ class ObjectProxies:
             return self._made[number]
 
     def close(self) -> None:
-        """Close all connections. From now on, each use of a proxy is a ConnectionError."""
+        """Close all connections. After this call, each use of a proxy raises ConnectionError."""
         with self._lock:
             self._closed = True
             left = list(self._connections)
@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # After an interrupt, the answer to this call must not be read as the answer to a later call.
+            # After an interrupt, the reply to this call must not be read as the reply to a later call.
             self._drop()
             raise
         if "placed" in reply:
@@ -81,9 +81,10 @@ class ObjectProxies:
         return reply.get("value")
 
     def _connection(self) -> _Connection:
-        """Return the connection of this thread; it is closed when the thread has ended."""
+        """Return the connection of this thread; the connection is closed after the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
-        if connection is None or connection.process != os.getpid():  # a fork must not use that of its parent
+        # A forked process must not use its parent's connection.
+        if connection is None or connection.process != os.getpid():
             connection = _Connection(self.port, self._key)
             with self._lock:
                 if self._closed:

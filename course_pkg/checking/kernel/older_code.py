@@ -1,7 +1,8 @@
-"""Finds code of the student that is older than the last run of its cell, so that the cell shows other code.
+"""Finds a student's function or class that is older than the last run of its cell.
 
-A function is older, for example, after a syntax error in its cell, or if its cell ran again but the cell that
-creates the service did not. A check would then examine code that the student no longer sees.
+In this case, the code in the cell differs from the code that the check would examine. This happens, for
+example, after a syntax error in the cell. It also happens if the cell ran again, but the cell that creates
+the service did not.
 """
 
 from __future__ import annotations
@@ -33,7 +34,10 @@ class OlderCode:
             return ""
         if run.error:
             return f"{name} is {_older(run)}. {_correct()}"
-        return f"{name} is {_older(run)}, which does not define it. Run the cell that does, then this one."
+        return (
+            f"{name} is {_older(run)}, which does not define it. Run the cell that defines it, and then "
+            "run this cell again."
+        )
 
     def of_service(self, service: str) -> str:
         """Return what to do first if the handler of `service` in this process is older than its cell."""
@@ -45,10 +49,10 @@ class OlderCode:
         answers = f"{service} is answered by a version of {name} that is {_older(run)}"
         if run.error:
             return f"{answers}. {_correct()}"
-        return f"{answers}. Run the cell that creates the service, then this one."
+        return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
-        """Return the last run of the cell of `value`, if its code has changed since `value` was defined."""
+        """Return the last run of the cell that defined `value`, if the cell's code has changed since then."""
         for function in _functions_of(value):
             run = self._later_run(function.__code__.co_filename)
             if run is not None and not self._defined_again(function):
@@ -73,7 +77,7 @@ def _older(run: CellRun) -> str:
 
 
 def _correct() -> str:
-    return "Correct that cell and run it, then this one."
+    return "Correct that cell and run it, and then run this cell again."
 
 
 def _handler_of(service: str) -> Value:

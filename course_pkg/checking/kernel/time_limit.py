@@ -1,9 +1,9 @@
-"""Running a student's function within a time limit, even if the function catches all exceptions.
+"""Runs a student's function within a time limit, even if the function catches all exceptions.
 
 A loop with a bare `except` catches every exception that is raised within its `try`. So each exception is
 immediately raised again, at the next point where Python handles signals. This point is in the `except` block
-or after it, so it is outside of the `try`. A library is not interrupted while it cleans up, for example while
-it releases a lock.
+or after it, so it is outside of the `try`. While a library cleans up, for example while it releases a lock,
+it is not interrupted.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class TimeLimit:
             signal.signal(signal.SIGINT, interrupt)
             signal.setitimer(signal.ITIMER_REAL, 0)
             signal.signal(signal.SIGALRM, alarm)
-            if self._stopped:  # the function may have caught the exception
+            if self._stopped:  # needed because the function may have caught the exception
                 raise KeyboardInterrupt
 
     def _stop(self, _number: int, frame: FrameType | None) -> None:
@@ -59,7 +59,7 @@ class TimeLimit:
             raise KeyboardInterrupt
 
     def _end(self, _number: int, frame: FrameType | None) -> None:
-        """Raise the error in the student's code, or in a library if the student's code waits there."""
+        """Raise the error in the student's code, or in the library in which the student's code waits."""
         if frame is None or not _is_called(frame):
             return
         now = time.monotonic()
@@ -67,7 +67,7 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # the signal is pending again, and the library goes on to clean up
+            raise self._error  # the signal becomes pending again, and the library can clean up
         except BaseException:  # noqa: BLE001
             return
 

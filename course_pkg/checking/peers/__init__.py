@@ -1,1 +1,1 @@
-"""The check's own part of the graph: its node, servers, publishers and subscriptions."""
+"""The objects of a check on the graph: its node, servers, publishers and subscriptions."""

@@ -1,7 +1,7 @@
 """A server of the check that fails as planned, one fault after another, and recovers.
 
-For a client, a planned fault looks like a real one. A stopped process accepts connections but does not
-answer. A killed process leaves a registration with a closed port. A restarted process has a new address.
+A client cannot distinguish a planned fault from a real fault. A stopped process accepts connections but does
+not answer. A killed process leaves a registration with a closed port. A restarted process has a new address.
 """
 
 from __future__ import annotations
@@ -37,9 +37,10 @@ class Frozen:
 
 @dataclass(frozen=True)
 class Crash:
-    """End without an answer, and serve again at another address after `back` s.
+    """End without a response, and serve again at another address after `back` s.
 
-    A killed process leaves its registration. With `unregisters`, the process ends properly and unregisters.
+    The registration stays on the master, as after a kill. With `unregisters`, the server unregisters first,
+    as a process does that ends normally.
     """
 
     back: float
@@ -55,12 +56,13 @@ class Fault:
 
 
 class FaultyServer(ScriptedServer):
-    """Does its `work` for each request; each call uses up one fault in `plan`, and fails with it."""
+    """Does its `work` for each request; each call takes the first fault from `plan`, and fails with it."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)
         self.plan: deque[Fault] = deque()
-        self.arrivals: list[float] = []  # times of requests and of frozen connections; s of time.monotonic()
+        # Times of requests and of frozen connections, in s of time.monotonic().
+        self.arrivals: list[float] = []
         self._work = work
         self._plan_lock = threading.Lock()
         self._registering = threading.RLock()  # locked while an address is registered or unregistered
@@ -80,12 +82,13 @@ class FaultyServer(ScriptedServer):
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return cast(Act, fault.what)  # _act handles the other faults
+        return cast(Act, fault.what)  # the method _act handles the other faults
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
-        """Take the next fault and record the time.
+        """Record the time of a call, and take its fault from the plan.
 
-        With `frozen`, take only a fault that comes before a request.
+        With `frozen`, do this only if the next fault is Frozen, because such a fault occurs before the
+        request.
         """
         with self._plan_lock:
             due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
@@ -94,7 +97,7 @@ class FaultyServer(ScriptedServer):
             return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Answer the handshake, unless the next fault is Frozen; a probe uses no fault up."""
+        """Reply to the handshake, unless the next fault is Frozen; a probe takes no fault from the plan."""
         if header.get("probe") == "1":
             with self._plan_lock:
                 frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)

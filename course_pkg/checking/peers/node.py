@@ -21,7 +21,7 @@ PROBE = 2.0  # time limit in s for a server to reply with its type
 
 @dataclass(frozen=True)
 class Registration:
-    """The master's entry of a service: its provider, and the addresses of the service and of the provider."""
+    """The master's entry for a service: its provider, and the addresses of service and provider."""
 
     node: str
     uri: str
@@ -64,7 +64,8 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
 
-        A student's function may forget to unregister them, and then the topic would stay on the graph.
+        This is necessary because a student's function may not unregister them, and the topic would stay on
+        the graph.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
@@ -86,7 +87,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
     """
     name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
     master = MasterClient(master_uri(), caller=f"/{name}")
-    master.pid()  # init_node would wait for ever if the master does not answer
+    master.pid()  # if the master does not reply, init_node would wait forever
     # Without this, each check would write a log file into the student's log folder.
     rospy.core.configure_logging = lambda *_: None
     with held_back(signal.SIGTERM) as came:
@@ -97,17 +98,15 @@ def on_the_graph(check: str) -> Iterator[Node]:
             signal.raise_signal(signal.SIGTERM)
         yield node
     finally:
-        # If the master has ended, there are no registrations. A SIGTERM that arrives now waits until the end.
+        # If the master has ended, there is nothing to unregister. A SIGTERM must not
+        # interrupt this block.
         with suppress(GraphError), held_back(signal.SIGTERM):
             withdraw_node(master, node.name, node.uri)  # rospy.signal_shutdown would sleep for 0.6 s
 
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Delay a signal until the end of this block, so that it does not interrupt the block.
-
-    Record its arrival.
-    """
+    """Keep a signal from interrupting this block; the yielded list contains the signals that arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:
@@ -117,10 +116,11 @@ def held_back(number: int) -> Iterator[list[int]]:
 
 
 class FakeNode:
-    """Is registered as a publisher of `topic`, with any name, during the block. It never publishes.
+    """A node that is registered as a publisher of `topic` during the block, but never publishes.
 
-    With `alive`, it answers a ping, because it has the address of the check's own node. Without `alive`, it
-    is like a killed node: its registration contains the address of a closed port.
+    With `alive`, the node replies to a ping, because it is registered with the address of the check's own
+    node. Without `alive`, it is like a killed node, because it is registered with the address of a closed
+    port.
     """
 
     def __init__(self, node: Node, name: str, topic: str, kind: str, *, alive: bool) -> None:

@@ -16,7 +16,7 @@ from course_pkg.waiting import wait_until
 
 
 class Publisher:
-    """Publishes one message after the other on `topic`, every `every` s, and begins again after the last one.
+    """Publishes its messages on `topic` in a cycle, one message every `every` s.
 
     With `once`, it begins as soon as there is a subscriber, and ends after the last message. `sent` contains
     the times at which messages were published, in s of time.monotonic().
@@ -44,18 +44,20 @@ class Publisher:
         self._publisher = rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True)
 
     def has_subscriber(self, within: float = 2.0) -> bool:
-        """Return whether there is a subscriber; wait for one for at most `within` s."""
+        """Wait at most `within` s for a subscriber; return whether there is one."""
         return bool(wait_until(self._publisher.get_num_connections, within, stopped=self._over))
 
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
         """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
 
-        `hints` are for the value "nobody". A subscriber of another type leads to this value, too.
+        `hints` are for the value "no subscriber". A subscriber of another type leads to this value, too.
         """
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):
-            hint = hint_for(hints, "nobody") or f"Make a rospy.Subscriber for it, of type {self._type}."
-            self._results.fails(assertion, expected="a subscriber", actual="nobody", hint=hint)
+            hint = (
+                hint_for(hints, "no subscriber") or f"Make a rospy.Subscriber for it, of type {self._type}."
+            )
+            self._results.fails(assertion, expected="a subscriber", actual="no subscriber", hint=hint)
         self._results.passes(assertion)
 
     def finish(self, within: float = 10.0) -> bool:
@@ -87,7 +89,7 @@ class Publisher:
 
 
 def _made(kind: ServiceClass, fields: Mapping[str, Value]) -> Message:
-    """Return a message with these fields; a nested message is also given as a dict."""
+    """Return a message with these fields; a dict in `fields` contains the fields of a nested message."""
     message = kind()
     genpy.message.fill_message_args(message, [dict(fields)])
     return message

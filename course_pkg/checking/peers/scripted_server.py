@@ -1,7 +1,7 @@
-"""A server for the student's client. Its script is a part of the check, and can contain wrong behaviour.
+"""A server for the student's client. A script in the check decides what it does, so it can behave wrongly.
 
-It implements TCPROS itself (wiki.ros.org/ROS/TCPROS, "Service Client" and "Service"), because rospy's own
-server cannot close a connection, leave a request unanswered, or serve another definition.
+The server implements TCPROS itself (wiki.ros.org/ROS/TCPROS, "Service Client" and "Service"). A server of
+rospy cannot close a connection without a response, ignore a request, or serve another definition.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from course_pkg.checking.plain_values import Fields, ServiceClass, Value, fields
 
 @dataclass(frozen=True)
 class Refuse:
-    """Answer with an error message like that of rospy after a handler has raised a ServiceException."""
+    """Send the error message that rospy sends after a handler has raised a ServiceException."""
 
     reason: str
 
 
 @dataclass(frozen=True)
 class HangUp:
-    """Close the connection without an answer, as a server does that ends unexpectedly."""
+    """Close the connection without a response, as a crashed server does."""
 
 
 @dataclass(frozen=True)
 class Silence:
-    """Read the request, but never answer."""
+    """Read the request, but never respond."""
 
 
 @dataclass(frozen=True)
 class Late:
-    """Answer with `values` after `delay` s."""
+    """Respond with `values` after `delay` s."""
 
     delay: float
     values: Mapping[str, Value]
@@ -55,8 +55,9 @@ class Received:
     """The requests to a scripted server as plain data, in the order of their arrival."""
 
     requests: list[Fields] = field(default_factory=list)
-    headers: list[dict[str, str]] = field(default_factory=list)  # the number of calls, without probes
-    probes: int = 0  # connections without a request, which wait_for_service makes
+    # The connection header of each call, without probes.
+    headers: list[dict[str, str]] = field(default_factory=list)
+    probes: int = 0  # number of connections without a request; wait_for_service makes such connections
 
 
 class ScriptedServer:
@@ -94,7 +95,7 @@ class ScriptedServer:
             raise self.problem
 
     def leave(self) -> None:
-        """Stop serving, as a server does that is shut down; the connections are closed."""
+        """Stop serving and close all connections, as a server does during its shutdown."""
         self._over.set()
         self._close_port()
         for connection in self._connections.copy():
@@ -133,7 +134,7 @@ class ScriptedServer:
                 pass
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Answer the handshake; return whether a request follows."""
+        """Reply to the handshake; return whether a request follows."""
         md5, theirs = self._kind._md5sum, header.get("md5sum")
         if theirs not in (md5, "*"):
             problem = f"request from [{header.get('callerid')}]: md5sums do not match: [{theirs}] vs. [{md5}]"
@@ -152,7 +153,7 @@ class ScriptedServer:
         return not probe
 
     def _serve_one(self, sock: socket.socket) -> bool:
-        """Read one request and do what the script returns; return whether the connection stays open."""
+        """Read one request and perform the script's act; return whether the connection stays open."""
         request = self._kind._request_class()
         request.deserialize(_exactly(sock, struct.unpack("<I", _exactly(sock, 4))[0]))
         self.received.requests.append(fields_of(request))

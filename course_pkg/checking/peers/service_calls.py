@@ -1,4 +1,4 @@
-"""A check's calls to a student's server, with a time limit and assertions on every answer."""
+"""A check's calls to a student's server, with a time limit, and with assertions about each response."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.checking.plain_values import Message, ServiceClass, Value, plain
 from course_pkg.waiting import Deadline
 
 HANDLERS_ERROR = matches("error processing request")
-LONGEST = 2000  # limit of characters of a traceback in a report
+LONGEST = 2000  # maximum number of characters of a traceback in a report
 TIMEOUT = 3.0  # time limit in s for one call, unless a check sets another limit
 
 
@@ -56,7 +56,7 @@ class Service:
         self._label = label  # the service as assertions show it
         self._hints = hints
         self._timeout = timeout
-        # returns the traceback of the handler's last exception, as the kernel reports it
+        # A function that returns the traceback of the handler's last exception, which the kernel reports.
         self._traceback = traceback
 
     def __call__(self, *values: Value, **fields: Value) -> Message:
@@ -66,7 +66,7 @@ class Service:
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
         """Call with all `requests` at the same time, each in its own thread; return the replies in order.
 
-        Asserts that the service answers each of them.
+        Asserts that the service responds to each request.
         """
         replies = self._call([self._request(**fields) for fields in requests])
         for reply in replies:
@@ -107,7 +107,7 @@ class Service:
         return hint_for(HANDLER_RAISED, error) or explained(error)
 
     def _with_traceback(self, error: str) -> str:
-        """Return the error message with the lines of the handler that raised an exception below it."""
+        """Return the error message, followed by the lines of the handler that raised the exception."""
         if not HANDLERS_ERROR.search(error):
             return error
         return f"{error}\n{self._traceback()[:LONGEST]}".strip()
@@ -144,5 +144,5 @@ class Service:
 def _response(proxy: Callable[..., Message], request: Message) -> tuple[Message, str]:
     try:
         return proxy(request), ""
-    except Exception as error:  # noqa: BLE001 -- rospy passes on any error of its socket, and each is a result here
+    except Exception as error:  # noqa: BLE001 -- rospy can raise any error of its socket; each is a result
         return None, f"{type(error).__name__}: {error}"

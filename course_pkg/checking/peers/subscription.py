@@ -1,7 +1,8 @@
 """A check's subscription to a student's topic: each message with the time of its arrival.
 
-It accepts any type (`rospy.AnyMsg`): a subscriber receives nothing from a publisher of another type, but a
-check has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of the connection header.
+The subscription accepts any type (`rospy.AnyMsg`). A subscriber of one type receives nothing from a publisher
+of another type, but a check has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of the
+connection header.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from course_pkg.checking.peers.node import Node
 from course_pkg.checking.plain_values import Fields, Message, ServiceClass, Value, fields_of
 from course_pkg.waiting import wait_until
 
-KEPT = 20_000  # limit of stored messages: a student's loop may lack its sleep
+KEPT = 20_000  # maximum number of stored messages; a student's loop without a sleep may publish too many
 
 
 @dataclass(frozen=True)
@@ -40,12 +41,12 @@ class Subscription:
     def __init__(self, results: Results, node: Node, topic: str, kind: ServiceClass, label: str) -> None:
         self.name = topic
         self.kind = str(kind._type)
-        self.count = 0  # the number of all messages of the type, including those after the first KEPT
+        self.count = 0  # the number of all messages of the type, including messages that are not stored
         self._results, self._node = results, node
         self._label = label  # the topic as assertions show it
         self._cls = kind
         self._arrivals: list[Arrival] = []
-        self._others: deque[str] = deque(maxlen=1)  # the wrong type that arrived
+        self._others: deque[str] = deque(maxlen=1)  # the wrong type of the last message
         self._arrived = threading.Condition()
 
     @property
@@ -73,12 +74,12 @@ class Subscription:
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
         """Assert that the topic is published with its type; return when the publisher is connected.
 
-        `hints` are for a wrong value: "nobody who publishes it", or another type.
+        `hints` are for a wrong value: "no publisher", or another type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)
         if found != self.kind:
-            actual = found or "nobody who publishes it"
+            actual = found or "no publisher"
             hint = hint_for(hints, actual) or self._what_to_do(found)
             self._results.fails(assertion, expected="a publisher", actual=actual, hint=hint)
         self._results.passes(assertion)
@@ -132,7 +133,7 @@ class Subscription:
 
 
 def rate(arrivals: Sequence[Arrival]) -> float:
-    """Return how many messages arrived per second; 0.0 for fewer than two."""
+    """Return how many messages arrived per second; 0.0 for fewer than two messages."""
     if len(arrivals) < 2 or arrivals[-1].at <= arrivals[0].at:
         return 0.0
     return (len(arrivals) - 1) / (arrivals[-1].at - arrivals[0].at)

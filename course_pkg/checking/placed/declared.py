@@ -1,4 +1,4 @@
-"""Which methods and attributes of an object the student's kernel may use: those that are marked `@remote`."""
+"""The decorator `@remote`, which marks the methods and attributes that the student's kernel may use."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MARK = "__remote__"
 def remote(function: Function) -> Function:
     """Declare that the kernel may call this method, or read or write the attribute of this property.
 
-    Arguments and results are plain values. A result may also be an object with remote methods of its own.
+    Arguments and results are plain values. A result may also be another object with remote methods.
 
         @remote
         def read(self) -> int: ...
@@ -37,7 +37,7 @@ class Interface:
     writable: frozenset[str]
 
     def __bool__(self) -> bool:
-        """Return whether it has any remote name."""
+        """Return whether the class has any remote name."""
         return bool(self.methods or self.readable or self.writable)
 
 

@@ -1,8 +1,8 @@
-"""The check runner's side of proxies: it answers what the student's kernel does with them.
+"""The check runner's end of the proxies: it executes the calls that the student's kernel makes.
 
-Each thread of the kernel has a connection of its own, and each connection has a thread here. So many calls
-can wait in the check runner at the same time, and an object can tell the kernel's threads apart by
-`threading.get_ident()`. A connection carries one JSON object a line:
+Each thread of the kernel has its own connection, and each connection has its own thread here. So many calls
+can wait in the check runner at the same time, and `threading.get_ident()` is different for each thread of the
+kernel. Each line of a connection is one JSON object:
 
     kernel -> runner   {"key": "…"}                                              once, first
     kernel -> runner   {"object": 0, "do": "call", "name": "read", "args": [], "kwargs": {}}
@@ -10,8 +10,8 @@ can wait in the check runner at the same time, and an object can tell the kernel
     kernel -> runner   {"object": 0, "do": "set", "name": "count", "args": [3]}
     runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
 
-The listener is on the loopback interface, which a sandboxed kernel shares with its check runner. The key is
-in the request `place` of the channel; no other user of the computer knows it.
+The listener is on the loopback interface, which a sandboxed kernel shares with its check runner. The request
+`place` of the channel contains the key, so no other user of the computer knows it.
 """
 
 from __future__ import annotations
@@ -31,20 +31,21 @@ from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.waiting import Deadline
 
 LIMIT = 1 << 16  # bytes of a line
-CONNECTIONS = 128  # at the same time; a sandboxed kernel may have 200 threads
-CALLS = 200_000  # of one check; a loop that tries to get a lock makes some 10,000 a second
+CONNECTIONS = 128  # maximum number of connections at the same time; a sandboxed kernel may have 200 threads
+# Maximum number of calls in one check. A loop that tries to acquire a lock makes about 10,000 per second.
+CALLS = 200_000
 KEY_TIMEOUT = 5.0  # s for the first line of a connection
 SEND_TIMEOUT = 5.0  # s for the kernel to read an answer
 END_TIMEOUT = 1.0  # s for all threads to end
 STACK = 512 * 1024  # bytes of a thread's stack; the memory of a check runner in a sandbox is limited
-LONGEST = 4000  # characters of an error
+LONGEST = 4000  # maximum number of characters of an error
 
 
 class PlacedObjects:
     """Objects with remote methods, and the connections of the kernel to them; a context manager.
 
-    At its end, every connection is closed, and a call that still waits ends with an error in the kernel. An
-    object whose calls wait should end them when its method `close` is called.
+    At its end, all connections are closed, and a call that still waits raises an error in the kernel. If
+    calls of an object can wait, the object should end them when its method `close` is called.
     """
 
     def __init__(self) -> None:
@@ -82,7 +83,7 @@ class PlacedObjects:
             thread.join(deadline.left)
 
     def place(self, item: object) -> dict[str, Json]:
-        """Return the arguments of the request `place` for `item`: where it is, and which names it has."""
+        """Return the arguments of the request `place` for `item`: port, key and remote names."""
         port: int = self._listener.getsockname()[1]
         return {"port": port, "key": self._key, "item": self._described(item)}
 
@@ -125,13 +126,13 @@ class PlacedObjects:
         try:
             thread.start()
             self._open[thread] = sock
-        except RuntimeError:  # there is no memory for another thread
+        except RuntimeError:  # there is not enough memory for another thread
             sock.close()
         finally:
             threading.stack_size(before)
 
     def _serve(self, sock: socket.socket) -> None:
-        """Answer the calls of one connection until it ends, or breaks the protocol."""
+        """Execute the calls of one connection until it is closed, or until a line breaks the protocol."""
         channel = JsonChannel(sock, LIMIT)
         try:
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -139,14 +140,14 @@ class PlacedObjects:
             while hmac.compare_digest(key, self._key.encode()):
                 channel.send(self._reply(channel.receive()), SEND_TIMEOUT)
         except (ChannelError, OSError):
-            pass  # the kernel sees that the connection is closed
+            pass  # the kernel notices the closed connection
         finally:
             channel.close()
             with self._lock:
                 self._open.pop(threading.current_thread(), None)
 
     def _reply(self, request: Mapping[str, Json]) -> dict[str, Json]:
-        """Return the answer to one line; raise ChannelBroken for one that no proxy sends."""
+        """Return the reply to one line; raise ChannelBroken for a line that no proxy sends."""
         number, do, name = request.get("object"), request.get("do"), request.get("name")
         args, kwargs = request.get("args", []), request.get("kwargs", {})
         with self._lock:
@@ -160,7 +161,7 @@ class PlacedObjects:
             result = _done(item, self._interface(item), str(do), name, args, kwargs)
         except ChannelBroken:
             raise
-        except Exception as error:  # noqa: BLE001 -- the caller in the kernel gets it
+        except Exception as error:  # noqa: BLE001 -- the caller in the kernel gets this error
             return {"error": {"type": type(error).__name__, "text": str(error)[:LONGEST]}}
         if self._interface(result):
             return {"placed": self._described(result)}
@@ -170,7 +171,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Do what the kernel asks for, if the name is one of the remote `names`."""
+    """Call the method, or read or write the attribute, if its name is one of the remote `names`."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:
@@ -178,4 +179,4 @@ def _done(
     if do == "set" and name in names.writable and len(args) == 1:
         setattr(item, name, args[0])
         return None
-    raise ChannelBroken(f"{type(item).__name__} has no remote {name[:40]!r}")
+    raise ChannelBroken(f"{type(item).__name__} has no remote method or attribute {name[:40]!r}")

@@ -1,1 +1,1 @@
-"""Assertions that the checks of several chapters share. Each chapter passes its own texts."""
+"""Assertions that the checks of several chapters share. Each chapter passes its own hints."""

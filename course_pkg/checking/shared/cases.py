@@ -1,4 +1,4 @@
-"""A check of a dict that assigns an entry of a list to each case, such as the cause to each symptom."""
+"""A check of a dict that assigns an entry of a list to each case, for example a cause to each symptom."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from course_pkg.checking.plain_values import of_kind
 class Cases:
     """The right entry of each case, and the texts of a report.
 
-    For each case, `right` contains its entry, and `decisive` the fact that shows that this entry is right.
-    `entries` has a sentence about each entry of the list. `missing` is the hint for keys that are missing,
-    `keys` is the hint for unknown keys, and `spelling` the hint for an entry that is not in the list.
-    `label` names one case in an assertion, and `again` names it in a hint.
+    For each case, `right` contains the right entry, and `decisive` contains the fact that proves it.
+    `entries` contains a sentence about each entry of the list. There are three other hints: `missing` for
+    missing keys, `keys` for unknown keys, and `spelling` for an entry that is not in the list. `label` names
+    one case in an assertion, and `again` names it in a hint.
     """
 
     right: Mapping[str, str]

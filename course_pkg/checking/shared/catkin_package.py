@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
-The copy is complete: the check adds its own version of each file that the student does not have yet. So it
-can examine one file before the others exist. This is also necessary in grading, where only the notebook's
-cell is known.
+The copy is complete: the check adds its own version of each file that the student does not have yet. So a
+check can examine one file before the other files exist. This is also necessary in grading, because a
+submission contains only the cells of the notebook.
 """
 
 from __future__ import annotations
@@ -25,8 +25,10 @@ BUILD = 50.0
 OWN = "own"  # the folder of the check's own files; cp -n does not replace the student's files
 FILL = f"mkdir -p src {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'  # this is enough for a package of scripts
-CATKIN_MAKE = "catkin_make -j2"  # without -j2, make waits while the machine is busy
+# This path is enough for a package that contains only scripts.
+IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
+# Without -j2, catkin_make sets a load limit, and make waits while the machine is busy.
+CATKIN_MAKE = "catkin_make -j2"
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ class BuiltPackage:
         return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
 
     def md5(self, type_name: str) -> tuple[str, str]:
-        """Return the MD5 sum of a service type as Python finds it; or an empty text and the error output."""
+        """Return the MD5 sum of a service type that Python imports, and ""; or "" and the error output."""
         name = self.package.name
         line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
         done = self.run(line)
@@ -85,8 +87,8 @@ def built(
 
     With `alone`, all other files are the check's own, because the student writes them later. The files
     `drawn`, by their paths in the package, replace the student's files. Their content is random, so that no
-    CMakeLists.txt can contain it. Raises CheckError if the build takes more than `within` s; the build of C++
-    needs more than the usual time.
+    CMakeLists.txt can contain it. Raises CheckError if the build takes more than `within` s; a build with C++
+    needs more than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -118,7 +120,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
     rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. With `alone`,
-    all files but `examined` are the check's own.
+    all files except `examined` are the check's own.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
@@ -129,7 +131,8 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 def _own_files(package: Package, examined: str) -> dict[str, str]:
     """Return the check's own files by their paths in the folder of a check.
 
-    The examined file is not among them: a CMakeLists.txt could use it instead of the student's file.
+    The check's version of the examined file is left out, because a CMakeLists.txt could use it instead of the
+    student's file.
     """
     return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
 
@@ -141,7 +144,7 @@ def _fails_to_build(context: CheckContext, package: Package, printed: str, exami
     if not fault.file:
         fault = replace(fault, file=f"{package.name}/{examined}")
     context.fail(
-        BUILDS, expected="a build that succeeds", actual=f"{fault.place}: {fault.problem}", hint=fault.remedy
+        BUILDS, expected="a successful build", actual=f"{fault.place}: {fault.problem}", hint=fault.remedy
     )
 
 

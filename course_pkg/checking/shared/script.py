@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from course_pkg.checking.context import CheckContext
 
-MARK = "\ufeff"  # the byte order mark, with which some editors of Windows begin a file
+MARK = "\ufeff"  # the byte order mark; some editors on Windows write it at the beginning of a file
 
 
 def require_shebang(
@@ -22,7 +22,7 @@ def require_shebang(
     """Assert that the first line of the student's file is a shebang that names `program`, and not Python 2.
 
     The hints are for five cases: no shebang, a shebang in another line, another program, the line endings of
-    Windows, and a byte order mark. `missing` is used for a hint that is not given.
+    Windows, and a byte order mark. `missing` is also the default of the other hints.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]

@@ -1,1 +1,1 @@
-"""Reads what was handed in (archives, names, notebooks in any state), and returns submissions."""
+"""Reads the files that were handed in (archives, and notebooks of any form), and returns submissions."""

@@ -1,6 +1,6 @@
-"""The files that were handed in, in a folder or a zip. They are listed, read one by one, never unpacked.
+"""The files in a submitted folder or zip. They are listed and read one by one, but never unpacked.
 
-Links are not followed, nothing outside is opened, and no file is read past its limit.
+Links are not followed, no file outside of the folder or zip is opened, and each file has a size limit.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # bytes of one notebook
-ALTOGETHER = 4 << 30  # bytes that all notebooks of a zip may unpack to
-RATIO = 400  # the usual notebook shrinks to a tenth, one that repeats itself to a hundredth
+ALTOGETHER = 4 << 30  # maximum bytes of all notebooks of a zip after unpacking
+# Largest allowed compression ratio; it is about 10 for a usual notebook, and 100 for a repetitive one.
+RATIO = 400
 SMALL = 1 << 20  # bytes; for smaller files, the ratio is not checked
 MEMBERS = 200_000
 DEPTH = 16  # folders within folders
@@ -33,10 +34,11 @@ LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"
 class Entry:
     """A file that was handed in; `read` returns its contents, or raises GradingError with the reason."""
 
-    path: str  # inside what was handed in, with / between the folders
+    path: str  # its path in the submitted folder or archive, with / between the folders
     modified: float  # s since 1970
     read: Callable[[], bytes]
-    executable: bool = False  # whether its owner may execute it; False if an archive does not store this
+    # Whether its owner may execute it; False if an archive does not store permissions.
+    executable: bool = False
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -62,7 +64,7 @@ def opened(source: Path) -> Iterator[list[Entry]]:
 
 
 def one_file(path: Path) -> Entry:
-    """Return a single file; raise GradingError when there is none."""
+    """Return the file at `path`; raise GradingError if it does not exist."""
     try:
         return Entry(path.name, path.lstat().st_mtime, partial(_read_file, path))
     except OSError as error:
@@ -70,7 +72,7 @@ def one_file(path: Path) -> Entry:
 
 
 def is_litter(parts: tuple[str, ...]) -> bool:
-    """Return whether a system or an editor created the file, so that no student handed it in."""
+    """Return whether a system or an editor created the file, and not a student."""
     return any(part.lower() in LITTER or (part.startswith(".") and part not in ("..", ".")) for part in parts)
 
 
@@ -90,7 +92,9 @@ def _in_folder(folder: Path, prefix: str, depth: int) -> Iterator[Entry]:
             if depth:
                 yield from _in_folder(Path(item.path), f"{path}/", depth - 1)
             else:
-                yield _refused(path, f"it is more than {DEPTH} folders deep; move it up")
+                yield _refused(
+                    path, (f"it is inside more than {DEPTH} nested folders; move it to a higher folder")
+                )
         else:
             status = item.stat(follow_symlinks=False)
             read, executable = partial(_read_file, Path(item.path)), bool(status.st_mode & stat.S_IXUSR)
@@ -98,7 +102,7 @@ def _in_folder(folder: Path, prefix: str, depth: int) -> Iterator[Entry]:
 
 
 def _read_file(path: Path) -> bytes:
-    """Read a regular file; never open a link, a pipe or a device."""
+    """Read a regular file, but never open a link, a pipe or a device."""
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError as error:
@@ -128,7 +132,7 @@ def _refuse_large(size: int) -> None:
 
 
 class _Archive:
-    """A zip, with a limit for the total that is read from it."""
+    """A zip, with a limit for the total number of bytes that are read from it."""
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
@@ -143,18 +147,21 @@ class _Archive:
                 executable = bool((member.external_attr >> 16) & stat.S_IXUSR)
                 yield Entry(str(path), _modified(member), partial(self._read, member), executable)
         if len(members) > MEMBERS:
-            yield _refused("", f"the archive holds more than {MEMBERS} files; split it up")
+            yield _refused("", f"the archive contains more than {MEMBERS} files; split it")
 
     def _read(self, member: zipfile.ZipInfo) -> bytes:
         _refuse_suspicious(member)
         if member.file_size > self._left:
-            raise GradingError(f"the archive unpacks to more than {ALTOGETHER >> 30} GiB; split it up")
+            raise GradingError(
+                f"the files of the archive have more than {ALTOGETHER >> 30} GiB after unpacking; split "
+                "the archive"
+            )
         try:
             with self._archive.open(member) as file:
                 content = _bounded(file.read(LARGEST + 1))
         except (OSError, RuntimeError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
             raise GradingError(
-                f"the archive is damaged there ({clean.line(error)}); create it again"
+                f"this part of the archive is damaged ({clean.line(error)}); create the archive again"
             ) from error
         self._left -= len(content)
         return content
@@ -164,16 +171,18 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
     kind = stat.S_IFMT(member.external_attr >> 16)
     if leads_out(member.filename):
         raise GradingError(
-            "its path leads out of the archive, so it was not read; ask for the notebook itself"
+            "its path leads out of the archive, so it was not read; ask the student for the notebook itself"
         )
     if kind not in (0, stat.S_IFREG):
-        raise GradingError("it is a link or a device, so it was not read; ask for the notebook itself")
+        raise GradingError(
+            "it is a link or a device, so it was not read; ask the student for the notebook itself"
+        )
     if member.flag_bits & 0x1:
-        raise GradingError("it is encrypted; ask for the notebook without a password")
+        raise GradingError("it is encrypted; ask the student for the notebook without a password")
     _refuse_large(member.file_size)
     if member.file_size > SMALL and member.file_size > RATIO * max(1, member.compress_size):
         raise GradingError(
-            "it unpacks to more than a hundred times its size, which no notebook does; ask for it again"
+            "its size after unpacking is too large for a notebook; ask the student for the notebook again"
         )
 
 

@@ -17,10 +17,10 @@ TITLE = re.compile(r"# (.+)")
 class RenumberedChapter:
     """A chapter of the first edition, and the number that it has now."""
 
-    name: str  # of its file in the first edition, without the ending
+    name: str  # the name of its file in the first edition, without .ipynb
     title: str  # the number in the first edition
     now: str
-    moved: str = ""  # a sentence about exercises that another chapter has now
+    moved: str = ""  # a sentence about exercises that are in another chapter now
 
     @property
     def number(self) -> str:
@@ -29,7 +29,7 @@ class RenumberedChapter:
 
     @property
     def difference(self) -> str:
-        """What changed since the first edition, in sentences."""
+        """Sentences about the changes since the first edition."""
         if self.number == self.now:
             return f"the exercises of this chapter had other numbers. {self.moved}".strip()
         return f"this chapter had number {self.number}. It is chapter {self.now} now. {self.moved}".strip()
@@ -50,7 +50,7 @@ RENUMBERED = (
     RenumberedChapter("13_go_further", "Go further", "16"),
 )
 
-# a chapter that kept its number, but whose exercises have other numbers
+# This chapter has the same number as in the first edition, but its exercises have other numbers.
 CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
@@ -65,7 +65,8 @@ def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> Renum
     """Return the first edition's chapter of a notebook, or None for a notebook of this edition.
 
     `name` is the name of its file, in small letters with underscores. `by_ids` is the chapter with which its
-    cells share the most ids. The number alone proves nothing, because another chapter has it now.
+    cells share the most ids. The number of the chapter is not enough, because another chapter has this number
+    now.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):
@@ -79,7 +80,7 @@ def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> Renum
 
 
 def _number(cells: Sequence[StudentCell]) -> str:
-    """Return the chapter's number in most of the ids of exercises and checks, "" if there is none."""
+    """Return the most frequent chapter number in the ids of exercises and checks, or "" if there is none."""
     texts = [text for cell in cells for text in (cell.id, cell.source)]
     found = [first or second for text in texts for first, second in PART.findall(text)]
     found += [part[:2] for cell in cells for part in (cell.exercise, cell.check) if part]

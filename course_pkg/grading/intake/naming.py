@@ -1,4 +1,4 @@
-"""Find the student to whom a file belongs, from the path that an instructor or a platform gave it.
+"""Find the student to whom a file belongs from its path, which an instructor or a platform has chosen.
 
 SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
 Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
@@ -6,7 +6,7 @@ lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE if so
 assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
 submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
 
-A catkin package is a folder beside the notebooks: <student>/<package>/package.xml (see packages.py).
+A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """
 
 from __future__ import annotations
@@ -28,25 +28,26 @@ GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)  # some systems add an ending
-Submitters = Mapping[str, Sequence[str]]  # by the name of Gradescope's folder
+# Some systems add .txt or .json.
+NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
+Submitters = Mapping[str, Sequence[str]]  # the submitters by the name of Gradescope's folder
 
 
 @dataclass(frozen=True)
 class Claim:
     """A file and its student, known from the path of the file."""
 
-    student: str  # empty where nothing tells
-    stem: str  # of the file, as the student named it; empty for what is no notebook
-    attempt: int = 0  # as the platform counts
+    student: str  # the student's name, or empty if the path does not contain it
+    stem: str  # the name that the student gave to the notebook; empty for any other file
+    attempt: int = 0  # the number of the attempt, as the platform counts
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
     """Return the students to whom the file belongs: one student, or the members of a group.
 
-    Only the name that a platform gave is read: the first folder, or the file if there is no folder. Students
-    choose the names below it, so they could use the name of another student.
+    Only the name that a platform chose is read: the name of the first folder, or of the file if there is no
+    folder. Students choose the names below this folder, so they could use the name of another student.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -62,8 +63,7 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
     """Return the name and the number by which `platform` (MOODLE, CANVAS) knows a student, or empty texts.
 
-    The number is read only from the names that the platform made; a student whose name is `s_17` has no
-    number.
+    The number is read only from names that the platform chose: a student whose name is `s_17` has no number.
     """
     for origin in origins:
         for part in origin.split("/"):
@@ -74,7 +74,7 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without the `outer` folders around all files, or a folder that a platform adds."""
+    """Return a path without its first `outer` folders, and without a folder that a platform adds."""
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 
@@ -89,9 +89,9 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 
 
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
-    """Return the number of folders around the students' own folders: 0, or 1 if one folder contains all.
+    """Return the number of folders around the students' folders: 1 if one folder contains all, else 0.
 
-    `archive` is the name of the zip without its ending, and empty for a folder.
+    `archive` is the name of the zip without .zip; it is empty for a folder.
     """
     inside = [path for path in paths if path]
     outer = {path[0] for path in inside if len(path) > 1 or NOTEBOOK.fullmatch(path[0])}
@@ -108,9 +108,9 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return who handed in each folder of an export: student number, else address, else name.
+    """Return the submitters of each folder of an export: their student numbers, addresses or names.
 
-    The file is YAML with Ruby's symbols for keys. Every scalar is read as a text and no tag is followed.
+    The file is YAML with Ruby's symbols as keys. Every scalar is read as a string, and tags are ignored.
     """
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     try:

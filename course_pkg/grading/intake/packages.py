@@ -1,12 +1,12 @@
-"""The catkin packages that were handed in: SUBMISSIONS/<student>/<package>/package.xml, beside the notebooks.
+"""The submitted catkin packages: SUBMISSIONS/<student>/<package>/package.xml, next to the notebooks.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-If no part asks for this name, but a part asks for the name of the folder, the folder's name is used.
+If no part needs a package of this name, the name of the folder is used, provided that a part needs it.
 
-A link or a device is left out, with a note; the rest of the package is examined. A package that is too large
-is not examined at all. If two packages have the same name, the last one handed in is used; the same rule
-holds for notebooks.
+A link or a device is left out, with a note, and the other files of the package are examined. A package that
+is too large is not examined. If two packages have the same name, the newest package is used, as for
+notebooks.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ MANIFEST = "package.xml"
 GENERATED = frozenset({"build", "devel", "install"})  # catkin writes these folders; students do not
 LARGEST = 2 << 20  # bytes of all files of a package; a package of the course has less than 50 KiB
 FILES = 300
-SHOWN = 3  # the most names that a sentence lists
+SHOWN = 3  # maximum number of names in a sentence
 NO_NOTEBOOK = "No notebook was handed in for this chapter."
 
 
@@ -44,21 +44,18 @@ class Found:
     """A package as it was handed in; `problem` says why it cannot be examined."""
 
     package: Package
-    folder: str  # its last name
-    modified: float  # s since 1970, of the newest file
+    folder: str  # the last part of its path
+    modified: float  # s since 1970, the time of the newest file
     notes: tuple[str, ...] = ()
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name of the package among `names`, the names that parts ask for.
-
-        Else an empty string.
-        """
+        """Return the package's name among `names`, the names that parts need, or an empty string."""
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 
 def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
-    """Return the folders of the packages among a student's files `paths`; no package contains another."""
+    """Return the folders of the packages in a student's `paths`; no package is inside another package."""
     with_manifest = {path[:-1] for path in paths if len(path) > 1 and path[-1] == MANIFEST}
     own = {root for root in with_manifest if not is_generated(root)}
     return {root for root in own if not any(root[:depth] in own for depth in range(1, len(root)))}
@@ -70,7 +67,7 @@ def is_generated(folders: Sequence[str]) -> bool:
 
 
 def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str, ...] | None:
-    """Return the package to which a file belongs, or None; a notebook belongs to none."""
+    """Return the package to which a file belongs, or None; a notebook belongs to no package."""
     if NOTEBOOK.fullmatch(path[-1]):
         return None
     return next((path[:depth] for depth in range(1, len(path)) if path[:depth] in packages), None)
@@ -98,8 +95,8 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
     manifest = next((content for name, content, _ in contents if name == MANIFEST), None)
     if manifest is None:
         return replace(found, problem=f"The package {clean.line(root[-1], 60)} was not graded. {notes[0]}")
-    # Many platforms lose these permission bits. A student who ran a program of the package has set at least
-    # one.
+    # Many platforms lose the permission bits. A student who has run a program of the package has set at least
+    # one bit. So if no file is executable, the bits were lost.
     lost = not any(executable for *_, executable in contents)
     files = [
         work_file(name, content, executable=executable or (lost and content.startswith(b"#!")))
@@ -122,10 +119,11 @@ def _name(manifest: bytes) -> str:
 def attached(
     given: Sequence[Submission], packages: Mapping[str, Sequence[Found]], wanted: Sequence[str] = ()
 ) -> list[Submission]:
-    """Return `given` after adding each student's packages to the submissions of the chapters that need them.
+    """Add each student's packages to the submissions of the chapters that need them; return all submissions.
 
-    `packages` are those of each student, and `wanted` the chapters that are graded, or none for all. Without
-    a notebook, a package becomes a submission if it has a file that a part of the chapter asks for.
+    `given` are the submissions with notebooks, and `packages` are the packages of each student. `wanted` are
+    the graded chapters; an empty list means all chapters. If there is no notebook, a package becomes a
+    submission if it contains a file that a part of the chapter needs.
     """
     if not packages:
         return list(given)

@@ -1,4 +1,4 @@
-"""A student's notebook as it was handed in, of any version and in any state.
+"""Reads a student's notebook, which may have any version and may be damaged.
 
 The size of the input is limited.
 """
@@ -12,12 +12,15 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-BRACKETS = 500_000  # lists and objects in the file: 20 MiB of them would take half a GB of memory
+# Maximum number of lists and objects in the file: 20 MiB of them would need half a GB of memory.
+BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
     b"<!doctype": "it is a web page that shows the notebook; download the notebook itself from that page",
     b"<html": "it is a web page that shows the notebook; download the notebook itself from that page",
-    b"<<<<<<<": "it contains the conflict marks of a git merge; keep one of the two versions",
+    b"<<<<<<<": (
+        "it contains the conflict marks of a git merge; resolve the conflict and keep one of the two versions"
+    ),
     b"%pdf": "it is a PDF of the notebook; hand in the .ipynb itself",
     b"pk\x03\x04": "it is a zip with the name of a notebook; hand in the .ipynb itself",
 }
@@ -28,17 +31,17 @@ WRONG = (
     ValueError,
     IndexError,
     RecursionError,
-)  # of a broken old notebook
+)  # errors that a damaged old notebook causes
 
 
 @dataclass(frozen=True)
 class StudentCell:
-    """One cell, with only what grading needs."""
+    """One cell, with only the data that grading needs."""
 
     id: str
     kind: str  # "code", "markdown", "raw"
     source: str
-    exercise: str = ""  # the part that it answers, as its metadata say
+    exercise: str = ""  # the part that it answers, according to its metadata
     check: str = ""  # the part that it checks
     tags: tuple[str, ...] = ()
 
@@ -56,7 +59,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 
 
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
-    """Return a notebook with only what grading needs: the outputs of a whole class would fill the memory."""
+    """Return a notebook with only the data for grading; the outputs of a class would fill the memory."""
     kept = [
         {
             "id": cell.id,

@@ -1,4 +1,4 @@
-"""The solutions of the course, and which of them a submission belongs to."""
+"""The solutions of the course, and methods that find the solution to which a submission belongs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ENOUGH = 5  # ids that a notebook has to share with a solution if none of them i
 
 
 class References:
-    """All solutions of a checkout, with what distinguishes them."""
+    """All solutions of a checkout, with the ids that distinguish them."""
 
     def __init__(self, root: Path | None = None) -> None:
         self._stems: dict[str, str] = {}
@@ -39,9 +39,9 @@ class References:
         return self._stems.get(chapter, f"{chapter}_topic")
 
     def by_name(self, stem: str) -> str:
-        """Return the chapter in the name of the file, even an unknown one.
+        """Return the number of the chapter in the name of the file, even if there is no such chapter.
 
-        An empty string if there is none.
+        The result is an empty string if the name contains no number.
         """
         name = plain(stem)
         for chapter, known in self._stems.items():
@@ -54,9 +54,9 @@ class References:
         return found[1].zfill(2) if found else ""
 
     def by_cells(self, cells: Sequence[StudentCell], favoured: str) -> str:
-        """Return the chapter of most exercises (`favoured` if it has as many).
+        """Return the chapter to which most exercises belong, or `favoured` if it has as many.
 
-        Without exercises, by all ids.
+        If there are no exercises, all ids of cells are compared.
         """
         asked = Counter(
             self._parts[key] for cell in cells for key in {cell.id, cell.exercise} if key in self._parts

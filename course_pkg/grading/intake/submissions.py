@@ -37,7 +37,7 @@ from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
 LATE = "Canvas marks it as late. Only the table of late days can contain the number of days."
-SHOWN = 3  # the most names of files that a sentence lists
+SHOWN = 3  # maximum number of file names in a sentence
 
 
 @dataclass(frozen=True)
@@ -54,15 +54,15 @@ class _Found:
 
 
 def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = None) -> list[Submission]:
-    """Return what was handed in for `chapters`, or for all of them, in the order of students and chapters.
+    """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, what a platform offers for download (see
-    naming.py), or one notebook; `root` is the checkout with the solutions. A file that cannot be used becomes
-    a submission with a `problem`; GradingError is raised only when `source` can be neither listed nor opened.
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
+    or one notebook. `root` is the checkout with the solutions. A file that cannot be used becomes a
+    submission with a `problem`. GradingError is raised only if `source` can be neither listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
-    NotebookStore(root).solutions(chapters)  # it knows no other chapters, so it can report one
+    NotebookStore(root).solutions(chapters)  # raises an error for an unknown chapter
     references = References(root)
     with opened(source) as entries:
         files = list(_unwrapped(entries, "" if source.is_dir() else source.stem))
@@ -74,9 +74,9 @@ def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = 
 
 
 def submission_of(path: Path, student: str = "", root: Path | None = None) -> Submission:
-    """Return the submission in one notebook and in the packages beside it.
+    """Return the submission with one notebook and the packages in the same folder.
 
-    The default for the student's name is the name of the notebook's folder.
+    If `student` is empty, the student's name is the name of the notebook's folder.
     """
     entry, name = one_file(path), path.resolve().parent.name
     claim = replace(claims([name, path.name], {})[0], student=clean.identity(student or name))
@@ -106,7 +106,7 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all other files except those that catkin wrote."""
+    """Return the packages of each student, and all other files except the files that catkin wrote."""
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):
@@ -127,12 +127,12 @@ def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_Fil
 
 
 def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[_File]:
-    """Yield each file with its student, without the folders around all of them."""
+    """Yield each file with its student; its path begins with the student's folder."""
     outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
     paths = [unwrapped(_inside(entry), outer) for entry in entries]
     submitters: dict[str, list[str]] = {}
     listed = [entry for entry, path in zip(entries, paths, strict=True) if path == (METADATA,)]
-    for entry in listed:  # not in a student's own folder
+    for entry in listed:  # the file is not in a student's own folder
         with suppress(GradingError):
             submitters |= gradescope_submitters(entry.read())
     for entry, path in zip(entries, paths, strict=True):
@@ -141,7 +141,7 @@ def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[_File]:
 
 
 def _inside(entry: Entry) -> tuple[str, ...]:
-    """Return the folders and name of a file; for a path that leads out, only what may name its student."""
+    """Return the folders and the name of a file; a path that leads out loses parts such as `..`."""
     if not leads_out(entry.path):
         return entry.parts
     return tuple(part for part in entry.parts if part.strip("./\\") and ":" not in part)
@@ -153,7 +153,7 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file; its problem says what is wrong, where it is, and what to do."""
+    """Read one file; the text of its `problem` says what is wrong, where, and what to do."""
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
     try:
@@ -163,7 +163,7 @@ def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
         chapter = chapter if owner.student and chapter in references.chapters else ""
         made = replace(blank, chapter=chapter, problem=f"{name} was not graded: {error}.")
     if not owner.student and not made.problem:
-        why = "its student is unknown; put it into a folder with the name of the student"
+        why = "its student is unknown; put the file into a folder with the name of the student"
         made = replace(made, chapter="", content=b"", problem=f"{name} was not graded: {why}.")
     return _Found(made, owner.attempt, entry.modified)
 
@@ -181,7 +181,9 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
         raise GradingError(
             f"there is no chapter {chapter}, only {known}; correct the number in the file's name"
             if chapter
-            else "neither its name nor its cells show the chapter; give it a name such as NN_topic.ipynb"
+            else (
+                "neither its name nor its cells show the chapter; give the file a name such as NN_topic.ipynb"
+            )
         )
     notes = [LATE] if owner.marked_late else []
     if named and named != chapter:
@@ -192,7 +194,7 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 
 
 def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
-    """Return a submission whose problem says what has changed and which notebook to hand in."""
+    """Return a submission whose `problem` says what has changed, and which notebook to hand in instead."""
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
         f"{name} was not graded: it belongs to the first edition of the course, where {found.difference} "
@@ -202,23 +204,22 @@ def _of_first_edition(found: RenumberedChapter, references: References, blank: S
 
 
 def _refuse_other(entry: Entry) -> None:
-    """Say what other kind of file it is; a path that leads out, and a link, have their own message."""
+    """Raise GradingError with a message about this kind of file, which is not a notebook."""
     if entry.path.endswith(METADATA):
         raise GradingError("it does not contain the names of the students; export it from Gradescope again")
     ending = entry.path.rpartition(".")[2].lower()
     if ending in ("zip", "gz", "7z", "rar", "tar", "tgz"):
-        raise GradingError("it is an archive inside the submissions; unpack it, and remove it")
+        raise GradingError("it is an archive inside the submissions; unpack it, and then delete the archive")
     if entry.parts[-1:] == (MANIFEST,):
-        raise GradingError("a package needs a folder of its own; put it into STUDENT/PACKAGE/package.xml")
+        raise GradingError("a package needs its own folder; move the file to STUDENT/PACKAGE/package.xml")
     raise GradingError(
-        "it is neither a notebook nor part of a package with a package.xml; if it contains answers, the "
-        ".ipynb "
-        "is needed"
+        "it is neither a notebook nor part of a package with a package.xml; if it contains answers, ask "
+        "the student for the .ipynb"
     )
 
 
 def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
-    """Yield the last submission for each chapter and student; its notes name the others."""
+    """Yield the last submission for each chapter and student; its notes name the earlier submissions."""
 
     def key(each: _Found) -> tuple[str, str, bool]:
         return each.submission.student, each.submission.chapter, bool(each.submission.chapter)
@@ -236,7 +237,7 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
 
 
 def _without_chapter(given: Sequence[Submission]) -> Iterator[Submission]:
-    """Yield one submission for all unusable files of a student: a folder of them is one problem."""
+    """Yield one submission for all unusable files of a student, which usually have the same problem."""
     first, *others = sorted(given, key=lambda each: each.origin)
     if others:
         names = _listed([each.origin for each in others])

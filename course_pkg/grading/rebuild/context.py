@@ -1,8 +1,8 @@
-"""Find the other cells that an answer needs, from the names in the cells.
+"""Find the cells that an answer needs by the names that they define.
 
-An answer is run with what its check needs (see checking/fixtures.py) and nothing else. But an answer may use
-more: an import of a cell above, or a function of an earlier answer. So the cells that define such names are
-run, too, and also the cells that these need.
+An answer is run only with the cells that its check needs (see checking/fixtures.py). But an answer may use
+other names, such as an import of a cell above, or a function of an earlier answer. So the cells that define
+these names are run, too, and also the cells that those cells need.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-LONGEST = 20_000  # characters of a cell that is parsed: real cells are shorter, and parsing takes time
-MAGICAL = 300  # lines of a cell with magics: IPython's time grows with the square of their number
+# Maximum number of characters of a cell that is parsed; real cells are shorter, and parsing takes time.
+LONGEST = 20_000
+# Maximum number of lines of a cell with magics; IPython's time grows with the square of this number.
+MAGICAL = 300
 KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
 
 
@@ -69,7 +71,7 @@ def _tree(source: str) -> ast.Module:
 
 
 def _given(tree: ast.Module) -> frozenset[str]:
-    """Return the names that are defined at the end of a cell, except those inside a function or class."""
+    """Return the names that a cell defines at top level, and not inside a function or class."""
     names = set()
     for statement in tree.body:
         opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)

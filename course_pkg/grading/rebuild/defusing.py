@@ -1,7 +1,7 @@
-"""Remove from a student's source what changes how it is run: markers of nbval, and a magic above it.
+"""Remove markers of nbval and the magic of a cell from a student's source, because they change its execution.
 
 nbval obeys a comment such as `# NBVAL_SKIP` on any line, and IPython passes a whole cell to the magic on its
-first line. With either of them, an answer could avoid its check.
+first line. With such a comment or magic, an answer could avoid its check.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Defused:
 
 
 def defuse(source: str, first_line: str = "") -> Defused:
-    """Return the source of an answer below `first_line`, the magic that the reference has there, if any."""
+    """Return the safe source of an answer; `first_line` is the magic of the reference, or an empty string."""
     kept, notes = _readable(source)
     kept, about_magic = _with_magic(kept, first_line) if first_line else _without_magic(kept)
     kept, about_markers = _without_markers(kept)
@@ -49,16 +49,16 @@ def magic_of(source: str) -> str:
 
 
 def _readable(source: str) -> tuple[str, list[str]]:
-    """Return a text that Python and UTF-8 can hold."""
+    """Return the source without characters that Python or UTF-8 cannot contain."""
     kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
-    kept = kept.encode("utf-8", "replace").decode("utf-8")  # half of a surrogate pair becomes a question mark
+    kept = kept.encode("utf-8", "replace").decode("utf-8")  # a surrogate becomes a question mark
     if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
         return kept, ["Characters that a Python file cannot contain were removed from your cell."]
     return kept, []
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines in which IPython looks for a magic: blank lines, indentation and prompts are gone."""
+    """Return the lines in which IPython looks for a magic: without blank lines, indentation and prompts."""
     lines = (source.rstrip() + "\n").splitlines(keepends=True)
     for transform in TransformerManager().cleanup_transforms:
         lines = cast(Transform, transform)(lines)
@@ -88,7 +88,7 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
-    """Put each marker in brackets; the lines are those of str.splitlines, as in nbval."""
+    """Put each marker in brackets; the text is split with str.splitlines, as in nbval."""
     lines = source.splitlines(keepends=True)
     found = [_marker(line) for line in lines]
     if not any(found):

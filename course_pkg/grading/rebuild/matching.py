@@ -1,8 +1,9 @@
 """Find the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id, else by its metadata, which a copy keeps, else by the names that
-it defines or the file that it writes. If several cells fit, the last one that is not blank is used. If the
-student split the answer, the parts directly below belong to it; other cells of the student do not.
+The cell of an exercise is found by its id, or by its metadata, which a copy keeps. Otherwise it is found by
+the names that it defines, or by the file that it writes. If several cells fit, the last cell that is not
+blank is used. If the student split the answer, the pieces directly below belong to it, but other cells of the
+student do not.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from course_pkg.grading.intake.reading import StudentCell
 from course_pkg.grading.rebuild.defusing import TAGS
 from course_pkg.grading.rebuild.wanted import Wanted, defined, lent, used, written_path
 
-LONGEST = 100_000  # characters of an answer
-BELOW = 50  # cells below an exercise that may contain the rest of its answer
+LONGEST = 100_000  # maximum number of characters of an answer
+BELOW = 50  # maximum number of cells below an exercise in which its answer may continue
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Matching:
     def __init__(
         self, cells: Sequence[StudentCell], wanted: Sequence[Wanted], given: Mapping[str, str]
     ) -> None:
-        """`given` are the sources of the reference's other cells by their ids."""
+        """`given` contains the sources of all cells of the reference that are not exercises, by their ids."""
         self._cells = cells
         self._given = given
         self._texts = {source.strip() for source in given.values()}
@@ -76,7 +77,7 @@ class Matching:
         return Match(missing=f"Its cell is not in the notebook, and no other cell {_known_by(wanted)}.")
 
     def lent(self, taken: frozenset[int]) -> set[str]:
-        """Return the names that the unused cells define and the reference does not."""
+        """Return the names that the unused cells define, but not the reference."""
         names: set[str] = set()
         for place, cell in enumerate(self._cells):
             if place not in taken and cell.kind == "code" and not self._owners[place]:
@@ -86,12 +87,12 @@ class Matching:
         return names
 
     def _is_own(self, place: int) -> bool:
-        """Return whether a cell is the student's own: neither an exercise nor one of the reference's."""
+        """Return whether the student added the cell: it is not an exercise, and not in the reference."""
         cell = self._cells[place]
         return not (cell.check or cell.id in self._given or cell.source.strip() in self._texts)
 
     def _runs(self, wanted: Wanted) -> Iterator[_Run]:
-        """Yield the candidates for the exercise: each of its cells, with the parts that were split off."""
+        """Yield the candidates for the exercise: each of its cells, with the pieces that were split off."""
         run: list[int] = []
         above = _Above()
         for place in self._places.get(wanted.part, []):
@@ -132,7 +133,7 @@ class Matching:
 
 
 class _Above:
-    """The cells above a cell in the same answer; each cell is read once."""
+    """The cells that already belong to an answer; each cell is parsed once."""
 
     def __init__(self) -> None:
         self._last = StudentCell("", "", "")
@@ -169,7 +170,7 @@ class _Above:
 
 
 def _matched(runs: Sequence[_Run]) -> Match:
-    """Return the last of several answers, with notes about everything unusual."""
+    """Return the last of several answers, with notes for the student."""
     chosen = runs[-1]
     notes = []
     if len({run.source.strip() for run in runs}) > 1:

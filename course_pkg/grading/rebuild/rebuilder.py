@@ -1,4 +1,4 @@
-"""Build the reference notebook with a student's answers, and nothing else from the student."""
+"""Build the reference notebook with a student's answers, but without any other cell of the student."""
 
 from __future__ import annotations
 
@@ -13,19 +13,20 @@ from course_pkg.grading.rebuild.defusing import defuse
 from course_pkg.grading.rebuild.matching import Match, Matching
 from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
 
-NOTES = 40  # the most notes: further ones would say nothing new
+NOTES = 40  # maximum number of notes; further notes would say nothing new
 
 
 @dataclass(frozen=True)
 class Rebuilt:
     """The notebook that is graded; each part of the reference is in `answers` or in `missing`."""
 
-    notebook: Notebook  # it contains no output of an exercise's cell, so no such output is compared
-    answers: Mapping[str, str]  # by part; the source that is run, which may be the unchanged blank
-    missing: Mapping[str, str] = field(default_factory=dict)  # by part: why it has no answer, for the student
+    notebook: Notebook  # without the outputs of the exercises' cells, so nbval does not compare them
+    answers: Mapping[str, str]  # the source of each part that is run; it may be the unchanged blank cell
+    # For each part without an answer, the reason for the student.
+    missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # parts in `answers` whose cell was not changed
     notes: tuple[str, ...] = ()  # notes for the student about everything unusual
-    problem: str = ""  # why the notebook could not be used
+    problem: str = ""  # the reason why the notebook could not be used
 
 
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
@@ -37,10 +38,10 @@ def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
 
 
 class Rebuilder:
-    """One reference, for as many students as there are.
+    """One reference, which is used for all students.
 
-    If an answer is missing, its cell is the blank of the exercise, and never the solution. The rebuilt
-    notebook uses the same output objects as the reference for the given cells.
+    If an answer is missing, its cell is the blank cell of the exercise, and never the solution. The cells
+    that are not exercises keep the output objects of the reference.
     """
 
     def __init__(self, reference: Notebook) -> None:

@@ -1,6 +1,7 @@
-"""Find what an exercise needs, in the reference, and what a source defines, from its lines.
+"""Find the names and files of an exercise in the reference, and the names that a source defines.
 
-A student's source is not parsed, so a source that was made to overload a parser does no harm.
+A student's source is only searched line by line. So a source that is written to overload a parser does no
+harm.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.grading.rebuild.defusing import WRITES, magic_of
 
-SCANNED = 200_000  # characters of a source that are read
+SCANNED = 200_000  # maximum number of characters of a source that are read
 DEFINED = re.compile(r"^(?:async[ \t]+)?(?:def|class)[ \t]+(\w+)", re.MULTILINE)
 ASSIGNED = re.compile(r"^(\w+)[ \t]*(?::[^=\n]{1,200})?=(?!=)", re.MULTILINE)
 IMPORTED = re.compile(r"^(?:import|from[ \t]+[\w.]+[ \t]+import)[ \t]+([^\n#]{1,1000})", re.MULTILINE)
@@ -24,8 +25,8 @@ class Wanted:
     """One exercise of the reference."""
 
     part: str
-    cell: str  # its id
-    blank: str  # the blank that students get
+    cell: str  # the id of its cell
+    blank: str  # the blank cell that students get
     first_line: str  # the cell magic in the first line, such as `%%writefile src/Area.srv`
     names: frozenset[str]  # the names that an answer defines at top level
     wiring: frozenset[str]  # whole lines of the blank that define nothing, such as node.serve(…)
@@ -73,7 +74,7 @@ def defined(source: str) -> set[str]:
 
 
 def lent(source: str) -> set[str]:
-    """Return the names that another cell may need from this one: functions, classes, imports, CONSTANTS."""
+    """Return the names that another cell may use: functions, classes, imports, CONSTANTS."""
     text = source[:SCANNED]
     constants = {name for name in ASSIGNED.findall(text) if name.isupper()}
     return {*DEFINED.findall(text), *constants, *_imported(text)}

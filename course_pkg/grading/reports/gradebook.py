@@ -27,7 +27,7 @@ class Column:
 
 
 class Book:
-    """Grades by student, chapter and part; grades of a run without a sandbox say this in their notes."""
+    """Grades by student, chapter and part; the notes of a grade say if it was run without a sandbox."""
 
     def __init__(self, grades: Sequence[Grade]) -> None:
         marked = [_with_warning(grade) for grade in grades]
@@ -57,7 +57,7 @@ class Book:
         return sum(column.possible for column in self.columns_of(chapter))
 
     def earned(self, student: str) -> float:
-        """Return all points of a student, after what lateness costs."""
+        """Return all points of a student after the deduction for lateness."""
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     @property
@@ -107,7 +107,7 @@ def attention(book: Book, student: str) -> list[str]:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return what was unusual about a student's notebooks but needs no attention."""
+    """Return notes about unusual notebooks of a student that need no attention."""
     found = (note for grade in book.of(student) for note in grade.notes)
     return list(dict.fromkeys(clean.line(note) for note in found))
 

@@ -1,4 +1,4 @@
-"""The frame of a complete page: it loads and runs nothing, and its policy permits only its own style."""
+"""The frame of a complete page, which loads and runs nothing; its policy permits only its own style."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 
-KINDS = {  # the mark of a verdict: a class of the style, and a sign next to the word
+KINDS = {  # for each verdict, a class of the style sheet, and a sign next to its name
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -19,7 +19,7 @@ KINDS = {  # the mark of a verdict: a class of the style, and a sign next to the
 
 
 class Frame:
-    """The head that all pages share; its style is read only once."""
+    """The HTML head of all pages; the style sheet is read only once."""
 
     def __init__(self) -> None:
         style = Path(__file__).with_name("page.css").read_text("utf-8")
@@ -53,7 +53,7 @@ def paragraph(value: object, kind: str = "") -> str:
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return sentences in a conspicuous box, or nothing if there are none."""
+    """Return sentences in a box that is easy to notice, or an empty string if there are no sentences."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""

@@ -15,7 +15,7 @@ RESULTS = "results"
 
 
 def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path:
-    """Return the path of a grade's record; `origin` distinguishes grades that belong to no chapter."""
+    """Return the path of a grade's record; `origin` distinguishes grades without a chapter."""
     name = clean.file_name(chapter) if chapter else f"none-{hashlib.sha256(origin.encode()).hexdigest()[:10]}"
     return out / RESULTS / clean.file_name(student or "nobody") / f"{name}.json"
 

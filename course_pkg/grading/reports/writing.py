@@ -19,7 +19,7 @@ def write_reports(grades: Sequence[Grade], out: Path) -> None:
     """Write every report about `grades` into the folder `out`.
 
     Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
-    this.
+    such a module.
     """
     book = Book(grades)
     try:

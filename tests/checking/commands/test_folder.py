@@ -1,4 +1,4 @@
-"""A check waits for the nodes of a launch file, and finds the one important line in roslaunch's output."""
+"""A check waits for the nodes of a launch file, and finds the line with the error in roslaunch's output."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from course_pkg.ros import PrivateMaster
         (f"{os.getcwd()}/my.launch: Invalid\n", "/my.launch: Invalid"),
     ],
 )
-def test_the_line_that_tells_of_the_error_is_told(printed: str, told: str) -> None:
+def test_line_with_the_error_is_found(printed: str, told: str) -> None:
     """The line contains no terminal colours and no folder of this machine."""
     assert telling_line(printed) == told
 
 
-def test_a_graph_becomes_what_is_waited_for(master: PrivateMaster) -> None:
+def test_wait_for_a_graph_ends(master: PrivateMaster) -> None:
     """The wait ends when the condition holds for the graph of that master, or after the timeout."""
     assert becomes(master.uri, lambda actual: actual.services is not None, within=10.0)
     assert not becomes(master.uri, lambda actual: actual.service("/nobody"), within=0.2)
 
 
-def test_a_master_that_is_not_there_yet_is_waited_for() -> None:
+def test_master_may_start_during_the_wait() -> None:
     """A missing master is not an error, because roslaunch starts one."""
     assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

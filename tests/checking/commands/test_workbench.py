@@ -36,15 +36,15 @@ def test_a_command_runs_on_copies(bench: CommandFolders, tmp_path: Path) -> None
     assert (tmp_path / "src" / "client.py").exists()
 
 
-def test_a_command_has_its_time_and_no_more(bench: CommandFolders) -> None:
-    """A command that hangs is ended, together with all processes that it started."""
+def test_command_ends_at_its_time_limit(bench: CommandFolders) -> None:
+    """A command that reaches its time limit is ended, together with all processes that it has started."""
     folder = bench.folder([], {})["folder"]
     answer = bench.run(["bash", "-c", "sleep 60 & sleep 60"], folder, 0.1)
     assert answer["status"] is None
     assert answer["took"] < 5
 
 
-def test_a_folder_is_copied_with_its_run_bits(bench: CommandFolders, tmp_path: Path) -> None:
+def test_copies_keep_permissions(bench: CommandFolders, tmp_path: Path) -> None:
     """The exercise asks the student to make a script executable, so a copy keeps this permission."""
     (tmp_path / "scripts").mkdir()
     for name, mode in (("yes", 0o755), ("no", 0o644)):
@@ -56,7 +56,7 @@ def test_a_folder_is_copied_with_its_run_bits(bench: CommandFolders, tmp_path: P
         bench.run(["scripts/no"], folder, 10.0)
 
 
-def test_the_texts_of_the_check_go_over_the_copies(bench: CommandFolders, tmp_path: Path) -> None:
+def test_files_of_the_check_replace_copies(bench: CommandFolders, tmp_path: Path) -> None:
     """The check's own files replace copies, so that one mistake does not lead to failures in two parts."""
     (tmp_path / "package.xml").write_text("the student's")
     folder = bench.folder(["package.xml"], {"package.xml": "the check's", "srv/A.srv": "---"})["folder"]
@@ -65,7 +65,7 @@ def test_the_texts_of_the_check_go_over_the_copies(bench: CommandFolders, tmp_pa
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../hostname"])
 def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name: str) -> None:
-    """A copy stays in the folder, whatever its path is."""
+    """A copy is always inside the check's folder, even if the path leads out of it."""
     (tmp_path / "hostname").write_text("x")
     bench = CommandFolders(lambda _: tmp_path / "hostname")
     folder = bench.folder([name], {})["folder"]
@@ -73,16 +73,16 @@ def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name:
     bench.close()
 
 
-def test_what_the_student_has_sourced_does_not_count(
+def test_sourced_packages_of_the_student_are_not_used(
     bench: CommandFolders, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A module of an older build on the kernel's path does not replace the checked one."""
+    """A module of an older build on the kernel's path does not replace the module that the check examines."""
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
     folder = bench.folder([], {})["folder"]
     assert str(tmp_path) not in out(bench, "bash", "-c", "echo $PYTHONPATH", folder=folder)
 
 
-def test_the_folder_is_where_the_command_believes_to_be(bench: CommandFolders) -> None:
+def test_pwd_is_the_folder(bench: CommandFolders) -> None:
     """catkin_make builds in $PWD, not in the working directory."""
     folder = bench.folder([], {})["folder"]
     there, believed = out(bench, "python", "-c", "import os; print(os.getcwd(), os.environ['PWD'])").split()
@@ -90,7 +90,7 @@ def test_the_folder_is_where_the_command_believes_to_be(bench: CommandFolders) -
     assert there == believed
 
 
-def test_a_command_that_goes_on_is_ended(bench: CommandFolders) -> None:
+def test_stop_ends_a_running_command(bench: CommandFolders) -> None:
     """stop() interrupts the command as Ctrl-C does, and keeps the output so far."""
     script = "trap 'echo bye; exit 0' INT; echo hello; echo > ready; while :; do sleep 0.01; done"
     folder = bench.folder([], {})["folder"]
@@ -110,7 +110,7 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> N
     assert bench.stop(process)["status"] == 3
 
 
-def test_nothing_is_left(tmp_path: Path) -> None:
+def test_close_leaves_no_folder_and_no_process(tmp_path: Path) -> None:
     """After close(), no folder and no process is left."""
     bench = CommandFolders(lambda name: tmp_path / name)
     folder = bench.folder([], {})["folder"]

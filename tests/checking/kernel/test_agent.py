@@ -22,14 +22,14 @@ def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Repl
     return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
 
 
-def test_a_value_comes_with_what_was_printed() -> None:
+def test_result_contains_the_printed_text() -> None:
     """The value is plain data, and printed text does not appear in the cell's output."""
     answer = call({"f": lambda a: (print("hello"), a + 1)[1]}, 2)  # noqa: T201
     assert (answer["value"], answer["printed"]) == (3, "hello\n")
 
 
 @pytest.mark.parametrize(("error", "kind"), [(ValueError("no"), "ValueError"), (SystemExit(3), "SystemExit")])
-def test_an_error_is_an_outcome(error: BaseException, kind: str) -> None:
+def test_error_is_a_result(error: BaseException, kind: str) -> None:
     """sys.exit() in an exercise is an error, too, and does not end the kernel."""
 
     def f() -> None:
@@ -39,7 +39,7 @@ def test_an_error_is_an_outcome(error: BaseException, kind: str) -> None:
 
 
 def test_an_interrupt_is_passed_on() -> None:
-    """A KeyboardInterrupt is raised for the reader of the notebook; it is not a result of the call."""
+    """A KeyboardInterrupt is raised in the notebook, and is not treated as a result of the call."""
 
     def f() -> None:
         raise KeyboardInterrupt
@@ -48,7 +48,7 @@ def test_an_interrupt_is_passed_on() -> None:
         call({"f": f})
 
 
-def test_a_function_that_hangs_is_broken_off() -> None:
+def test_function_is_interrupted_at_its_time_limit() -> None:
     """A function that catches every exception is interrupted, too."""
 
     def stubborn() -> None:
@@ -57,7 +57,7 @@ def test_a_function_that_hangs_is_broken_off() -> None:
             try:
                 while True:
                     pass
-            except BaseException:  # noqa: BLE001, S110 -- as a student would
+            except BaseException:  # noqa: BLE001, S110 -- as in a student's code
                 pass
         while True:
             pass
@@ -67,8 +67,8 @@ def test_a_function_that_hangs_is_broken_off() -> None:
     assert time.monotonic() - started < 3
 
 
-def test_a_name_that_is_not_there_comes_with_one_that_is_like_it() -> None:
-    """Most often, a name is missing because it is misspelt."""
+def test_missing_name_comes_with_a_similar_name() -> None:
+    """The reply contains a similar name, because a missing name is often misspelt."""
     assert ask({"mesure": len}, do="look", name="measure") == {
         "answer": 1,
         "kind": "missing",
@@ -77,7 +77,7 @@ def test_a_name_that_is_not_there_comes_with_one_that_is_like_it() -> None:
 
 
 def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
-    """In a new kernel, the only similar names are imported ones, so the student has not misspelt a name."""
+    """A missing name is reported without similar names if all similar names are imported."""
     assert ask({"Patch": Path}, do="look", name="Path")["alike"] == []
 
 
@@ -107,7 +107,7 @@ def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
         agent.close()
 
 
-def test_what_the_check_prepares_can_be_an_argument() -> None:
+def test_object_of_the_check_can_be_an_argument() -> None:
     """The check's own code creates an object in the kernel that is not plain data."""
     agent = KernelAgent({"f": lambda items: len(items)})
     agent.reply({"ask": 1, "do": "prepare", "code": "made = {1, 2, 3}", "within": 1.0})
@@ -119,7 +119,7 @@ def test_what_the_check_prepares_can_be_an_argument() -> None:
     "question",
     [{"do": "fly"}, {"do": "look"}, {"do": "read", "name": "x"}, {}, {"do": "read", "name": "f.x"}],
 )
-def test_what_cannot_be_answered_is_said(question: dict[str, Value]) -> None:
+def test_invalid_request_gets_an_error(question: dict[str, Value]) -> None:
     """An invalid request gets an error as its reply; it does not raise an exception that ends the check."""
     assert "wrong" in KernelAgent({"f": len}).reply({"ask": 1, **question})
 
@@ -134,8 +134,8 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
     assert kinds == ["blank", "file", "missing"]
 
 
-def test_a_file_that_is_not_there_comes_with_one_that_is_like_it(tmp_path: Path) -> None:
-    """A wrong upper-case or lower-case letter in a file name is a common mistake."""
+def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
+    """The reply contains a file name that differs only in upper and lower case."""
     (tmp_path / "lamp.srv").write_text("---\n")
     assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
         "answer": 1,
@@ -144,7 +144,7 @@ def test_a_file_that_is_not_there_comes_with_one_that_is_like_it(tmp_path: Path)
     }
 
 
-def test_a_file_is_looked_for_in_the_workspace_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_is_found_in_the_workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """After a restart, the kernel's working directory is not the workspace, which still has the file."""
     monkeypatch.setenv("COURSE_WORKSPACE", str(tmp_path / "ws"))
     (tmp_path / "ws" / "src").mkdir(parents=True)

@@ -15,7 +15,7 @@ import pytest
 from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 
 LIMIT = 0.2
-SOON = 3.0  # s that a busy machine may take longer
+SOON = 3.0  # additional s that a busy machine may need
 LOCK = threading.Lock()
 
 
@@ -25,7 +25,7 @@ def busy() -> None:
         try:
             while True:
                 pass
-        except:  # noqa: E722, S110 -- as a student writes it
+        except:  # noqa: E722, S110 -- as in a student's code
             pass
 
 
@@ -39,7 +39,7 @@ def prints() -> None:
 
 
 def waits() -> None:
-    """Wait in a library that cleans up after itself."""
+    """Wait in a library that has a clean-up block."""
     while True:
         try:
             threading.Event().wait()

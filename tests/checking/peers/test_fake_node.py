@@ -6,7 +6,7 @@ from course_pkg.checking.peers.node import FakeNode, Node
 from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster, look
 
 
-def test_one_answers_and_one_is_dead(master: PrivateMaster) -> None:
+def test_fake_node_is_running_or_killed(master: PrivateMaster) -> None:
     """The address of the running node answers; the port of the killed node is closed."""
     client = MasterClient(master.uri)
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:

@@ -1,4 +1,4 @@
-"""A faulty server fails as planned, and then recovers; a client sees each fault like a real one."""
+"""A faulty server fails as planned, and then recovers; for a client, its faults are like real ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from course_pkg.ros import BoundedProxy, MasterClient, PrivateMaster
 from course_pkg.ros.protocol.json_channel import Json
 from tests.support import eventually
 
-# rospy's client leaves its sockets to the garbage collector
+# rospy's client does not close its sockets, but the garbage collector does.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 AWAY = 0.2  # s until a crashed server runs again
 
@@ -58,8 +58,8 @@ def answered(length: float) -> bool:
         (HangUp(), "transport error completing service call"),
     ],
 )
-def test_a_planned_fault_befalls_one_call(server: FaultyServer, fault: Json, text: str) -> None:
-    """The client gets the error message of the real fault, and the next call succeeds."""
+def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text: str) -> None:
+    """The client gets the same error message as after a real fault, and the next call succeeds."""
     server.plan.append(Fault(fault))
     with pytest.raises(rospy.ServiceException) as error:
         ask(1.0)
@@ -68,14 +68,14 @@ def test_a_planned_fault_befalls_one_call(server: FaultyServer, fault: Json, tex
     assert (len(server.requests), len(server.arrivals)) == (2, 2)
 
 
-def test_a_slow_answer_is_that_of_the_work(server: FaultyServer) -> None:
+def test_late_response_is_right(server: FaultyServer) -> None:
     """A client that waits long enough gets the right response."""
     server.plan.append(Fault(Late(0.05, {}), worked=True))
     assert ask(3.0) == 6.0
 
 
-def test_a_frozen_server_takes_connections_and_says_nothing(server: FaultyServer) -> None:
-    """A probe finds the server, as with a stopped process; a call gets no answer, and uses up the fault."""
+def test_frozen_server_accepts_connections_without_a_response(server: FaultyServer) -> None:
+    """A probe connects, as with a stopped process; a call gets no response, and the fault is then removed."""
     server.plan.append(Fault(Frozen()))
     rospy.wait_for_service("/f", timeout=2)
     with pytest.raises(CallTimeout, match="accepts connections, but sends nothing"):
@@ -87,7 +87,7 @@ def test_a_frozen_server_takes_connections_and_says_nothing(server: FaultyServer
 @pytest.mark.parametrize(
     ("unregisters", "text"), [(False, "Connection refused"), (True, r"service \[/f\] unavailable")]
 )
-def test_a_crash_leaves_what_the_real_one_leaves(server: FaultyServer, unregisters: bool, text: str) -> None:
+def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, text: str) -> None:
     """A killed server stays registered; a server that was shut down does not. Both run again later."""
     before = server._uri
     server.plan.append(Fault(Crash(AWAY, unregisters)))
@@ -100,7 +100,7 @@ def test_a_crash_leaves_what_the_real_one_leaves(server: FaultyServer, unregiste
 
 
 @pytest.mark.parametrize("worked", [True, False])
-def test_work_is_done_before_a_fault_where_the_plan_says_so(node: Node, worked: bool) -> None:
+def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
     """The plan decides whether the work of a failed call is done."""
     done: list[float] = []
 
@@ -115,7 +115,7 @@ def test_work_is_done_before_a_fault_where_the_plan_says_so(node: Node, worked: 
     assert done == ([1.0] if worked else [])
 
 
-def test_a_server_that_left_while_it_was_away_stays_away(node: Node) -> None:
+def test_server_that_has_left_does_not_restart(node: Node) -> None:
     """A server that has left does not restart after the check."""
     with FaultyServer(node, "/f", geometry, lambda _: {}) as server:
         server.plan.append(Fault(Crash(AWAY)))
@@ -126,7 +126,7 @@ def test_a_server_that_left_while_it_was_away_stays_away(node: Node) -> None:
     assert node.master.lookup_service("/f") is None
 
 
-def test_calls_at_once_use_up_one_fault_each(server: FaultyServer) -> None:
+def test_simultaneous_calls_take_one_fault_each(server: FaultyServer) -> None:
     """Of eight simultaneous calls, as many fail as there are planned faults."""
     server.plan.extend([Fault(Refuse("busy"))] * 3)
 

@@ -22,7 +22,7 @@ from course_pkg.checking.peers.scripted_server import (
 from course_pkg.ros import MasterClient, PrivateMaster
 from tests.support import eventually
 
-# rospy's client leaves its sockets to the garbage collector.
+# rospy's client does not close its sockets, but the garbage collector does.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 
 
@@ -38,8 +38,8 @@ def ask(name: str, *sides: float) -> tuple[float, float]:
     return response.area, response.volume
 
 
-def test_it_answers_and_keeps_what_it_was_asked(node: Node) -> None:
-    """Rospy's client gets the response, and the request is stored."""
+def test_request_gets_its_response_and_is_stored(node: Node) -> None:
+    """A client of rospy gets the response, and the request is stored."""
     with ScriptedServer(node, "/a", geometry, lambda r: {"area": r.length, "volume": 2.0}) as server:
         rospy.wait_for_service("/a", timeout=2)
         assert ask("/a", 1.5, 2.0, 3.0) == (1.5, 2.0)
@@ -58,7 +58,7 @@ def test_a_persistent_client_stays_connected(node: Node) -> None:
         assert (len(server.requests), len(server.received.headers)) == (3, 1)
 
 
-def test_whoever_stays_connected_is_left(node: Node) -> None:
+def test_idle_connections_are_closed(node: Node) -> None:
     """When the server leaves, idle connections are closed, too."""
     with ScriptedServer(node, "/p", geometry, lambda _: {}):
         proxy = rospy.ServiceProxy("/p", geometry, persistent=True)
@@ -75,7 +75,7 @@ def test_whoever_stays_connected_is_left(node: Node) -> None:
         (HangUp(), "transport error completing service call"),
     ],
 )
-def test_misbehaviour_is_what_rospy_words_it(node: Node, act: Act, text: str) -> None:
+def test_error_messages_are_those_of_rospy(node: Node, act: Act, text: str) -> None:
     """After a refused or an interrupted call, the client gets the same error message as from rospy."""
     with ScriptedServer(node, "/m", geometry, lambda _: act), pytest.raises(rospy.ServiceException) as error:
         ask("/m", 1, 2, 3)
@@ -83,7 +83,7 @@ def test_misbehaviour_is_what_rospy_words_it(node: Node, act: Act, text: str) ->
 
 
 def test_another_definition_is_refused(node: Node) -> None:
-    """The error message contains both MD5 sums, like that of rospy's server."""
+    """The error message contains both MD5 sums, like the message of rospy's server."""
     with (
         ScriptedServer(node, "/d", AddTwoInts, lambda _: {"sum": 1}),
         pytest.raises(rospy.ServiceException, match="md5sums do not match"),
@@ -107,7 +107,7 @@ def test_late_and_silent(node: Node) -> None:
     "take", [lambda node: ScriptedServer(node, "/t", geometry, lambda _: {}), lambda node: Absent(node, "/t")]
 )
 def test_the_former_server_serves_again(node: Node, take: Callable[[Node], ScriptedServer | Absent]) -> None:
-    """The master does not store a former server, but the check does, and registers it again."""
+    """The check stores the former server, because the master does not, and registers it again at the end."""
     former = Node("/student", "http://localhost:2/", node.master)
     node.master.register_service(former.name, "/t", "rosrpc://localhost:3", former.uri)
     with take(node):
@@ -118,7 +118,7 @@ def test_the_former_server_serves_again(node: Node, take: Callable[[Node], Scrip
     node.master.unregister_service("/student", "/t", "rosrpc://localhost:3")
 
 
-def test_a_stale_entry_leads_nowhere(node: Node) -> None:
+def test_stale_registration_has_a_closed_port(node: Node) -> None:
     """The master lists a server, but its port is closed, as after a kill."""
     with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
         ask("/x", 1, 2, 3)

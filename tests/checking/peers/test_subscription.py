@@ -60,7 +60,7 @@ def student(master: PrivateMaster) -> Iterator[Kernel]:
 
 @pytest.fixture
 def check(master: PrivateMaster) -> Iterator[Kernel]:
-    """A process with the check's side of the topics: `subscribe`, `publish` and `broken`."""
+    """A process with the check's functions for topics: `subscribe`, `publish` and `broken`."""
     with Kernel() as kernel:
         kernel.run(CHECK_RUNNER)
         yield kernel
@@ -91,11 +91,11 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
     assert check.run("result = subscription.until(lambda arrivals: len(arrivals) > 3, 0.1)") is False
 
 
-def test_nobody_publishes(check: Kernel, student: Kernel) -> None:
+def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
     """The report contains that the topic has no publisher, and the name of a similar topic."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
-        "nobody who publishes it",
+        "no publisher",
         "Run the cell that publishes it. Do this after each restart of the kernel, too.",
     ]
     student.run("p = rospy.Publisher('/joint_state', UInt32, queue_size=1)")
@@ -104,7 +104,7 @@ def test_nobody_publishes(check: Kernel, student: Kernel) -> None:
 
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
-def test_a_topic_of_another_type_is_heard_of(check: Kernel, student: Kernel, publish: str) -> None:
+def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
     """The wrong type is reported, before and after the first message."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
@@ -114,7 +114,7 @@ def test_a_topic_of_another_type_is_heard_of(check: Kernel, student: Kernel, pub
     assert report[2] == "Whole numbers."
 
 
-def test_a_definition_that_differs_is_told_from_a_type_that_does(check: Kernel, student: Kernel) -> None:
+def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
     """A type with the right name but another definition is reported as such."""
     student.run(
         "from course_pkg.types import message_type\n"
@@ -124,7 +124,7 @@ def test_a_definition_that_differs_is_told_from_a_type_that_does(check: Kernel, 
     assert check.run("result = broken(subscribe('/other'))")[1] == "std_msgs/UInt32 with another definition"
 
 
-def test_a_published_topic_is_heard_from_then_on(check: Kernel, student: Kernel) -> None:
+def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> None:
     """`published` returns after the connection is made, so that the next message is not lost."""
     student.run("p = rospy.Publisher('/late', UInt32, queue_size=10)")
     check.run("subscription = subscribe('/late'); subscription.published()")
@@ -132,8 +132,8 @@ def test_a_published_topic_is_heard_from_then_on(check: Kernel, student: Kernel)
     assert check.run("result = [a.fields['data'] for a in subscription.wait(1)]") == [7]
 
 
-def test_who_comes_late_hears_what_is_latched_and_only_that(check: Kernel, student: Kernel) -> None:
-    """After `leave`, a new subscription receives the latched message again, but not the other one."""
+def test_late_subscription_gets_only_the_latched_message(check: Kernel, student: Kernel) -> None:
+    """A late subscription receives the latched message, but not the other message."""
     student.run(
         "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
         "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
@@ -145,8 +145,8 @@ def test_who_comes_late_hears_what_is_latched_and_only_that(check: Kernel, stude
         assert check.run("kept.leave(); lost.leave(); result = lost.arrivals") == []
 
 
-def test_a_loop_without_its_sleep_is_heard_in_bounded_memory(check: Kernel, student: Kernel) -> None:
-    """Only the first KEPT messages are stored, but all are counted."""
+def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) -> None:
+    """Only the first KEPT messages are stored, but all messages are counted."""
     check.run("import course_pkg.checking.peers.subscription as module; module.KEPT = 5")
     check.run("subscription = subscribe('/flood')")
     student.run("p = rospy.Publisher('/flood', UInt32, queue_size=0); connected(p)")
@@ -158,7 +158,7 @@ def test_a_loop_without_its_sleep_is_heard_in_bounded_memory(check: Kernel, stud
     ]
 
 
-def test_messages_that_are_published_once_wait_for_a_listener(check: Kernel, student: Kernel) -> None:
+def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
     """A late subscriber receives every message; `sent` contains the times of publishing."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
@@ -167,12 +167,12 @@ def test_messages_that_are_published_once_wait_for_a_listener(check: Kernel, stu
     assert student.run("result = [message.data for message in subscription.wait(3)]") == [3, 1, 2]
 
 
-def test_that_nobody_listens_is_told(check: Kernel, student: Kernel) -> None:
+def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     """A subscriber of another type does not count as a subscriber; the hint names the right type."""
     student.run("subscription = node.subscribe('/few', Float64)")
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
-        "nobody",
+        "no subscriber",
         "Make a rospy.Subscriber for it, of type std_msgs/UInt32.",
     ]
     student.run("subscription = node.subscribe('/few', UInt32)")

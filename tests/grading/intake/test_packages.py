@@ -1,4 +1,4 @@
-"""Which packages of a student are examined, and what becomes of all that is handed in instead."""
+"""The packages in submissions: which packages are examined, and the messages about all other files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SEVEN = "07_build_a_package.ipynb"
 
 @pytest.fixture(scope="module")
 def seven() -> bytes:
-    """Chapter 07 as it is handed out."""
+    """The students' notebook of chapter 07."""
     return raw(handed_out("07"))
 
 
@@ -34,8 +34,8 @@ def _package(submission: Submission) -> Package:
     return found
 
 
-def test_a_package_beside_a_notebook(tmp_path: Path, seven: bytes) -> None:
-    """Both are one submission; the package's files are in it, and the programs are executable."""
+def test_package_next_to_a_notebook(tmp_path: Path, seven: bytes) -> None:
+    """A notebook and a package are one submission with the package's files; its programs are executable."""
     folder(tmp_path, {f"s01/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
@@ -47,7 +47,7 @@ def test_a_package_beside_a_notebook(tmp_path: Path, seven: bytes) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path) -> None:
-    """It is a submission for each chapter that asks for one of its files, and for no other chapter."""
+    """The package is a submission for each chapter that needs one of its files, and for no other chapter."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
     assert (found.student, found.chapter, found.content) == ("s01", "07", b"")
@@ -58,21 +58,21 @@ def test_a_package_and_no_notebook(tmp_path: Path) -> None:
     assert _only(empty.parent.parent).chapter == "07"
 
 
-def test_a_notebook_and_no_package(tmp_path: Path, seven: bytes) -> None:
-    """The cells are the answers, as in every other chapter."""
+def test_notebook_without_a_package(tmp_path: Path, seven: bytes) -> None:
+    """Without a package, the cells of the notebook are the answers."""
     assert _only(folder(tmp_path, {f"s01/{SEVEN}": seven})).packages == ()
 
 
 @pytest.mark.parametrize("place", ["workspace/src/my_geometry", "my_geometry-main", "07/my_geometry (2)"])
 def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
-    """It may lie in a workspace, or in a folder that a platform or git has named."""
+    """The package may be in a workspace, or in a folder whose name comes from a platform or from git."""
     write_package(tmp_path, f"s01/{place}", my_geometry())
     found = _only(tmp_path)
     assert (_package(found).name, found.notes) == ("my_geometry", ())
 
 
-def test_a_workspace_with_what_catkin_wrote(tmp_path: Path) -> None:
-    """Folders that catkin_make wrote are neither packages nor a problem."""
+def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
+    """Folders that catkin_make has written are not packages, and they lead to no problem."""
     write_package(tmp_path, "s01/workspace/src/my_geometry", my_geometry())
     for place in ("build/my_geometry/x.make", "devel/setup.bash", "install/share/my_geometry/package.xml"):
         folder(tmp_path, {f"s01/workspace/{place}": b"<name>my_geometry</name>"})
@@ -80,7 +80,7 @@ def test_a_workspace_with_what_catkin_wrote(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part asks for the name in package.xml, the name of the folder counts, and a note says so."""
+    """If no part needs the name in package.xml, the name of the folder is used, with a note."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
@@ -88,8 +88,8 @@ def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
     assert "names the package my_geometri" in found.notes[0]
 
 
-def test_a_package_that_no_part_asks_for(tmp_path: Path) -> None:
-    """It is a problem, which names the packages that parts ask for."""
+def test_package_that_no_part_needs(tmp_path: Path) -> None:
+    """The submission has a problem whose text contains the names of the needed packages."""
     write_package(tmp_path, "s01/robot", {"package.xml": b"<package><name>robot</name></package>"})
     found = _only(tmp_path)
     assert (found.chapter, found.packages) == ("", ())
@@ -97,8 +97,8 @@ def test_a_package_that_no_part_asks_for(tmp_path: Path) -> None:
     assert "my_geometry" in found.problem
 
 
-def test_the_last_of_two_packages_of_one_name_is_taken(tmp_path: Path) -> None:
-    """As of two notebooks; the other one is named."""
+def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
+    """The newest package is used, as with notebooks, and a note names the other package."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))
@@ -108,7 +108,7 @@ def test_the_last_of_two_packages_of_one_name_is_taken(tmp_path: Path) -> None:
 
 
 def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
-    """Nothing that they lead to is read; the rest of the package is examined."""
+    """Links and devices are not read, but the other files of the package are examined."""
     secret = folder(tmp_path / "secret", {"file": b"secret", "folder/file": b"secret"})
     root = tmp_path / "in"
     package = write_package(root, "s01/my_geometry", my_geometry())
@@ -123,7 +123,7 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
-    """The package is not examined, and the reason is given."""
+    """The package is not examined, and the problem contains the reason."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / "package.xml").unlink()
     (package / "package.xml").symlink_to("/etc/passwd")
@@ -141,7 +141,7 @@ def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
     ids=["bytes", "files"],
 )
 def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], words: str) -> None:
-    """It is not examined, and says why; the notebook beside it is."""
+    """The package is not examined, with the reason, but the notebook in the same folder is examined."""
     folder(tmp_path, {f"s01/{SEVEN}": seven, f"s02/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry() | files)
     huge, other = submissions(tmp_path)
@@ -151,7 +151,7 @@ def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], w
 
 
 def test_permissions_that_were_lost(tmp_path: Path) -> None:
-    """If no file is executable, a file with a shebang counts as executable: platforms lose these bits."""
+    """If no file is executable, the bits were lost, and a file with a shebang counts as executable."""
     files = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     executable = {SERVER, "scripts/client.py"}
     for source in (folder(tmp_path / "a", files), zipped(tmp_path / "a.zip", files)):
@@ -162,7 +162,7 @@ def test_permissions_that_were_lost(tmp_path: Path) -> None:
 
 
 def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
-    """Of one student with two packages, or of two students; a member that leads out is left out."""
+    """A zip has packages of one or two students; a path that leads out of the zip is left out."""
     one = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     second = {"s01/service_example/package.xml": b"<name>service_example</name>"}
     source = zipped(tmp_path / "a.zip", {f"s01/{SEVEN}": seven, **one, **second})
@@ -176,14 +176,14 @@ def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
     assert linked.packages == ()
 
 
-def test_a_package_beside_one_notebook(tmp_path: Path, seven: bytes) -> None:
-    """`course grade-one` takes the packages in the notebook's folder, too."""
+def test_grade_one_uses_the_package_next_to_the_notebook(tmp_path: Path, seven: bytes) -> None:
+    """`course grade-one` also uses the packages in the notebook's folder."""
     folder(tmp_path, {f"s01/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     assert _package(submission_of(tmp_path / "s01" / SEVEN)).has([SERVER])
 
 
 def test_a_package_without_a_folder_of_its_own(tmp_path: Path) -> None:
-    """The student's folder is no package: the problem says where to put it."""
+    """A package.xml directly in the student's folder is a problem that says where to put the file."""
     folder(tmp_path, {"s01/package.xml": b"<name>my_geometry</name>"})
     assert "STUDENT/PACKAGE/package.xml" in _only(tmp_path).problem

@@ -60,7 +60,7 @@ submission_12:
 
 
 def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Folders made by hand, Moodle's two layouts, Canvas, Gradescope and nbgrader; each as folder and zip."""
+    """Each layout is read as a folder and as a zip: by hand, Moodle, Canvas, Gradescope and nbgrader."""
     layouts = {
         "hand": (
             {f"s02/{FIVE}": five, f"s01/{FIVE}": five, f"s01/{SIX}": six},
@@ -112,13 +112,13 @@ def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
 
 
 def test_canvas_marks_lateness(tmp_path: Path, five: bytes) -> None:
-    """Canvas marks late submissions without a number of days, which becomes a note."""
+    """Canvas marks a submission as late without a number of days; the submission gets a note."""
     [found] = submissions(folder(tmp_path, {"one_LATE_1_22_" + FIVE: five}))
     assert found.notes == (LATE,)
     assert found.late == 0.0
 
 
-def test_chapters_that_were_not_asked_for_stay_out(tmp_path: Path, five: bytes, six: bytes) -> None:
+def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: bytes) -> None:
     """Only `chapters` are graded; a chapter that does not exist is refused."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, f"s01/{SIX}": six})
     assert _kept(submissions(source, ["06"])) == [("s01", "06")]
@@ -129,14 +129,14 @@ def test_chapters_that_were_not_asked_for_stay_out(tmp_path: Path, five: bytes, 
 @pytest.mark.parametrize(
     "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
 )
-def test_the_cells_tell_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
+def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
     """A renamed notebook belongs to the chapter of its exercises."""
     [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
     assert (found.chapter, found.problem) == ("05", "")
     assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
 
 
-def test_a_notebook_with_no_exercise_left(tmp_path: Path) -> None:
+def test_notebook_without_exercises(tmp_path: Path) -> None:
     """Without exercises, the ids of the other cells identify the chapter."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
@@ -195,7 +195,7 @@ def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
 
 
 def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
-    """The message for chapter 10 of the first edition names the two exercises that went to chapter 10."""
+    """The message about the first edition's chapter 10 names the two exercises that moved."""
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
     assert (
@@ -207,14 +207,14 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """Its exercises belong to this edition, so it is graded."""
+    """The exercises in it belong to this edition, so the notebook is graded."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]
 
 
-def test_the_last_of_two_is_taken(tmp_path: Path, five: bytes) -> None:
-    """The highest number of the platform is used, then the newest file; a note names the other."""
+def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
+    """The file with the platform's highest number, or the newest file, is used; a note names the other."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -229,15 +229,15 @@ def test_the_last_of_two_is_taken(tmp_path: Path, five: bytes) -> None:
     assert "05_b" in found.notes[0]
 
 
-def test_a_broken_one_does_not_hide_a_good_one(tmp_path: Path, five: bytes) -> None:
-    """Of two files for a chapter the readable one is used, even if it is older."""
+def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
+    """If only one of two files for a chapter can be read, this file is used, even if it is older."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
     assert "(2)" in found.notes[0]
 
 
-def test_litter_is_left_alone(tmp_path: Path, five: bytes) -> None:
+def test_files_of_systems_and_editors_are_ignored(tmp_path: Path, five: bytes) -> None:
     """Files that operating systems and editors create are ignored."""
     litter = [
         "__MACOSX/s01/._" + FIVE,
@@ -274,7 +274,7 @@ BAD = {
 
 @pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
 def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
-    """It is a submission for its chapter, with a problem that names the file and the next step."""
+    """An unreadable file becomes a submission, whose problem contains the file and the next step."""
     for source in (
         folder(tmp_path / "a", {f"s01/{FIVE}": content}),
         zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
@@ -295,7 +295,7 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
         (FIVE, "its student is unknown"),
     ],
 )
-def test_what_cannot_be_placed(tmp_path: Path, name: str, words: str) -> None:
+def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:
     """Unknown chapters, other kinds of files, and files without a student are listed."""
     [found] = submissions(folder(tmp_path, {name: b'{"cells": []}'}))
     assert words in found.problem
@@ -303,7 +303,7 @@ def test_what_cannot_be_placed(tmp_path: Path, name: str, words: str) -> None:
 
 
 def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
-    """Problems are listed beside the notebook's own submission, with the file's name."""
+    """All unusable files of a student are one additional submission, whose problem contains their names."""
     others = {f"s01/photo_{number}.png": b"x" for number in range(9)}
     found = submissions(folder(tmp_path, {f"s01/{FIVE}": five, **others}))
     assert [each.chapter for each in found] == ["", "05"]
@@ -327,8 +327,8 @@ def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
     assert not any(each.content for each in found[:2])
 
 
-def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
-    """A special file, such as a pipe, is reported at once."""
+def test_pipe_is_not_opened(tmp_path: Path) -> None:
+    """A pipe is reported immediately and is not opened."""
     (tmp_path / "s01").mkdir()
     os.mkfifo(tmp_path / "s01" / FIVE)
     [found] = submissions(tmp_path)
@@ -351,7 +351,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: p
     "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
 )
 def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
-    """Nothing is written outside, and such members are not graded."""
+    """Members whose paths lead out of the zip are not graded, and no file is written."""
     [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
     assert "leads out" in found.problem
     assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
@@ -367,7 +367,7 @@ def test_a_link_in_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
-    """Neither a zip that states its size nor one that hides it is unpacked; the others are graded."""
+    """A huge member is not unpacked, even if the zip contains a wrong size; other members are graded."""
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
@@ -380,19 +380,15 @@ def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
     assert found.problem
 
 
-def test_all_that_a_zip_unpacks_to_is_bounded(
-    tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """After the limit for the sum, further files are listed and not read."""
+def test_total_size_of_a_zip_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """When the limit for the total size is reached, further files are listed, but not read."""
     monkeypatch.setattr(archive, "ALTOGETHER", len(five) * 5 // 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [bool(each.problem) for each in found] == [False, False, True, True]
 
 
-def test_as_many_members_as_can_be_looked_at(
-    tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Further files are listed."""
+def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first files of a zip are graded, and all further files are one submission with a problem."""
     monkeypatch.setattr(archive, "MEMBERS", 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [(each.student, bool(each.problem)) for each in found] == [
@@ -424,8 +420,8 @@ def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"x" * 1000, None])
-def test_a_source_that_is_none(tmp_path: Path, content: bytes | None) -> None:
-    """There is nothing to grade, and the message names the expected layouts."""
+def test_source_that_is_not_a_folder_or_zip(tmp_path: Path, content: bytes | None) -> None:
+    """If the source is not a folder or a zip, the error message contains the expected layouts."""
     source = tmp_path / "a.zip"
     if content is not None:
         source.write_bytes(content)
@@ -438,13 +434,13 @@ def test_a_source_that_is_none(tmp_path: Path, content: bytes | None) -> None:
     [b"{", b"- 1", b"a: [", b"\xff\xfe\x00", b"a: &x [*x]", b"submission_1: {':submitters': 3}", b""],
 )
 def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content: bytes) -> None:
-    """Without a known layout, the names of the folders identify the students."""
+    """If the metadata are broken, the names of the folders identify the students."""
     files = {"submission_metadata.yml": content, f"submission_1/{FIVE}": five}
     found = submissions(folder(tmp_path, files))
     assert [each.student for each in found if not each.problem] == ["submission_1"]
 
 
-def test_nobody_hands_in_for_another(tmp_path: Path, five: bytes) -> None:
+def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
     """A file's name inside a student's folder cannot make it another student's submission."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
@@ -473,8 +469,8 @@ def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
     assert submissions(tmp_path) == []
 
 
-def test_what_is_not_looked_at_is_not_kept(tmp_path: Path, five: bytes) -> None:
-    """Outputs are not kept in memory; the rebuilt notebook is the same."""
+def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
+    """Outputs are removed from memory, and the rebuilt notebook is the same."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
@@ -496,7 +492,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Each name gets its own record."""
+    """Each student's name gets its own record, in any script."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

@@ -1,4 +1,4 @@
-"""The other cells that an answer needs, found by their names, within limits."""
+"""The cells that an answer needs are found by the names that they define, within limits."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from course_pkg.grading.rebuild.context import needed
 ABOVE = ("import math", "def area(box):\n    return math.prod(box)", "side = 2", "unused = area([1])")
 
 
-def test_what_gives_a_name_comes_along_with_what_it_needs() -> None:
-    """The nearest cell above that defines the name, and the cells that it needs, in the notebook's order."""
+def test_cells_that_define_a_needed_name_are_found() -> None:
+    """The result is the nearest cell that defines the name, and the cells that it needs, in order."""
     assert needed("def double(box):\n    return 2 * area(box)", "", ABOVE) == ABOVE[:2]
 
 
-def test_what_is_given_is_not_brought_again() -> None:
+def test_known_names_need_no_other_cell() -> None:
     """Builtins, the answer's own names, and names of the course's cells need no other cell."""
     assert needed("import math\nprint(math.pi, len([1]))", "", ABOVE) == ()
     assert needed("def f():\n    return side", "side = 3", ABOVE) == ()
@@ -38,8 +38,8 @@ def test_magics_are_read_as_ipython_reads_them() -> None:
     ],
     ids=["many names and long cells", "many magics", "a long ladder", "deep"],
 )
-def test_nonsense_takes_no_time(answer: str, above: list[str]) -> None:
-    """The text is read outside of the sandbox, so the time for it is limited."""
+def test_unusual_sources_take_little_time(answer: str, above: list[str]) -> None:
+    """Each source takes little time, because it is parsed outside of the sandbox within limits."""
     began = time.process_time()
     assert needed(answer, "", above) == ()
-    assert time.process_time() - began < 10.0  # minutes, without the limit
+    assert time.process_time() - began < 10.0  # without the limit, this would take minutes

@@ -36,7 +36,7 @@ def test_the_markers_are_those_of_nbval() -> None:
     ],
 )
 def test_markers_have_no_effect(marker: str, shape: str) -> None:
-    """No marker is left for nbval in the rebuilt answer, in any spelling; a note reports it."""
+    """The rebuilt answer contains no marker of nbval in any spelling, and a note reports the marker."""
     made = defuse(shape.replace("{}", marker))
     assert list(find_comment_markers(made.source)) == []
     assert any(marker in note for note in made.notes)
@@ -51,25 +51,25 @@ BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
 
 @pytest.mark.parametrize("magic", MAGICS)
 @pytest.mark.parametrize("before", BEFORE)
-def test_no_magic_takes_the_cell(magic: str, before: str) -> None:
-    """The rest of the answer is run as Python, even if IPython would have removed text before the magic."""
+def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
+    """The magic is removed and the other lines run as Python, even if ignored text is before the magic."""
     made = defuse(f"{before}{magic}\n{DEF}")
     code = TransformerManager().transform_cell(made.source)
     assert "run_cell_magic" not in code
     names: dict[str, object] = {}
-    exec(code, names)  # noqa: S102 -- it is a test's own
+    exec(code, names)  # noqa: S102 -- it is the test's code
     assert "f" in names
     assert "was removed" in made.notes[0]
 
 
 def test_a_magic_below_a_magic() -> None:
-    """Removing one magic does not enable the next: IPython reads only the first line."""
+    """If the first magic is removed, the next line does not become a cell magic."""
     made = defuse("%%time\n%%script true\n" + DEF)
     assert magic_of(made.source) == ""
 
 
 def test_an_indented_cell_with_a_magic() -> None:
-    """IPython removes the indentation, so this is a magic."""
+    """IPython removes the indentation, so an indented first line with %% is a magic, too."""
     assert "was removed" in defuse("  %%script true\n  x = 1").notes[0]
 
 
@@ -95,8 +95,8 @@ def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> 
     assert len(made.notes) == notes
 
 
-def test_what_is_no_text() -> None:
-    """Null bytes and single surrogates are removed, and line ends become those of Unix."""
+def test_invalid_characters_are_removed() -> None:
+    """Null bytes and single surrogates are removed, and lines end as on Linux."""
     made = defuse("x = 1\x00\r\ny = '\ud800'\rz = 2")
     assert made.source == "x = 1\ny = '?'\nz = 2"
     made.source.encode()

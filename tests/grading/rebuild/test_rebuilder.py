@@ -96,7 +96,7 @@ def _rebuilt(content: bytes) -> Rebuilt:
 
 
 def test_an_answer_is_placed() -> None:
-    """The answer is in the reference, which is otherwise unchanged; unchanged exercises are known."""
+    """The answer is placed into the reference, no other cell changes, and blank exercises are recognised."""
     made = _rebuilt(_student(d=ANSWER))
     assert made.answers["05.1"] == ANSWER
     assert made.untouched == {"05.2", "05.3"}
@@ -105,7 +105,7 @@ def test_an_answer_is_placed() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_every_chapter(path: Path) -> None:
-    """The solution consists of answers only, without a note; in the students' notebook all are unchanged."""
+    """Each exercise of a solution is answered, without a note; in the students' notebook, each is blank."""
     reference = read(path)
     full = rebuild(reference, path.read_bytes())
     blank = rebuild(reference, raw(derived(reference)))
@@ -169,7 +169,7 @@ def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
 
 @pytest.mark.parametrize("kind", ["markdown", "raw"])
 def test_a_cell_of_another_kind(kind: str) -> None:
-    """A text cell of an exercise is taken as code, with a note; a code cell for the exercise is preferred."""
+    """A Markdown cell of an exercise is used as code, with a note, but a code cell is preferred."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(cell_type=kind, source=ANSWER)
@@ -181,15 +181,15 @@ def test_a_cell_of_another_kind(kind: str) -> None:
     assert made.answers["05.1"] == OTHER
 
 
-def test_of_several_answers_the_last_counts() -> None:
-    """A note informs the student."""
+def test_last_of_several_answers_is_used() -> None:
+    """The last of several answers is used, and a note tells the student."""
     made = _rebuilt(_student(lambda cells: _copied(cells, D, OTHER), d=ANSWER))
     assert made.answers["05.1"] == OTHER
     assert made.notes == ("05.1: 2 cells answer it; the last one was used.",)
 
 
-def test_a_copy_that_says_the_same_is_no_matter() -> None:
-    """A cell that was emptied or left blank is not preferred."""
+def test_identical_copy_leads_to_no_note() -> None:
+    """An identical copy leads to no note, and an empty or blank copy is not used."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -218,7 +218,7 @@ def test_a_file_that_was_split() -> None:
     "source",
     ["double(21)", "x = double(1)\nprint(x)", "while True:\n    pass", "%%bash\n  ls", "!ls", "# thoughts"],
 )
-def test_experiments_are_not_taken(source: str) -> None:
+def test_cells_that_the_answer_does_not_need_are_left_out(source: str) -> None:
     """A cell that the answer does not need is left out, without a note."""
     made = _rebuilt(_student(lambda cells: _own(cells, D, source), d=ANSWER))
     assert (made.answers["05.1"], made.notes) == (ANSWER, ())
@@ -226,7 +226,7 @@ def test_experiments_are_not_taken(source: str) -> None:
 
 @pytest.mark.parametrize("shift", [-1, 0, 3])
 def test_a_helper_elsewhere_is_named(shift: int) -> None:
-    """It is left out, and a note names what is missing and where it belongs."""
+    """A helper in another place is left out, and a note names the missing function and the right cell."""
     answer = ANSWER.replace("x + x", "helper(x)")
     made = _rebuilt(
         _student(lambda cells: _own(cells, D, "def helper(x):\n    return x + x", shift=shift), d=answer)
@@ -248,7 +248,7 @@ def test_an_import_in_a_given_cell_is_named() -> None:
     assert "math" not in made.notes[0]
 
 
-def test_what_is_missing_says_why() -> None:
+def test_missing_answer_has_a_reason() -> None:
     """A deleted or emptied cell earns nothing; the blank exercise replaces it."""
 
     def change(cells: Cells) -> None:
@@ -266,12 +266,12 @@ def test_what_is_missing_says_why() -> None:
 
 
 def test_an_answer_of_absurd_length() -> None:
-    """It is not run."""
+    """An answer that is too long is not run."""
     made = _rebuilt(_student(d=ANSWER + "\n#" + "x" * 100_001))
     assert "100000 characters" in made.missing["05.1"]
 
 
-def test_an_answer_may_not_pose_as_another() -> None:
+def test_id_decides_between_different_metadata() -> None:
     """If id and metadata differ, the id decides; an unknown part is ignored."""
 
     def change(cells: Cells) -> None:
@@ -285,7 +285,7 @@ def test_an_answer_may_not_pose_as_another() -> None:
 
 
 def test_tags_and_metadata_of_the_student_stay_out() -> None:
-    """A tag neither skips nor excuses a cell; a note informs the student."""
+    """A tag of the student has no effect on a cell, and a note tells this to the student."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)]["metadata"]["tags"] = ["nbval-skip", "raises-exception", "mine"]
@@ -294,15 +294,15 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
     assert made.notes == ("05.1: The tag nbval-skip, raises-exception on its cell has no effect in grading.",)
 
 
-def test_what_would_change_the_run_is_defused() -> None:
+def test_markers_and_magics_are_removed() -> None:
     """Markers and magics are removed, with one note each."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2
 
 
-def test_checks_and_given_cells_are_the_references() -> None:
-    """A student cannot change them."""
+def test_checks_and_given_cells_do_not_change() -> None:
+    """Changes of the checks and of the given cells are ignored."""
 
     def change(cells: Cells) -> None:
         for cell in cells:
@@ -316,7 +316,7 @@ def test_checks_and_given_cells_are_the_references() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """Nothing is earned, each part has a reason, and the run contains no solution."""
+    """Each part gets no points, with a reason, and the rebuilt notebook contains no solution."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}
@@ -344,7 +344,7 @@ def test_cells_that_are_none(cell: object) -> None:
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_an_old_format(version: int) -> None:
-    """Notebooks of old formats keep their cells in worksheets."""
+    """Notebooks of old formats, with their cells in worksheets, can be read."""
     notebook = nbformat.from_dict(json.loads(_student(d=ANSWER, c=COUNTER, w=WRITES)))
     old = nbformat.convert(notebook, version)
     made = _rebuilt(json.dumps(old).encode())
@@ -369,7 +369,7 @@ MANY = {
 
 @pytest.mark.parametrize("made_of", MANY.values(), ids=MANY)
 def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
-    """Each cell is read a limited number of times."""
+    """A notebook with many cells is rebuilt in a short time, because each cell is read only a few times."""
 
     def change(cells: Cells) -> None:
         place = _place(cells, D) + 1
@@ -393,12 +393,12 @@ def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
     ],
 )
 def test_sources_built_to_take_long(source: str) -> None:
-    """Long lines are read once, without a parser."""
+    """Sources with long lines are read in a short time, because no parser reads them."""
     _rebuilt(_student(lambda cells: _own(cells, D, source), d=source, c=source, w=source))
 
 
 def test_nbval_runs_it(tmp_path: Path) -> None:
-    """The output of an exercise's cell is not compared; outputs of other cells are."""
+    """The output of an exercise's cell is not compared, but all other outputs are compared."""
     done = {"output_type": "execute_result", "execution_count": 2, "metadata": {}}
     reference = book(
         exercise("05.1", source="def double(x):\n    return 2 * x"),

@@ -11,8 +11,8 @@ from course_pkg.ros.protocol.json_channel import Json
 NOT_RECEIVED = [
     (
         matches("^ROSException.*timeout|^TimesUp"),
-        "No message arrived, although 33 numbers per second are published. Receive from the "
-        "topic whose name is in `topic`, with the type UInt32.",
+        "No message arrived, although 33 numbers per second are published. Receive messages of the type "
+        "UInt32 from the topic whose name is in `topic`.",
     )
 ]
 
@@ -97,7 +97,7 @@ def read_the_graph(context: CheckContext) -> None:
     needs=["ask_for_volume"],
 )
 def ask_a_question(context: CheckContext) -> None:
-    """Respond with random volumes, so that only a call returns the right one."""
+    """Offer a service that responds with random volumes; only a call returns the right volume."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
@@ -172,7 +172,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     deadline=25.0,
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Publish consecutive numbers on a new topic, twice, with a different pause each time."""
+    """Run the function twice, each time with consecutive numbers on a new topic and with another pause."""
     for _ in range(2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)

@@ -19,7 +19,7 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     deadline=25.0,
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve in three namespaces beside services with similar names; then name a missing service."""
+    """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
@@ -140,7 +140,7 @@ _NOBODY = [
     deadline=25.0,
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register running and killed publishers of two topics; then name topics without a running publisher."""
+    """Register running and killed publishers of two topics; then pass topics without a running publisher."""
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
     living, dead = names[:3], names[3:5]

@@ -97,7 +97,7 @@ def _words(command: Json) -> list[str]:
 
 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
-    """Assert that the room's node serves the room's service; `before` has the addresses of older ones."""
+    """Assert that the room's node serves the room's service; `before` contains the older addresses."""
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
     new: list[ServiceSeen] = []
@@ -105,7 +105,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        new = new or others  # a server that was found may be too busy to answer a later probe
+        new = new or others  # keep the first result: a busy server may not answer a later request
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
@@ -129,7 +129,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
 
 
 def _astray(room: str, found: str) -> str:
-    """Return the hint for the service `found`, which should be `measure` in the namespace of the room."""
+    """Return the hint for the wrong service `found`; its name should be ROOM/measure."""
     if found == "/measure":
         return (
             "The service is /measure for every room. Set the namespace of the node, and write "
@@ -211,7 +211,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Return the new node that subscribes to a topic ("" if there is none in time), and the final graph."""
+    """Return the new node that subscribes to a topic, or "" if none appears, and the last snapshot."""
     deadline = time.monotonic() + START
     while True:
         seen = context.look()

@@ -9,10 +9,11 @@ from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 WAITS_FOR_EVER = (
     "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
 )
-NO_WAIT, EARLIEST = 1.7, 2.6  # s for a count without a subscriber; its numbers take 1 s
+# Times in s for a count without a subscriber, which waits 2 s and then publishes for 1 s.
+NO_WAIT, EARLIEST = 1.7, 2.6
 NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # s for a message to arrive on a busy machine
-AT_ONCE = 0.3  # s for the fastest of several calls
+AT_ONCE = 0.3  # s that the fastest of several calls may take
 TOO_SOON = (
     "A subscriber that connects within 2 s would miss the 0. If there is no subscriber, wait for "
     "the full 2 s."
@@ -56,7 +57,9 @@ def count_aloud(context: CheckContext) -> None:
         counted.returned()
         arrivals = subscription.wait(count + 1, within=0.5)
         subscription.published(
-            hints=[(matches("nobody"), "Create a rospy.Publisher for the topic that the function gets.")],
+            hints=[
+                (matches("no publisher"), "Create a rospy.Publisher for the topic that the function gets.")
+            ],
             within=0.5,
         )
         _counts(context, arrivals, count)
@@ -64,8 +67,8 @@ def count_aloud(context: CheckContext) -> None:
         context.require(
             "it begins as soon as a subscriber is connected",
             holds=counted.took < count / hertz + 1.2,
-            expected="no pause before the first number, because a subscriber was connected",
-            actual=f"the end after {counted.took:.1f} s",
+            expected="a count that begins without a pause, because a subscriber is connected",
+            actual=f"a count that ended after {counted.took:.1f} s",
             hints=(
                 "Check every few milliseconds whether a subscriber is connected, and begin as soon "
                 "as there is one."
@@ -86,8 +89,8 @@ def count_aloud(context: CheckContext) -> None:
     context.require(
         "without a subscriber it begins after 2 s",
         holds=EARLIEST < alone.took < 5.0,
-        expected="ten numbers at 10 per second after 2 s, so the end after about 3 s",
-        actual=f"the end after {alone.took:.1f} s",
+        expected="a wait of 2 s, then ten numbers at 10 per second; together about 3 s",
+        actual=f"a count that ended after {alone.took:.1f} s",
         hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
     )
 
@@ -157,7 +160,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
         "the numbers are evenly spaced",
         holds=gaps[len(gaps) // 2] > 0.5 / hertz,
         expected=f"gaps of about {1000 / hertz:.0f} ms",
-        actual=f"half of the gaps below {1000 * gaps[len(gaps) // 2]:.0f} ms",
+        actual=f"half of the gaps shorter than {1000 * gaps[len(gaps) // 2]:.0f} ms",
         hints="The numbers arrive in groups. Pause after each single number.",
     )
 
@@ -170,7 +173,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     deadline=30.0,
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late one; the first value may be 0."""
+    """Set values without a subscriber, with a subscriber, and before a late one. The first may be 0."""
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
@@ -197,9 +200,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(
-        3, within=SOON
-    )  # if the next value came too soon, it would replace this one in a short queue
+    subscriber.wait(3, within=SOON)  # wait, because in a short queue the next value would replace this one
     _set(context, topic, second)
     _receives(
         context,
@@ -223,12 +224,12 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
     """Subscribe to `topic`; rospy sends a latched message to each new connection."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the topic that Notice() gets, and do not unregister it."
-    subscription.published(hints=[(matches("nobody"), hint)])
+    subscription.published(hints=[(matches("no publisher"), hint)])
     return subscription
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Wait for the values; in the next 0.3 s, no other message may arrive."""
+    """Assert that the values arrive, and that no other message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -63,7 +63,7 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """Takes `pause` s for each value; records when each call begins, and how many run at the same time."""
+    """A callable that takes `pause` s; it records when each call begins, and how many calls run at once."""
 
     def __init__(self, pause: float) -> None:
         self.done: list[tuple[float, Value]] = []
@@ -74,7 +74,7 @@ class Work:
 
     @remote
     def __call__(self, value: Value) -> None:
-        """Work."""
+        """Record the call, and sleep."""
         with self._lock:
             self._busy += 1
             self.at_once = max(self.at_once, self._busy)
@@ -101,7 +101,7 @@ def a_mirror(context: CheckContext) -> None:
         subscription.published(
             hints=[
                 (
-                    matches("nobody"),
+                    matches("no publisher"),
                     "The target has no publisher when start_mirror() has returned. Create the "
                     "publisher in start_mirror(), not in the callback; otherwise the first "
                     "messages are lost.",
@@ -161,7 +161,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext) -> list[float]:
-    """Return four random numbers for which each mistake with signs leads to a different result."""
+    """Return positive and negative random numbers, so that each mistake with signs changes the result."""
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
     )
@@ -171,7 +171,7 @@ def _of_both_signs(context: CheckContext) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns subscribers of `topics`; unregister them after the block."""
+    """Call the student's function, which returns subscribers of `topics`; unregister them at the end."""
     context.prepare(KEEPER)
     try:
         started = context.run(
@@ -292,8 +292,8 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     context.require(
         "each message is mirrored without delay",
         holds=statistics.median(delays) < 0.15,
-        expected="the mirrored message a few milliseconds after the original",
-        actual=f"half of the messages later than {statistics.median(delays):.2f} s",
+        expected="a mirrored message a few milliseconds after the original",
+        actual=f"half of the mirrored messages with a delay of more than {statistics.median(delays):.2f} s",
         hints="The messages are late. Publish in the callback, and don't wait in it.",
     )
 
@@ -333,7 +333,7 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each angle in `drawn` (time, angle) was the newest; `sent` maps each angle to its time."""
+    """Assert that each angle in `drawn` (time, angle) was the newest; `sent` has the time of each angle."""
     angles = [angle for _, angle in drawn]
     context.require(
         "draw is called with angles of the topic",

@@ -30,7 +30,7 @@ def end():
 """
 WORDS = ("waiting", "running", "ended")
 LIMIT = 1.0  # s without a message
-AT_ONCE = 0.4  # s for the fastest of several answers
+AT_ONCE = 0.4  # s that the fastest of several calls may take
 
 
 @part(
@@ -41,7 +41,7 @@ AT_ONCE = 0.4  # s for the fastest of several answers
     deadline=40.0,
 )
 def watch_a_stream(context: CheckContext) -> None:
-    """Call state() of one watch before, during and after a stream; call another watch only late."""
+    """Call state() of one watch before, during and after a stream, and of another only during a stream."""
     topic, unasked = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(KEEPER)
     try:
@@ -59,7 +59,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # by then, the watch has received messages
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # after this wait, the watch has received messages
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)
@@ -118,10 +118,10 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Assert that state() returns `word` in each of `times` calls; after the time `before` it may differ.
+    """Assert that state() returns `word` in each of `times` calls that end before the time `before`.
 
-    The calls are `pause` s apart. The fastest call shows whether state() waits: if state() waits, it does so
-    in each call, but a busy machine does not slow down each call.
+    The calls are `pause` s apart. The fastest call shows whether state() waits: a wait in state() slows down
+    each call, but a busy machine slows down only some calls.
     """
     took = []
     for _ in range(times):
@@ -141,7 +141,7 @@ def _says(
     context.require(
         "state() returns immediately",
         holds=times == 1 or min(took) < AT_ONCE,
-        expected="a result without a wait",
+        expected="an immediate result",
         actual=f"a result after {min(took):.1f} s",
         hints=(
             "Don't wait for a message in state(). In the callback, store the time at which a message arrives."

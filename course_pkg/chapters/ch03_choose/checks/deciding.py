@@ -1,4 +1,4 @@
-"""03.4: which design fits which job, and why."""
+"""03.4: choose the design that fits each job, and give a reason."""
 
 from __future__ import annotations
 

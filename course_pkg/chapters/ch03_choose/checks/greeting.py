@@ -38,7 +38,7 @@ def begin(start, *topics):
 def end():
     if ear.say:
         ear.names["say_good_day"] = ear.say
-"""  # reports the calls: two calls at the same time may not be visible on the topic
+"""  # reports the calls, because the topic may not show that two calls run at the same time
 MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
 TOO_LATE = (
     "There is no publisher before the first customer comes, so the first greeting is lost. "
@@ -54,7 +54,7 @@ class Greetings:
     """Records the calls of say_good_day(), and how many ran at the same time."""
 
     def __init__(self) -> None:
-        self.said: list[Value] = []  # what it was called with: a number, or the name of another type
+        self.said: list[Value] = []  # the argument of each call: a number, or the name of another type
         self.at_once = 0
         self._busy = 0
         self._lock = threading.Lock()
@@ -82,7 +82,7 @@ class Greetings:
     deadline=30.0,
 )
 def greet_everyone(context: CheckContext) -> None:
-    """Announce five customers quickly, two of them twice; after a pause, two new ones and an earlier one."""
+    """Announce five customers quickly, two of them twice; after a pause, two new ones and an old one."""
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
     subscription = context.subscribe(greetings, NUMBER)
@@ -104,20 +104,21 @@ def _greets(
     numbers: list[int],
 ) -> None:
     if numbers[2] > max(numbers[:2]):
-        # The last message of _told() is numbers[2]: a queue of one keeps it, and a node that remembers
-        # only the largest number leaves it out. Exactly one of the two hints fits then.
+        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 keeps this
+        # message. A node that remembers only the largest number ignores it, because an earlier number is
+        # larger. So exactly one of the two hints fits.
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"
     context.run("begin", start, customers, greetings, hints=_NO_RETURN, worded=call).returned()
     mixed_up = any(topic.name == customers and topic.publishers for topic in context.look().topics)
-    subscription.published(hints=[(matches("nobody"), MIXED_UP if mixed_up else TOO_LATE)])
+    subscription.published(hints=[(matches("no publisher"), MIXED_UP if mixed_up else TOO_LATE)])
     sent = _told(context, customers, [*first[:2], first[0], *first[2:], first[2]])
     _greeted(context, said, subscription, first)
     context.require(
         "the number is published after the greeting",
         holds=subscription.arrivals[0].at - sent > 0.75 * GREETING,
-        expected=f"a message about {GREETING:g} s after the customer, as long as say_good_day() takes",
+        expected=f"a message about {GREETING:g} s after the customer, because say_good_day() takes that time",
         actual="an earlier message",
         hints="The number was published before the greeting had ended. Call say_good_day(number) first.",
     )
@@ -127,13 +128,13 @@ def _greets(
 
 
 def _starts_again(context: CheckContext, number: int) -> None:
-    """Call start_greeting() again, with other topics: this call must not know the customers of the first."""
+    """Call start_greeting() again with other topics; it must not know the customers of the first call."""
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(greetings, NUMBER)
     context.run(
         "begin", Its("start_greeting"), customers, greetings, worded="start_greeting()", hints=_NO_RETURN
     ).returned()
-    subscription.published(hints=[(matches("nobody"), TOO_LATE)])
+    subscription.published(hints=[(matches("no publisher"), TOO_LATE)])
     _told(context, customers, [number])
     subscription.wait(1, within=8.0)
     context.require(
@@ -169,9 +170,9 @@ def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
 def _greeted(
     context: CheckContext, greetings: Greetings, subscription: Subscription, numbers: list[int]
 ) -> None:
-    """Assert that all of `numbers` have been greeted by now, once and in order."""
+    """Assert that all customers in `numbers` have been greeted, once and in order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    subscription.during(2 * GREETING + 0.2)  # a second greeting of the same customer would come in this time
+    subscription.during(2 * GREETING + 0.2)  # a wrong second greeting would arrive in this time
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]
     context.require(

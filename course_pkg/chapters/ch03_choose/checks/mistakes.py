@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The notebook describes the cases; these are the mistakes.
+# The notebook describes the cases; this dict contains their mistakes.
 RIGHT = {
     "A": "polls too rarely",
     "B": "polls too often",

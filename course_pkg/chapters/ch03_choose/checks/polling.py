@@ -52,7 +52,7 @@ class Counter:
     deadline=30.0,
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
-    """Try a customer who is there, one who arrives later, and no customer with a fast and a slow detector."""
+    """Try a present and a late customer; then try no customer, with a fast and with a slow detector."""
     _one_who_is_there(context)
     _one_who_comes(context)
     _nobody(context)

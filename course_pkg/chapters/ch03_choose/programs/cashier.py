@@ -1,9 +1,9 @@
 """The node `cashier`: greets every customer once, with one of three designs.
 
-`~design` is `poll` (call `detect_customer` `~rate` times per second, and again after each new customer),
-`topic` (subscribe to `customers`), or `wait` (call `detect_customer`, which answers within `~patience` s). It
-publishes the number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
-(course_pkg/CashierReport).
+The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
+times per second, and again after each new customer. With `topic`, it subscribes to `customers`. With `wait`,
+it calls `detect_customer`, which responds within `~patience` s. The node publishes the number of each greeted
+customer on `greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
-KEPT = 10_000  # times that the report contains at most
+KEPT = 10_000  # largest number of times in the report
 GRACE = 2.0  # s that a call may take longer than `~patience`
 AGAIN = 0.5  # s between a failed call and the next call
-CONNECTED = 5.0  # s to wait for a publisher; then the report is served in any case
+CONNECTED = 5.0  # s that the cashier waits for a publisher before it serves the report
 
 
 class Cashier:
@@ -72,7 +72,7 @@ class Cashier:
                     pass
                 rest = pause
             except (rospy.ServiceException, CourseError) as error:
-                if rospy.is_shutdown():  # the shutdown has cancelled the call
+                if rospy.is_shutdown():  # the call failed because the shutdown cancelled it
                     return
                 rospy.logwarn_throttle(10, f"No answer, so the next call follows soon: {error}")
                 rest = max(pause, AGAIN)
@@ -80,7 +80,7 @@ class Cashier:
             rospy.sleep(due - time.monotonic())
 
     def offer_report(self) -> None:
-        """Serve the report, which shows that the cashier is ready."""
+        """Serve the report; the existence of this service shows that the cashier is ready."""
         with undisturbed():
             rospy.Service("~report", CashierReport, self.handle_report)
 
@@ -121,7 +121,8 @@ def main() -> None:
         elif design == "poll":
             cashier.run_client(patience=0.0, pause=1 / rate)
         else:
-            # A response without a customer comes after `patience` s, so there is no other pause.
+            # The server waits up to `patience` s before it responds without a customer, so this client needs
+            # no pause.
             cashier.run_client(patience=patience, pause=patience)
     except rospy.ROSInterruptException:  # the node was shut down while it slept
         return

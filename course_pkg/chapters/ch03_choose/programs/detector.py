@@ -1,7 +1,8 @@
 """The node `detector`: detects new customers in the messages of `counter`, where a camera publishes.
 
-It publishes the number of each customer once on `customers` (std_msgs/UInt32), and serves `detect_customer`
-(course_pkg/DetectCustomer), which waits for a customer, but never longer than the request allows.
+The node publishes the number of each customer once on `customers` (std_msgs/UInt32). It serves
+`detect_customer` (course_pkg/DetectCustomer): a call waits for a customer, but never longer than the request
+allows.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from course_pkg.shop.watch import Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerRequest, DetectCustomerResponse
 
 LONGEST = 60.0  # s that a caller may wait
-SILENCE = 2.0  # s without a message; then the camera is regarded as stopped
+SILENCE = 2.0  # s without a message after which the camera counts as stopped
 CALLERS = 64  # callers at the same time; each caller occupies a thread
 
 
@@ -42,9 +43,10 @@ class Detector:
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
-        """Return the first customer after `after` as soon as there is one; none after `patience` s.
+        """Return the first customer whose number is above `after`, or no customer after `patience` s.
 
-        Raises ServiceException for an impossible patience, too many callers, and a silent camera.
+        Raises ServiceException if `patience` is impossible, if too many callers wait, or if the camera is
+        silent.
         """
         if not 0.0 <= request.patience <= LONGEST:  # this is false for a NaN
             message = f"a wait of {request.patience:g} s is not possible"

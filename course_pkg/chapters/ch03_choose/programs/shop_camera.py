@@ -1,8 +1,8 @@
 """The node `shop_camera`: a shop with a counter, and the camera above it.
 
 It publishes on `counter` (std_msgs/UInt32MultiArray) the numbers of the present customers, at each change and
-ten times per second, and serves `let_in` (course_pkg/LetIn). If `~every` is above 0, other
-customers come, too: on average, one in `~every` s.
+ten times per second, and serves `let_in` (course_pkg/LetIn). If `~every` is above 0, random customers come,
+too: on average, one customer every `~every` s.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from course_pkg.shop.counter import Counter, Visit
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
 PERIOD = 0.1  # s between two messages if nothing changes
-STAY = 4.0  # s for which these other customers stay
+STAY = 4.0  # s for which a random customer stays
 
 
 class ShopCamera:
@@ -59,8 +59,9 @@ class ShopCamera:
         with self._changed:
             visits = self._counter.let_in(time.time(), after, stay)
             self._changed.notify()
-        # A client waits for a number above the last one that it received. So after a restart of this node,
-        # the numbers have to continue. Without a master, the parameter cannot be set: they restart at 1.
+        # A client waits for a number that is higher than the last number that it received. So the numbers
+        # have to continue after a restart of this node. If there is no master, the parameter cannot be
+        # stored, and the numbers start again from 1.
         with suppress(OSError, rospy.ROSException):
             rospy.set_param("~number", self._counter.number)
         return visits

@@ -1,4 +1,4 @@
-"""Compatible definitions: compare the results of the function with MD5 sums of random definitions."""
+"""Compatible definitions: compare the results of the function with the MD5 sums of random definitions."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return the fault as a fault in the examined file: the check's own files are correct."""
+    """Return the fault as a fault in the student's file, because the check's own files are correct."""
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):
         fault = replace(fault, remedy=RUNTIME)
@@ -117,7 +117,7 @@ def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) ->
 def _fails_to_build(context: CheckContext, fault: Fault) -> None:
     context.fail(
         "catkin_make builds the package",
-        expected="a build that passes",
+        expected="a successful build",
         actual=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
         hint=fault.remedy,
     )

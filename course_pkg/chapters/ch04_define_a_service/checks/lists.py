@@ -53,14 +53,14 @@ def the_list_file(context: CheckContext) -> None:
         holds=folder.command("test", "-f", CONFIGURATION).status == 0,
         expected="a file that catkin_package writes for other packages",
         actual="no such file",
-        hints=_about(text, "catkin_package", "With it, other packages can find this package."),
+        hints=_about(text, "catkin_package", "It lets other packages find this package."),
     )
 
 
 def _why_no_type(text: str) -> str:
     for name in ("generate_messages", "add_service_files"):
         if not any(each.name == name and not each.is_comment for each in cmake_commands(text)):
-            return _about(text, name, "Without it, the build passes, but it generates no type.")
+            return _about(text, name, "Without this command, the build passes but generates no type.")
     return (
         "add_service_files and generate_messages are in the file, but they generated nothing. "
         "Does CMake execute them? Text between #[[ and ]] is a comment, and the lines between "

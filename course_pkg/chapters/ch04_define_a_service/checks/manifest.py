@@ -60,7 +60,7 @@ def _hint(text: str, package: str, tag: str) -> str:
         )
     if package == "rospy":
         return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."
-    return "message_generation makes classes from a .srv file, and these classes need message_runtime."
+    return "message_generation generates classes from a .srv file, and these classes need message_runtime."
 
 
 def _an(tag: str) -> str:

@@ -103,7 +103,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
 
 
 def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
-    """Wait until the program serves `name`; if it does not, report what it does instead."""
+    """Wait until the program serves `name`; otherwise report what happened instead."""
     deadline = time.monotonic() + STARTING
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -144,7 +144,7 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
 
 
 def _own_line(printed: str) -> str:
-    """Return in which line of the student's script the error occurred; "" if it was in no such line."""
+    """Return a sentence that names the wrong line of the student's script, or "" if it is not known."""
     numbers = re.findall(rf'{re.escape(NAME)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {NAME}." if numbers else ""
 

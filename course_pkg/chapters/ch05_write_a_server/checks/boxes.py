@@ -10,7 +10,8 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.geometry import expect_geometry
 
 SIDES = ("length", "width", "height")
-OWN_TEXT = "cannot process request: (?!(service )?handler returned)"  # otherwise rospy wrote the message
+# Matches an error message of the student's handler, but not a message that rospy wrote itself.
+OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 
 
 @part(

@@ -16,7 +16,7 @@ FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other 
     needs=["read_sides"],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments without and with arguments for ROS; then too few, too many, and words."""
+    """Try valid arguments without and with arguments for ROS; then too few, too many, and a word."""
     name_first = (
         "The first item of the list is the name of the program. The sides begin with the second item."
     )

@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
     needs=["measure"],
 )
 def the_geometry_client(context: CheckContext) -> None:
-    """Respond with random numbers, so that only a call returns the right ones."""
+    """Respond with random numbers, so that only a call returns the right numbers."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)

@@ -43,8 +43,8 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
     if result.returned() != "interrupted":
         context.fail(
             f"an interrupt ends {function}()",
-            expected="an end, as after you press the Stop button",
-            actual="it caught the KeyboardInterrupt, and continued",
+            expected="the function ends, as it does after you press the Stop button",
+            actual="the function caught the KeyboardInterrupt, and continued",
             hint=f"A bare except: catches the KeyboardInterrupt, too. Catch only what you expect: {catch}.",
         )
 

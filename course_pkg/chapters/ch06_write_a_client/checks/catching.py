@@ -21,7 +21,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # each use of such an object raises the error that a name of a wrong type causes
+"""  # each use of this object raises the same error as a name of a wrong type
 
 DEPENDS = "The result must depend on the response of this call, not on earlier calls."
 
@@ -155,7 +155,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return for each case how the call fails, the name of the service, and the server if there is one."""
+    """Return for each case the kind of failure, the name of the service, and the server or None."""
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))
     dies = context.serve(dying, GEOMETRY, lambda _: HangUp())

@@ -16,7 +16,7 @@ from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
 RUNS = 9.0  # s for all runs, which are started at the same time; the program waits 2 s at most
-LATE = 0.5  # s between the first snapshot with the node and the start of its service
+LATE = 0.5  # s between the first snapshot that contains the node and the start of the service
 POLL = 0.2  # s between two tests whether the runs have ended
 IMPORT = "import sys; sys.argv = ['fits.py']; import fits"
 USAGE = "usage"
@@ -35,12 +35,12 @@ class Case:
 
     title: str  # its name in assertions
     arguments: list[str]
-    script: Script | None  # what the service responds; None: there is no service
+    script: Script | None  # the responses of the service; None means that there is no service
     status: int
     prints: str  # a part of its output, in small letters
     calls: int = 1
     hint: str = ""  # for a wrong exit status
-    remapped: bool = False  # True: getGeometry is remapped; False: the program runs in another namespace
+    remapped: bool = False  # whether getGeometry is remapped; otherwise the program runs in another namespace
     late: bool = False  # the service starts after the program
 
 
@@ -56,7 +56,7 @@ class Case:
     start=START,
 )
 def does_it_fit(context: CheckContext) -> None:
-    """Run the program for all cases at the same time, each in a namespace of its own."""
+    """Run the program for all cases at the same time; each case has its own namespace."""
     require_shebang(
         context,
         FILE,
@@ -167,7 +167,8 @@ class Started:
         self._context = context
         self._service = f"{namespace}/getGeometry"
         self._node = f"{namespace}/{namespace.replace('/', '')}"
-        self._seen: float | None = None  # for a late service: when the node of the program was first seen
+        # For a late service: the time at which the node of the program was first on the graph.
+        self._seen: float | None = None
         self.server = self._serve() if case.script and not case.late else None
         named = f"getGeometry:={self._service}" if case.remapped else f"__ns:={namespace}"
         argv = (FILE, *case.arguments, named, f"__name:={namespace.replace('/', '')}")

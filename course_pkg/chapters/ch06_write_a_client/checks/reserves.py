@@ -109,7 +109,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     context.require(
         "a frozen service delays the result by about one second",
         holds=frozen.took - working.took
-        < 1.75,  # a function may wait for a whole second for each of the two services
+        < 1.75,  # a right function may wait for one second for each of the two services
         expected="at most 1 s for the frozen service",
         actual=f"a result after {frozen.took:.1f} s",
         hints="The function waits too long for one service. The time limit is one second for each service.",
@@ -122,8 +122,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints=[
             (
                 tardy,
-                "The first service responded after 1.3 s, and your function used this response "
-                "as that of the second service. Wait for 1 s, and use a new list for each call.",
+                "The first service responded after 1.3 s, and your function used it as the response of "
+                "the second service. Wait for 1 s, and use a new list for each call.",
             )
         ],
     )

@@ -44,7 +44,7 @@ def is_anybody_there(context: CheckContext) -> None:
         "no wait for a service that is there",
         holds=there.took < 1.0,
         expected="an immediate result",
-        actual=f"an answer after {there.took:.1f} s",
+        actual=f"a result after {there.took:.1f} s",
         hints=(
             "The function waits although the service is there. wait_for_service returns as soon as "
             "the service is there."
@@ -118,7 +118,7 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function with a limit of 0.5 s, in which rospy tries twice; 1.4 s is too long."""
+    """Call the function with a limit of 0.5 s, in which rospy tries twice; a result after 1.4 s is late."""
     too_long = "The function waited longer than `seconds`. Call wait_for_service once, with this timeout."
     missing = context.run(
         "is_there",
@@ -145,7 +145,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
     context.require(
         "it waits no longer than `seconds`",
         holds=missing.took < 1.4,
-        expected="an answer after 0.5 s or little more",
-        actual=f"an answer after {missing.took:.1f} s",
+        expected="a result after 0.5 s or a little more",
+        actual=f"a result after {missing.took:.1f} s",
         hints=too_long,
     )

@@ -114,7 +114,7 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
         actual="no message_runtime",
         hints="In catkin_package, write CATKIN_DEPENDS and the packages that are needed to run."
         if _has(text, "catkin_package")
-        else "Without catkin_package, other packages cannot find this one.",
+        else "Without catkin_package, other packages cannot find this package.",
     )
 
 

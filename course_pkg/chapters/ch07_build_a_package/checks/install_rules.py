@@ -1,4 +1,4 @@
-"""07.6: the install rules; the check runs the installed files after it has hidden src."""
+"""07.6: the install rules; the check hides the folder src, and then runs the installed files."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ START = f"""%%writefile {FILE}
     start=START,
 )
 def the_manifest(context: CheckContext) -> None:
-    """Compare the dependencies, build the package, and compare the texts that a build does not use."""
+    """Compare the dependencies, build the package, and read the texts that do not affect the build."""
     text = context.source(f"file:{FILE}")
     for purpose, tag, packages in NEEDS:
         named = dependencies(text, purpose)

@@ -27,7 +27,8 @@ CLIENT = Program("scripts/on_off_client.py")
 SERVER_FILE = SERVICE_EXAMPLE_PACKAGE.path(SERVER.file)
 CLIENT_FILE = SERVICE_EXAMPLE_PACKAGE.path(CLIENT.file)
 WITHIN = 12.0  # s for a run of the client
-CALLS = 24  # calls of a client: with fewer calls, a right client might send only one of the two numbers
+# Calls of a client: with fewer calls, a right client could by chance send the same number each time.
+CALLS = 24
 
 SERVER_START = f"""%%writefile {SERVER_FILE}
 ..."""

@@ -1,4 +1,4 @@
-"""The two packages of chapter 07, with the check's own files in place of files that are not written yet."""
+"""The two packages of chapter 07; the check adds its own version of each file that is not written yet."""
 
 from __future__ import annotations
 

@@ -16,11 +16,12 @@ from course_pkg.workspace import explain
 
 STARTING = 15.0  # s for a program to serve; it takes 1 s on an idle machine, and 3 s on a busy one
 IMPORTING = 15.0  # s for an import; it takes 0.4 s of processor time
-MUCH = 6.0  # s of processor time; an import that needs more never ends
+MUCH = 6.0  # s of processor time; an import that needs more is in an endless loop
 POLL = 0.1  # s between two snapshots of the graph
 LOGGERS = ("/get_loggers", "/set_logger_level")  # each rospy node has these services
 
-# Imports the script as a module. Each call that belongs to a running node ends the import with a message.
+# This code imports the script as a module. Each call that only a running node needs ends the import with a
+# message.
 IMPORTS = """\
 import importlib.util, sys, rospy
 def began(*args, **kwargs):
@@ -103,7 +104,7 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
     context.require(
         "an import of the script starts no node",
         holds=done.status == 0,
-        expected="definitions only",
+        expected="a script that only defines functions and classes",
         actual="a script that starts its work" if began else printed.strip().rpartition("\n")[2],
         hints=(
             "An import of the script starts the node. Move init_node and all lines after it below "
@@ -115,9 +116,9 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 
 
 def _never_ends(done: Finished) -> bool:
-    """Return whether an import that reached its time limit waits for something, or never ends its work.
+    """Return whether an import that reached its time limit would never end, because it waits or loops.
 
-    An import that is only slow, on a busy machine, waits for a processor most of the time.
+    A slow import on a busy machine is different: most of the time, it waits for a processor.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 
@@ -125,7 +126,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the program serves `name` as the node `node`, or report what it does instead."""
+    """Wait until the program serves `name` as the node `node`; otherwise report what happened instead."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:
@@ -164,7 +165,7 @@ def _seen(program: Program, status: int | None, printed: str) -> str:
 def why_not(
     package: BuiltPackage, program: Program, status: int | None, printed: str, others: list[str]
 ) -> str:
-    """Return the hint for a program that ended, or does not serve what it should."""
+    """Return the hint for a program that ended or does not offer the right service."""
     if others:
         return f"It serves {', '.join(others)}, but the exercise needs {program.service}."
     if status is None:
@@ -182,6 +183,6 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return in which line of the student's script the error occurred; "" if it was in no such line."""
+    """Return a sentence that names the wrong line of the student's script, or "" if it is not known."""
     numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {program.name}." if numbers else ""

@@ -15,7 +15,7 @@ CALL = re.compile(
     rf"rosservice call /?getGeometry\s+(?:--\s+)?"
     rf"(?:{NUMBER}\s+{NUMBER}\s+{NUMBER}|['\"]\{{{FIELD}, *{FIELD}, *{FIELD}\}}['\"])\s*(?:#.*|)"
 )
-COMMANDS = (  # the command, as a pattern, its name, and the hint
+COMMANDS = (  # for each command: a pattern, its name, and the hint
     (
         r"catkin_make\b",
         "catkin_make",

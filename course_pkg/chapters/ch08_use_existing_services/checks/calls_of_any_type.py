@@ -86,7 +86,7 @@ def call_of_any_type(context: CheckContext) -> None:
     context.expect(
         "the response is returned",
         expected="a response",
-        actual="a response" if whole.returned() else "another object with the same values",
+        actual="a response" if whole.returned() else "an object of another type with the same values",
         hints="Return the object that the proxy returns, not a dict of its fields.",
     )
 

@@ -1,4 +1,4 @@
-"""08.4: a command line that calls a service; bash splits it and YAML reads its fields."""
+"""08.4: a command line that calls a service; bash splits the line into words, and YAML reads the fields."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.plain_values import Fields, of_kind
 
-WORDS = 4  # rosservice, call, the name, and one word with all fields
+WORDS = 4  # number of words in a line: rosservice, call, the name, and one word with all fields
 SPLIT = (
     "bash has split the fields at spaces, or removed quotes. shlex.quote turns any text into one "
     "word for bash."
 )
 TYPES = (
-    "YAML read a different value: without quotes, it reads off as False. json.dumps writes a "
+    "YAML read a different value, for example False for the word off without quotes. json.dumps writes a "
     "dict in a form that YAML reads correctly."
 )
 LOST = "A field in an inner dictionary has no value. Write the whole dict into the line."
@@ -34,12 +34,15 @@ COMPLAINTS = [
         "Arguments with := are for ROS, so rosservice does not receive them. Write the fields as a dict.",
     ),
     (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write a dict: {a: 5}."),
-    (matches("^!"), "The ! is only for a cell of a notebook. Remove it for a terminal."),
+    (matches("^!"), "The character ! works only in a cell of a notebook. Remove it for a terminal."),
     (
         matches("syntax error"),
-        "This is a call in Python. In a terminal, write words with spaces between them, without brackets.",
+        "This is a call in Python. In a terminal, write words with spaces between them, without parentheses.",
     ),
-    (matches("no such file"), "The quotes make one word of the whole line. Quote only the fields."),
+    (
+        matches("no such file"),
+        "Because of the quotes, bash reads the whole line as one word. Quote only the fields.",
+    ),
     (matches(r"\{.*no such option"), SPLIT),
     (
         matches("no such option"),
@@ -80,7 +83,7 @@ NO_LINE: Hints = [
     deadline=38.0,
 )
 def line_for_a_terminal(context: CheckContext) -> None:
-    """Run the lines in bash; some values need quotes for bash or for YAML."""
+    """Run the returned lines in bash; some values need quotes for bash or for YAML."""
     for example in example_calls(context):
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)

@@ -1,4 +1,4 @@
-"""08.6: why a client cannot call a service."""
+"""08.6: find the reason why a client cannot call a service."""
 
 from __future__ import annotations
 

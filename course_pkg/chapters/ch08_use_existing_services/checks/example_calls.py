@@ -18,7 +18,7 @@ class ExampleCall:
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return the fields of a received request that the call sets, including fields of inner messages."""
+        """Return only the fields of a received request that the call sets, also in inner messages."""
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:
@@ -45,7 +45,7 @@ def _numbers(context: CheckContext) -> ExampleCall:
 
 
 def _texts(context: CheckContext) -> ExampleCall:
-    """Return a call with nested messages; a string has quotes for bash, and YAML reads off as False."""
+    """Return a call with nested messages, with quotes, and with the word off, which YAML reads as False."""
     width, height, offset = context.random.integers(3, 100, 999)
     frame = f'{context.random.word()}\'s "own" $HOME'
     info = {

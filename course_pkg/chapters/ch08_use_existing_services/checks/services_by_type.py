@@ -41,13 +41,13 @@ ERRORS = [
     deadline=25.0,
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve two types and types with similar names; then add a service, and one whose server has died."""
+    """Serve two types and types with similar names; then add a service and a dead server's service."""
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
     word = context.random.word()
     mine = {f"/{word}/one", f"/{word}/{context.random.word()}"}
     servers = [context.serve(name, kind, lambda _: {}) for name in sorted(mine)]
-    misnamed = f"/{word}/{short}"  # the name of the service is a type that it does not have
+    misnamed = f"/{word}/{short}"  # the last part of its name is the name of another type
     context.serve(misnamed, other, lambda _: {})
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
         made = compile_service(decoy, "---\nint32 found").cls
@@ -83,7 +83,7 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
-    """Assert that the function returns all services of type `kind`; `mine` are those of the check.
+    """Assert that the function returns all services of type `kind`; `mine` are the services of the check.
 
     `incomplete` is the hint if services are missing.
     """
@@ -126,7 +126,7 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 
 
 def _why_wrong(types: set[str | None], kind: str) -> str:
-    """Return the hint for wrong names with these types: None is no service, and "" is a dead server."""
+    """Return the hint for wrong names with these types. None means no service, and "" means a dead server."""
     if None in types:
         return "The list has strings that are not names of services. Return only the names of services."
     if "" in types:

@@ -1,4 +1,4 @@
-"""08.3: a client that moves a switch and verifies the result."""
+"""08.3: a client that moves a switch, and then reads its position."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.checking.plain_values import Fields, Message
 
 @dataclass(frozen=True)
 class Case:
-    """What a switch does when it is called, and what `move` has to return."""
+    """The behaviour of a switch in a call, and the value that `move` has to return."""
 
     name: str  # its name in assertions
     there: bool  # whether the switch is in the requested position already

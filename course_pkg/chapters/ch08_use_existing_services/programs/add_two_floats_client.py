@@ -1,7 +1,8 @@
 """The node `add_two_floats_client`: calls `add_two_ints` with another definition of the type, and is refused.
 
-Its definition has the same name, AddTwoInts, but float64 instead of int64, as after a change of the
-definition that was built only for the client. The server compares the MD5 sums when the client connects.
+Its definition has the same name, AddTwoInts, but the type float64 instead of int64. This happens in practice
+when a definition is changed, but only the client is built again. The server compares the MD5 sums when the
+client connects.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The node `switch`: can be opened and closed, and reports what it did.
+"""The node `switch`: can be opened and closed, and reports its position.
 
 Its services are `~set` (std_srvs/SetBool: True opens, False closes), `~toggle` and `~report`
 (std_srvs/Trigger), and `~reset` (std_srvs/Empty). It starts closed.
@@ -25,7 +25,7 @@ class Switch:
         self._lock = threading.Lock()
 
     def handle_set(self, request: SetBoolRequest) -> Response:
-        """Open for True, close for False; success: the switch moved; the message describes the move."""
+        """Open for True, close for False; success means that it moved; the message describes the move."""
         with self._lock:
             if request.data == self._open:
                 message = f"already {self._position()}"

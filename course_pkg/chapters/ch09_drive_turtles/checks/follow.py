@@ -29,7 +29,7 @@ SPEED = 2.0  # m/s
 LATER = 0.5  # s after which /toggle_forward starts
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
 ENDING = 0.6  # s in which a program without spin() ends
-COUNT = 20  # velocities to pass on
+COUNT = 20  # number of velocities that the check publishes
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
 )
@@ -47,13 +47,13 @@ STOPS = (
     start=f"%%writefile {PROGRAM.path}\n...",
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Serve all three services; in two other runs, leave one out, or refuse a call."""
+    """Serve all three services; in two other runs, leave one service out, or refuse a call."""
     follows(context, PROGRAM)
 
 
 @dataclass
 class Driver:
-    """The three services in a world, which record their calls in the order of arrival."""
+    """The three services in a namespace of the check; they record all calls in the order of arrival."""
 
     context: CheckContext
     world: World
@@ -71,7 +71,7 @@ class Driver:
             )
 
     def requests(self, service: str) -> list[dict[str, Json]]:
-        """Return the requests to a service so far."""
+        """Return the requests that a service has received."""
         return [dict(request) for request in self.servers[service].requests]
 
     def _act(self, service: str, *, refuse: bool) -> Act:
@@ -156,7 +156,7 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
 
 
 def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
-    """Assert that velocities for turtle1 reach the new turtle; the simulator's name for it is random."""
+    """Assert that velocities for turtle1 reach the new turtle; its name in the response is random."""
     standing = _velocity(0.0, 0.0, 0.0)
     velocities = [standing, *(_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 1))]
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)
@@ -166,7 +166,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
         hints=[
             ended,
             (
-                "nobody who publishes it",
+                "no publisher",
                 "Publish on /NAME/cmd_vel, where NAME is the name in the response of /spawn.",
             ),
         ],

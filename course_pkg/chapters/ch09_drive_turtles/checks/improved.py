@@ -77,7 +77,7 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> float:
-    """Set speeds, then try impossible ones; return the speed in m/s that is set at the end."""
+    """Set speeds, and try impossible speeds; return the speed in m/s that is set at the end."""
     change = world.service(
         "change_speed",
         CHANGE_SPEED,

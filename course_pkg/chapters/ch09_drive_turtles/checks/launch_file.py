@@ -20,7 +20,8 @@ from course_pkg.ros import Snapshot
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
 READY = 20.0  # s for a launch file on a busy machine
-STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'  # replaces a program of an earlier exercise
+# A script that starts the course's own program instead of the student's program of an earlier exercise.
+STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ START = f"""%%writefile {FILE.path}
     start=START,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """List the nodes that roslaunch would start; then start them with a separate master."""
+    """Compare the nodes that roslaunch would start; then start them with a separate master."""
     launches(context, FILE)
 
 
@@ -102,7 +103,7 @@ def _copy(context: CheckContext, file: LaunchFile) -> BuiltPackage:
 _UNREADABLE: Hints = [
     (
         matches("Invalid roslaunch XML|not well-formed|mismatched"),
-        "The file is not correct XML. Close each tag, and write each value in quotes.",
+        "The file is not valid XML. Close each tag, and write each value in quotes.",
     ),
     (
         matches("requires the 'addturtle'"),
@@ -110,7 +111,7 @@ _UNREADABLE: Hints = [
     ),
     (
         matches("not a 'bool' type"),
-        'The attribute "if" needs the value true or false. Write if="$(arg addturtle)".',
+        'The value of the attribute "if" has to be true or false. Write if="$(arg addturtle)".',
     ),
     (
         ANYTHING,
@@ -183,7 +184,7 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
         holds=alike,
         expected="two turtles, each with a driver",
         actual=telling_line(printed),
-        hints="The three programs start, but their names do not match. Leave out ns, remap and args.",
+        hints="The three programs start, but their names do not match. Remove ns, remap and args.",
     )
 
 

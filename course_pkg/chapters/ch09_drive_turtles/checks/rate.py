@@ -84,7 +84,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
             expected=rate,
             actual=change(rate=rate).before,
             near=1e-6,
-            hints="A call of /toggle_forward changed the rate, too. It changes only the direction.",
+            hints="A call of /toggle_forward changed the rate, too, but it has to change only the direction.",
         )
         stream.moves_turtle()
 
@@ -140,12 +140,12 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node refuses a request intentionally, in rospy with a ServiceException."""
+    """Assert that the node refuses a request intentionally; in rospy, this means with a ServiceException."""
     (number,) = fields.values()
     why = (
         "each comparison with nan is false, so your test does not find it"
         if number != number
-        else "look at it"
+        else "this value is not allowed"
     )
     hint = f"The node accepted {number:g}. Compare the number with the limits: {why}."
     error = service.refused(assertion, saying="", hints=hint, **fields)

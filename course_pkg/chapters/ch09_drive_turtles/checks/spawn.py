@@ -1,4 +1,4 @@
-"""09.1: a client of /spawn that waits for the simulator, but not for ever."""
+"""09.1: a client of /spawn that waits for the simulator, but for a limited time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # s that a program waits for a service
-LATE = 2.5  # s that it may take to start and to end, in addition
+LATE = 2.5  # additional s that the program may need to start and to end
 EARLY = 3.0  # s; a program that gives up earlier uses another limit than 5 s
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
 GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
@@ -70,7 +70,7 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _prints_the_name(context: CheckContext, world: World) -> float:
-    """Respond with another name; return when the request arrived, in s of time.monotonic()."""
+    """Respond with another name; return the time of the request, in s of time.monotonic()."""
     given = context.random.word()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
     with world.run() as running:

@@ -79,7 +79,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.has_rate(
             RATE,
             "the program publishes twice per second",
-            "rospy.Rate(2) and ros::Rate(2) stand for 2 Hz: two messages per second.",
+            "rospy.Rate(2) and ros::Rate(2) mean 2 Hz, which is two messages per second.",
         )
         stream.moves_turtle()
 

@@ -26,7 +26,8 @@ MANIFEST = """\
   <buildtool_depend>catkin</buildtool_depend>
 </package>
 """
-SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'  # enough for a package that is not built
+# With this path, ROS finds the package although it was not built.
+SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
 STARTING = 30.0  # s for a node to be on the graph; it takes 1 s on an idle machine
-SETTLING = 4.0  # s in which the node then has to offer its services
+SETTLING = 4.0  # s that the node then has to offer its services
 POLL = 0.05  # s between two snapshots of the graph
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")

@@ -15,10 +15,10 @@ from course_pkg.waiting import wait_until
 TWIST = "geometry_msgs/Twist"
 KEEP_COMING = "the program publishes velocities all the time"
 SILENCE = 4.0  # s without a message; the programs publish at least twice a second here
-FLYING = 0.05  # s in which a message may still arrive that was published before the response of a service
+FLYING = 0.05  # s after the response of a service in which an older message may still arrive
 SILENT = (
-    "No velocity arrived for 4 s. Publish in each round of the loop, a velocity of "
-    "0, too, and do not let any value make the pause longer."
+    "No velocity arrived for 4 s. Publish in each round of the loop, even if the velocity is 0, and never "
+    "make the pause between two messages longer."
 )
 NEAR = 0.25  # allowed relative error of a rate: the machine may be busy
 
@@ -33,9 +33,7 @@ class Stream:
         self._subscription: Subscription = context.subscribe(world.name("turtle1/cmd_vel"), TWIST)
         self._subscription.published(
             within=4.0,
-            hints=[
-                ("nobody who publishes it", "Publish on /turtle1/cmd_vel, and compare this name with yours.")
-            ],
+            hints=[("no publisher", "Publish on /turtle1/cmd_vel, and compare this name with yours.")],
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
@@ -53,7 +51,7 @@ class Stream:
         self._context.fail(
             KEEP_COMING,
             expected="a message",
-            actual=outcome(done) if ended else f"silence for {within:g} s",
+            actual=outcome(done) if ended else f"no message for {within:g} s",
             hint=why_it_ended(done) if ended else SILENT,
         )
 
@@ -68,7 +66,7 @@ class Stream:
         self._context.expect(assertion, expected=wanted, actual=velocity(arrival), near=1e-6, hints=hints)
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
-        """Assert that `wanted` messages per second arrive, possibly after a few at the old rate."""
+        """Assert that `wanted` messages per second arrive, possibly after a few messages at the old rate."""
         count = max(3, int(wanted))
         measured = rate(self.next(count + 2)[1:])
         if abs(measured - wanted) > NEAR * wanted:
@@ -93,8 +91,8 @@ class Stream:
         self._context.require(
             "turtle1 moves in the simulator",
             holds=bool(poses.arrivals) and wait_until(moved, 5.0),
-            expected="a turtle that moves",
-            actual="a turtle that stands still",
+            expected="a pose that changes",
+            actual="a pose that stays the same",
         )
 
 

@@ -64,8 +64,8 @@ TOO_MANY = (
     "again whether an item is there: wait in a while loop, or use wait_for."
 )
 TOO_EARLY = (
-    "The handler of /take did not wait for the whole limit. A thread may wake up "
-    "although no item is there: then it has to wait again, for the remaining time."
+    "The handler of /take did not wait for the whole limit. A thread may wake up although no item is "
+    "there. In this case, the thread has to wait again, for the remaining time."
 )
 ERRORS = [
     (

@@ -15,12 +15,12 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # s for which a call waits for all other calls; after this time, no call waits any more
+TOGETHER = 1.0  # s for which the server lets a call wait for the other calls
 LIMIT = 6.0  # s for the student's function
-PROMPT = 0.3  # s after the last response; a function that returns later may not join its threads
-LONGER = 1.0  # s by which the calls of another round then take longer than such a function needed
+PROMPT = 0.3  # s after the last response; a function that returns later may not join its threads, but sleep
+LONGER = 1.0  # s by which the calls of an additional round last longer than this delay
 
-# Reports each call of a persistent proxy, in the thread that makes it.
+# This code reports each call of a persistent proxy, from the thread that makes the call.
 KERNEL_CODE = """
 import rospy
 
@@ -31,7 +31,7 @@ class ProxyWatch:
 
         def call(proxy, *args, **named):
             if proxy.persistent:
-                self.proxies.append(proxy)  # kept, so that no other object gets its id
+                self.proxies.append(proxy)  # stored, so that no later object gets the same id
                 checked_proxies.called(id(proxy))
             return self.original(proxy, *args, **named)
 
@@ -128,7 +128,7 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Offer a service that responds when all clients have called; try two numbers of clients."""
+    """Offer a service that responds after all clients have called; try two numbers of clients."""
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
@@ -141,7 +141,7 @@ def calls_at_once(context: CheckContext) -> None:
 
 
 def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
-    """Run the function with `count` calls that take `hold` s; return how many s later it returned."""
+    """Run the function with `count` calls of `hold` s; return its delay after the last response in s."""
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
@@ -159,7 +159,8 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
 
 
 def _called(context: CheckContext, count: int, gate: Gate) -> None:
-    wait_until(lambda: gate.requests >= count, TOGETHER)  # calls from threads that the function did not join
+    # Threads that the function did not join may call later.
+    wait_until(lambda: gate.requests >= count, TOGETHER)
     context.expect(
         "the service is called `count` times",
         expected=count,
@@ -183,12 +184,12 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
 
 
 def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedServer) -> None:
-    """Assert that each persistent connection of the service is one of a recorded call."""
+    """Assert that each persistent connection to the service belongs to a recorded call."""
     persistent = [header for header in server.received.headers if header.get("persistent") in ("1", "true")]
     context.require(
         "all calls wait for their responses at the same time",
         holds=not proxies.shared and len(persistent) <= proxies.calls,
-        expected="no persistent proxy that several threads call",
+        expected="a separate persistent proxy for each thread",
         actual="one persistent proxy for several threads",
         hints=SHARED,
     )

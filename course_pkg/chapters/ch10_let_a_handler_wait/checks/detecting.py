@@ -15,9 +15,9 @@ from course_pkg.waiting import wait_until
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # s that a busy machine may add
-LONG = 2.0  # s of patience if no customer arrives: a handler that waits twice as long exceeds the slack
+LONG = 2.0  # s; request.patience if no customer arrives. A handler that waits twice as long exceeds SLACK.
 LATER = 0.6  # s until a customer arrives
-PATIENCE = 5.0  # s of patience that is longer than every wait for a customer
+PATIENCE = 5.0  # s; a request.patience that is longer than every wait for a customer
 CHANGE = 2.2  # s until a change that no client waits for
 SELDOM = 8  # calls of watch.next() in LONG s; with fewer calls and no wait, a handler is too slow
 LOOKS = 3000  # calls of watch.next() in LONG s; a loop without a pause makes many more
@@ -97,7 +97,7 @@ ERRORS = [
     deadline=45.0,
 )
 def wait_for_a_customer(context: CheckContext) -> None:
-    """Call without a customer; with a present, a known and an arriving customer; and with several clients."""
+    """Call without a customer; with a present, a known and a late customer; then from several clients."""
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)
     opened = context.run("shop.open", Its("handle_detect"), counter, name, worded="rospy.Service(...)")
@@ -158,7 +158,7 @@ def _nobody(context: CheckContext, detect: Service) -> None:
         context.require(
             "a waiting handler needs almost no processor time",
             holds=context.read("shop.watch.looks", int) - looks < LOOKS,
-            expected="a few calls of watch.next() while nothing happens",
+            expected="a few calls of watch.next() while no customer comes",
             actual="thousands of calls",
             hints=BUSY,
         )
@@ -203,7 +203,7 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
             "the customer was first seen, customer.arrived."
         ),
     )
-    shop.later(LATER / 2)  # the known customer leaves: a change, but not the expected one
+    shop.later(LATER / 2)  # the known customer leaves; this change must not end the wait
     shop.later(LATER, coming)
     response = detect(after=known, patience=PATIENCE)
     context.require(
@@ -293,11 +293,11 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came as soon as the customer, `after` s after the request."""
+    """Assert that the response came without delay when the customer came, `after` s after the request."""
     context.require(
         assertion,
         holds=took < after + SLACK,
-        expected=f"a response {after:g} s after the call" if after else "a response at once",
+        expected=f"a response {after:g} s after the call" if after else "an immediate response",
         actual=f"a response after {took:.1f} s",
         hints=hint,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The notebook shows the observations of each case; these are the causes.
+# The notebook shows the observations of each case; this dict contains their causes.
 RIGHT = {
     "A": "lock across a call",
     "B": "lock order",
@@ -15,7 +15,10 @@ RIGHT = {
     "F": "no loop",
 }
 DECISIVE = {
-    "A": "Follow the calls from thread to thread: the last one waits for a lock that the first one holds.",
+    "A": (
+        "Follow the calls from thread to thread: the last thread waits for a lock that the first thread "
+        "holds."
+    ),
     "B": "Each of the two threads holds the lock of one shelf and waits for the lock of the other shelf.",
     "C": "The clients have ended, but the number of waiting threads grows.",
     "D": "No thread waits, and no call fails. Only the numbers are wrong.",
@@ -24,13 +27,13 @@ DECISIVE = {
 }
 ENTRIES = {
     "lock across a call": (
-        "With a lock held across a call, you see waiting threads in two services, and "
-        "one of them calls the other."
+        "If a thread holds a lock across a call, threads wait in two services, and one of these services "
+        "calls the other."
     ),
     "lock order": "A wrong lock order needs two threads and two locks.",
     "no limit": "A wait without a limit never ends, even when the client has ended.",
     "race": "A race changes data while no thread waits.",
-    "no notify": "A missing notify lets a thread wait longer than necessary.",
+    "no notify": "If notify is missing, a thread waits longer than necessary.",
     "no loop": "Without a loop, a thread that wakes up continues even if no item is there.",
 }
 CASES = Cases(

@@ -56,10 +56,11 @@ class Till:
     """A till that charges, and that calls the shop back during the first charge."""
 
     def __init__(self, context: CheckContext, left: str) -> None:
-        self.acts: list[Act | None] = []  # what the till does in the next calls instead of charging
+        self.acts: list[Act | None] = []  # the results of the next calls; None means that the till charges
         self.charged: list[int] = []  # cents
         self.ids: list[str] = []
-        self.answers: list[str] = []  # responses of the shop to /left; "" if no response has arrived yet
+        # Responses of the shop to /left; "" means that no response has arrived yet.
+        self.answers: list[str] = []
         self._first = context.random.integer(1000, 9000)
         self._left, self._kind = left, context.service_class(TRIGGER)
         self._lock = threading.Lock()
@@ -213,7 +214,7 @@ def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count
         "/left responds while the till is working",
         holds=till.answers[0] not in ("CallTimeout",),
         expected="a response of /left while the till is working",
-        actual="none within 2 s",
+        actual="no response within 2 s",
         hints=LOCKED,
     )
     context.expect(

@@ -1,4 +1,4 @@
-"""A shelf on which unlocked threads always collide, and a shop in the kernel that serves it."""
+"""A shelf that makes threads without a lock collide, and a shop in the kernel that serves the shelf."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ SHELF_ERRORS = [
     ),
 ]
 MANY = 20.0  # s for 50 calls at the same time, on a busy machine
-MEETING = 0.01  # s for which a thread waits for another one
+MEETING = 0.01  # s for which a thread waits for another thread
 FIRST_MEETING = 0.3  # s for which the first thread of many waits, until the others have begun
-FIRST = 2  # such waits
+FIRST = 2  # number of these first waits
 
 KERNEL_CODE = (
     SMALL_STACKS
@@ -55,8 +55,8 @@ checked_shop = CheckedShop()
 class CheckedShelf:
     """A shelf with `count` things. The kernel has a proxy for it.
 
-    Each read and each write returns only when another thread reads, or after a moment. So two threads without
-    a lock read the same number. A lock keeps the other thread out.
+    Each read and each write returns only when another thread reads, or after a short time. So two threads
+    without a lock read the same number. If the threads use a lock, the other thread cannot read in this time.
     """
 
     def __init__(self, count: int) -> None:
@@ -71,7 +71,7 @@ class CheckedShelf:
 
     @remote
     def read(self) -> Value:
-        """Return how many things there are."""
+        """Return the number of things on the shelf."""
         with self._turn:
             seen = self.things
             self._reads += 1
@@ -81,7 +81,7 @@ class CheckedShelf:
 
     @remote
     def write(self, count: Value) -> None:
-        """Set how many things there are."""
+        """Set the number of things on the shelf."""
         with self._turn:
             self._meet()
             self.things = count

@@ -16,9 +16,8 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 
 STUCK = (
-    "A client waits forever, because a lock is not free. Release the lock in every "
-    "case, as `with` does, and do not acquire it again in a thread that already "
-    "holds it."
+    "A client waits forever, because no thread releases the lock. Release the lock in every case, as "
+    "`with` does, and do not acquire it again in a thread that already holds it."
 )
 ERRORS = [
     *SHELF_ERRORS,

@@ -11,13 +11,13 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
 LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries repeatedly to acquire it
-THREADS, MOVES = 4, 6  # threads at once, and the moves of each
+THREADS, MOVES = 4, 6  # threads at the same time, and moves per thread
 RUN = 8.0  # s for all threads together
 
 MEETING = 0.01  # s for which a thread that has taken a lock waits for another thread
-FIRST_MEETING = 0.3  # s for which the first one waits, until the others have begun
+FIRST_MEETING = 0.3  # s for which the first thread waits, so that the other threads can begin
 
-# The student's function, alone and in several threads at once; `pair` is a proxy for a CheckedPair.
+# This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
 import threading
 
@@ -47,15 +47,14 @@ def checked_cross(function, pair, count, moves):
 
 
 class Deadlock(Exception):
-    """A thread would wait for ever for a lock."""
+    """A thread would wait for a lock forever."""
 
 
 class CheckedLock:
-    """A lock that returns to the thread that has taken it when another thread holds the other lock.
+    """A lock whose `acquire` returns only when another thread holds the other lock, or after a short time.
 
-    So two threads that take the two locks in opposite order always meet. If no such thread comes, the thread
-    goes on after a moment. A thread that waits too long for the lock gets an error, so that no thread is left
-    behind.
+    So two threads that take the two locks in opposite order always block each other. A thread that waits too
+    long for the lock gets an error, so that all threads end.
     """
 
     def __init__(self, pair: CheckedPair, limit: float) -> None:
@@ -88,7 +87,7 @@ class CheckedLock:
 
     @remote
     def locked(self) -> bool:
-        """Return whether a thread has taken it."""
+        """Return whether a thread holds the lock."""
         return self._lock.locked()
 
     @remote
@@ -124,7 +123,7 @@ class CheckedShelf:
     @property
     @remote
     def count(self) -> Value:
-        """How many things are on it."""
+        """The number of things on the shelf."""
         self._pair.reads.append(self._pair.held())
         return self.things
 
@@ -161,7 +160,7 @@ class CheckedPair:
 
     @remote
     def returned(self, value: Value) -> None:
-        """Record what one of the calls at once has returned."""
+        """Record the result of one of the simultaneous calls."""
         self.results.append(value)
 
     @remote
@@ -176,7 +175,7 @@ class CheckedPair:
 
     @property
     def locked(self) -> bool:
-        """Whether one of the locks is taken."""
+        """Whether a thread holds one of the locks."""
         return any(shelf.lock.locked() for shelf in self._shelves)
 
     @property
@@ -189,7 +188,7 @@ class CheckedPair:
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait until another thread, too, holds a lock; a moment at most."""
+        """Wait until another thread holds a lock, too, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()
@@ -223,8 +222,8 @@ CROSSED = (
     "the same order in every call, for example by the numbers of the shelves."
 )
 UNLOCKED = (
-    "A count was changed without both locks. Between the two changes, another "
-    "thread may read a wrong total: hold both locks for reading and for writing."
+    "A count was changed without both locks. Between the two changes, another thread may read a wrong "
+    "total: hold both locks while you read and write."
 )
 
 UNLOCKED_READ = (
@@ -242,7 +241,7 @@ UNLOCKED_READ = (
     deadline=30.0,
 )
 def move_without_deadlock(context: CheckContext) -> None:
-    """Move things in one thread, also from an empty shelf; then in both directions at the same time."""
+    """Move things in one thread, even from an empty shelf; then in both directions at the same time."""
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))
     few = context.random.integer(2, 3)
@@ -268,7 +267,7 @@ def move_without_deadlock(context: CheckContext) -> None:
     context.require(
         "four threads at the same time: every call returns",
         holds=not pair.error,
-        expected="no thread that waits forever",
+        expected="all threads end",
         actual=pair.error,
         hints=[(matches("two threads wait"), CROSSED), *ERRORS],
     )

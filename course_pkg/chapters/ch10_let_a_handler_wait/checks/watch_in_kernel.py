@@ -32,7 +32,7 @@ class CountingWatch:
         self.customers = {}
         self.looks, self.told = 0, False
         self.finders = set()  # threads whose handler has seen a customer
-        self.left = False  # whether a handler looked again without the lock, after the customer had left
+        self.left = False  # whether a handler called next() without the lock after the customer had left
 
     @property
     def count(self):

@@ -81,7 +81,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # the listener was closed
+        with suppress(OSError):  # the listener is closed when the block ends
             while True:
                 connection, _ = self._listener.accept()
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))

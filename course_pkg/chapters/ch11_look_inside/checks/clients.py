@@ -12,8 +12,8 @@ GEOMETRY = "course_pkg/geometry"
 ERRORS = [
     (
         matches("TransportTerminated|TransportInitError|AttributeError"),
-        "A broken connection can raise three kinds of errors, and this is one of them. "
-        "Catch all three, create a new proxy, and call once more.",
+        "A broken connection can raise three kinds of errors, and this error is one of them. Catch all "
+        "three, create a new proxy, and call once more.",
     ),
     (
         matches("transport error"),
@@ -39,7 +39,7 @@ REFUSED = (
     deadline=20.0,
 )
 def persistent_client(context: CheckContext) -> None:
-    """Respond, refuse, break the connection, stop the server, and start it at another address."""
+    """Respond, refuse, break the connection, stop the server, and start the server at another address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]
@@ -131,7 +131,7 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Break the connection and also the new connection; right are one more request and an error."""
+    """Break the first and the new connection; expect one more request, and then an error."""
     before = len(server.requests)
     result = client.measure(ERRORS)
     asked = len(server.requests) - before
@@ -178,8 +178,8 @@ LOST = [
 MOVED = [
     (
         matches("refused|OSError|Connection"),
-        "The server is not at the old address any more. Catch the OSError, look up the "
-        "address again, and call ask.",
+        "The server is not at the old address any more. Catch the OSError, look up the address again, and "
+        "call ask once more.",
     )
 ]
 RESET = [
@@ -193,8 +193,8 @@ SHARED = (
     "the address in self, so that each object has its own address."
 )
 SAID_NO = (
-    "The server refused, so its address was right: raise the error. Look up the "
-    "address again only after an OSError.",
+    "The server refused the call, so the address was right: raise the error. Look up the address again "
+    "only after an OSError.",
     "Your method called twice. Call again only after an OSError, which means that "
     "no server is at the address.",
 )
@@ -254,7 +254,7 @@ def _finds_it_after_a_reset(
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
-    """Register another server under the name; a client that looks up the name again calls this server."""
+    """Register another server under the same name; only a client that looks up the name again calls it."""
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))
     again = (

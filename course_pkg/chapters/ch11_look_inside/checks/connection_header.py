@@ -174,7 +174,7 @@ NOT_RAISED: Hints = [
     needs=["receive"],
 )
 def exact_read(context: CheckContext) -> None:
-    """Send bytes together, in pieces, and too many bytes; then close the connection too early."""
+    """Send the bytes together, in pieces, and with additional bytes; then close the connection too early."""
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
     _receives(context, "bytes that arrive together", [whole], [12])
@@ -195,11 +195,13 @@ def exact_read(context: CheckContext) -> None:
 class OtherEnd:
     """The other end of the student's socket, which sends `pieces`; it is open until the block ends.
 
-    A piece is sent when the one before has been read, so a client that waits and reads once gets one piece.
+    Each piece is sent after the client has read the previous piece. So a client that reads only once gets
+    only one piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
-        # In the abstract namespace, which needs no file and is seen in this network only.
+        # The socket is in Linux's abstract namespace: it needs no file, and is visible only in this network
+        # namespace.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes = pieces, closes
         self._listener = socket.socket(socket.AF_UNIX)
@@ -221,7 +223,7 @@ class OtherEnd:
         self._listener.close()
 
     def _send(self) -> None:
-        with suppress(OSError):  # the kernel has closed its end, or does not connect
+        with suppress(OSError):  # the kernel has closed its socket, or does not connect
             sock, _ = self._listener.accept()
             with sock:
                 for piece in self._pieces:
@@ -232,7 +234,7 @@ class OtherEnd:
 
 
 def _unread(sock: socket.socket) -> int:
-    """Return how many of the bytes that were sent have not been read."""
+    """Return the number of bytes that were sent but not read."""
     (count,) = struct.unpack("i", fcntl.ioctl(sock, termios.TIOCOUTQ, bytes(4)))
     return int(count)
 
@@ -290,8 +292,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^(Connection|BrokenPipe)"),
             (
-                "The connection is still open, and the rest follows. A short piece is not the "
-                "end; only b'' means the end."
+                "The connection is still open, and the other bytes follow. A short piece is not the end; "
+                "only b'' means the end."
             )
             if count
             else (

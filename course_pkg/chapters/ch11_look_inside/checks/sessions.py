@@ -31,7 +31,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     first, second = context.random.word(), context.random.word()
     amounts = context.random.integers(
         6, 10, 900
-    )  # larger than the number of calls, so that hints can distinguish both
+    )  # larger than the number of calls, so that the check can distinguish a total from a number of calls
     totals = {first: 0, second: 0}
     counts = {first: 0, second: 0}
     everything = 0

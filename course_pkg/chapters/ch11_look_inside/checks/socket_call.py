@@ -18,7 +18,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-BINARY = 65 / 512  # a float32 stores this fraction exactly, but rounding to a few decimals changes it
+# A float32 stores this fraction exactly, but a result that is rounded to a few decimals is different.
+BINARY = 65 / 512
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 AS_BYTES = matches(r"\bb['\"]")
 NO_HEADER = "The header has to start with its length, in 4 bytes. Use pack_header."
@@ -29,7 +30,7 @@ MISTAKES = {
         'header of the server, and check it for the field "error".'
     ),
     "nothing": (
-        "The function connected, but sent nothing. The client has to begin: send your connection header."
+        "The function connected, but sent nothing. The client has to send its connection header first."
     ),
     "big-endian header": NO_HEADER,
     "no length of the header": NO_HEADER,
@@ -48,8 +49,8 @@ MISTAKES = {
     "short request": NO_LENGTH,
 }
 SLOWLY = (
-    "The bytes arrived one after the other. Use receive() for all bytes, also for "
-    "the first byte and the lengths."
+    "The bytes arrived one after the other. Use receive() for all bytes, including the first byte and the "
+    "lengths."
 )
 BYTES = "The error message is inside b'', so it is still a bytes object. Convert the bytes with decode()."
 OPEN = (
@@ -92,7 +93,7 @@ def _names(source: str) -> set[str]:
     """Return the names in the code of a function, without the words in comments and docstrings."""
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    except SyntaxError:  # the source is only a part of a line, for example of a lambda
+    except SyntaxError:  # the source of a lambda, for example, is only a part of a line
         return set()
     return {node.id for node in nodes if isinstance(node, ast.Name)} | {
         node.attr for node in nodes if isinstance(node, ast.Attribute)
@@ -157,8 +158,8 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
     context.require(
         "area and volume are returned",
         holds=not conversation.left_open,
-        expected="a connection that the client closes after the response",
-        actual=f"a connection that is still open {LINGER:g} s later",
+        expected="a client that closes the connection after the response",
+        actual=f"an open connection {LINGER:g} s later",
         hints=UNTIL_THE_END if result.took > LINGER else OPEN,
     )
 

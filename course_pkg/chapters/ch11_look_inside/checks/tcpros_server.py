@@ -20,9 +20,9 @@ from course_pkg.waiting import wait_until
 
 LONGEST = 4096  # bytes of a header, or of a request
 TIMEOUT = 8.0  # s for the next bytes of a client, on a busy machine
-EARLY = 0.1  # s in which a request may arrive that the client sends before the server's header
+EARLY = 0.1  # s for which the server waits for a request that the client sends too early
 LINGER = 3.0  # s after the response in which the client has to close the connection, on a busy machine
-UNREAD = 1.0  # s that a slow response waits in total for the client to read single bytes
+UNREAD = 1.0  # s in total for which a slow response waits until the client has read single bytes
 REQUEST = 12  # bytes of three float32
 
 
@@ -79,7 +79,7 @@ class TcprosServer:
         self._listener.close()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # the listener was closed
+        with suppress(OSError):  # the listener is closed when the block ends
             while True:
                 sock, _ = self._listener.accept()
                 self.conversations.append(Conversation())

@@ -1,8 +1,8 @@
 """The node `session_server`: offers `add_up`, which has a separate total for each session.
 
-A request does not contain its sender, so a client writes its session into the field `session` of the
-connection header. http://wiki.ros.org/ROS/Connection%20Header allows any field, and rospy passes all fields
-to the handler.
+A request does not contain the name of its sender. So a client writes the name of its session into the field
+`session` of the connection header. A header may contain any field
+(http://wiki.ros.org/ROS/Connection%20Header), and rospy passes all fields to the handler.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from course_pkg.srv import AddUp, AddUpRequest, AddUpResponse
 
 FIELD = "session"
 LARGEST = 2**31 - 1  # largest value of an int32
-MOST = 1000  # sessions; a new one then replaces the session that was not used for the longest time
+MOST = 1000  # largest number of sessions; then a new session replaces the session with the oldest last call
 
 
 class Sessions:

@@ -1,6 +1,7 @@
 """The node `tcp_echo`: sends back all bytes that it receives over TCP, on the port in `~port`.
 
-It uses no ROS protocol, so a service call cannot be faster than a round trip to this program.
+It uses no protocol of ROS. So a round trip to this program shows the shortest time that a service call could
+take.
 """
 
 from __future__ import annotations

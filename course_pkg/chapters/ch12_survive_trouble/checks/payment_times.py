@@ -1,4 +1,4 @@
-"""The time measurements of 12.3; a busy machine makes times longer, so the shortest of several is used."""
+"""The time measurements of 12.3; each check uses the shortest of several, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from course_pkg.checking import CheckContext, HangUp, matches
 from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 PAUSE = 0.1  # s before the second try
-FIRST = 1.8 * PAUSE  # s for a first pause and a new connection, in the fastest of several payments
-PAYMENTS = 5  # payments at most; the check uses the fastest of them
-AT_END = 0.9  # s until the deadline, which is during the fourth pause; this pause would end at 1.5 s
-ENDED = 1.3  # s after which the fastest of these payments has ended
-AT_WORK = 0.5  # s for which a client tries in any case before the deadline
+FIRST = 1.8 * PAUSE  # s; upper limit for the first pause and a new connection in the fastest payment
+PAYMENTS = 5  # largest number of payments; the check uses the fastest payment
+AT_END = 0.9  # s until the deadline. It is in the fourth pause, which would end after 1.5 s.
+ENDED = 1.3  # s; upper limit for the duration of the fastest of these payments
+AT_WORK = 0.5  # s; lower limit for the time in which a client tries
 GONE = (
     "The till has no server, but pay() waits for a server without a limit. Use the "
     "remaining time as the limit of each wait."

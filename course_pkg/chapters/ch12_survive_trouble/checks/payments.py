@@ -1,4 +1,4 @@
-"""The payments of 12.3: the payments that a till stores, and a payment that has to succeed at the end."""
+"""The payments of 12.3: the payments that a till stores, and an assertion that a payment succeeds."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ class Books:
         self._lock = threading.Lock()
 
     def work(self, request: Message) -> dict[str, Json]:
-        """Charge unless the till has already charged this request; return the receipt."""
+        """Charge the request if it was not charged before; return the number of its receipt."""
         with self._lock:
             self.charged.setdefault(request.request_id, request.cents)
             return {"receipt": self.receipt({"request_id": request.request_id})}
 
     def receipt(self, request: dict[str, Json]) -> int:
-        """Return the receipt of a request that was charged, or 0 for another request."""
+        """Return the number of the receipt of a request, or 0 if the request was not charged."""
         known = list(self.charged)
         return self._first + known.index(request["request_id"]) if request["request_id"] in known else 0
 
@@ -68,7 +68,7 @@ def pays_after(
     words: str,
     deadline: float = DEADLINE,
 ) -> int:
-    """Assert that one payment succeeds in the case `words`; return the number of requests."""
+    """Assert that a payment succeeds; return the number of requests. `words` describe the till."""
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)
     requests = till.requests[before:]
@@ -96,7 +96,7 @@ def pays_after(
 
 
 def _why_given_up(words: str, took: float, tries: int) -> str:
-    begin = f"In this case the till was {words}. "
+    begin = f"In this case, the till was {words}. "
     if took > DEADLINE / 2 and tries < 2:
         return begin + (
             "The first try used all the time. Give each try at most half a second, or the "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The table in the notebook describes the situations; these are the right policies.
+# The table in the notebook describes the situations; this dict contains the right policies.
 RIGHT = {
     "refused": "report",
     "not started": "wait for the service",

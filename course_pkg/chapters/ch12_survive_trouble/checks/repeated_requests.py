@@ -18,8 +18,8 @@ from course_pkg.checking.result import Result
 AT_ONCE = 50
 ONE = 6.0  # s for a single call
 MANY = 20.0  # s for 50 calls at the same time, on a busy machine
-MEETING = 0.05  # s for which a take waits for another one of the same amount
-FIRST_MEETING = 0.5  # s for which the first of many waits, until the others have begun
+MEETING = 0.05  # s for which a call of take() waits for another call with the same amount
+FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can begin
 BUYERS = 10  # each of them sends its request five times
 KERNEL_CODE = (
     SMALL_STACKS
@@ -80,7 +80,7 @@ STUCK = (
     deadline=60.0,
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests, let the purse fail once, omit the id, and send 50 requests at once."""
+    """Send new and repeated requests; let the purse fail; omit the id; send 50 requests at the same time."""
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     purse, opened = _opened(context, name)
@@ -107,13 +107,13 @@ def charge_once(context: CheckContext) -> None:
 class CheckedPurse:
     """A purse. The kernel has a proxy for it.
 
-    A take returns when there is another take of the same amount, or after a moment. So repetitions without a
-    lock always meet here.
+    A call of take() returns when there is another call with the same amount, or after a short time. So two
+    repetitions without a lock always run at the same time here.
     """
 
     def __init__(self) -> None:
         self.took: list[Value] = []
-        self.stuck = False  # the next take fails
+        self.stuck = False  # whether the next take() fails
         self.meeting = MEETING
         self._long_waits = 0
         self._asked: Counter[str] = Counter()
@@ -136,12 +136,12 @@ class CheckedPurse:
             self.took.append(cents)
 
     def await_crowd(self) -> None:
-        """Let the next take wait longer, until other takes have begun, even on a busy machine."""
+        """Let the next take() wait longer, so that the other calls can begin even on a busy machine."""
         self._long_waits = 1
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` by a new Till, and return its purse."""
+    """Serve `name` with a new Till; return its purse and the result of the call that creates it."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")
@@ -204,7 +204,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words` for the case that the purse was used only once."""
+    """Return the hint `words` with the condition that the purse was used only once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -289,7 +289,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send so many different requests that some random receipt numbers would be equal."""
+    """Send so many requests that receipt numbers drawn at random would probably be equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

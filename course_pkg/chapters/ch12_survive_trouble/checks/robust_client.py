@@ -1,4 +1,4 @@
-"""12.3: a client that pays exactly once, although the server or the connection fails."""
+"""12.3: a client that pays exactly once, even if the server or the connection fails."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ SHORT = 1.0  # s until the deadline in the case in which the client has to give 
 SLACK = 1.5  # s that a busy machine may need
 AWAY = 0.5  # s until a killed till is started again; the second try finds no server
 A_LITTLE = 0.2  # s, less than one try
-KEEPING = 2.0  # s for a payment that ends in time
-MOST = 5  # failing tries, unless each pause is three times as long as the previous pause
+KEEPING = 2.0  # s that the check waits for a payment that ends in time
+MOST = 5  # failing tries, unless the pauses grow quickly
 LONG = 12.0  # s until the deadline in the case of MOST failing tries
 
 SLOW = "slow"
@@ -119,7 +119,7 @@ def _is_a_new_payment(
         "the request has an id",
         holds=bool(request["request_id"]),
         expected="a request_id",
-        actual="an empty one",
+        actual="an empty id",
         hints="The field request_id is empty. Create an id for each payment with uuid.uuid4().",
     )
     context.require(
@@ -173,7 +173,7 @@ def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, boo
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the handler work and return None: the text of this error is similar to a refusal."""
+    """Let the handler work and return None; the text of this error is similar to that of a refusal."""
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
@@ -189,7 +189,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 
 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
-    """Assert that a slow till got several `tries`, and that a till that responds in time gets one try."""
+    """Assert that there were several `tries` at a slow till, and only one try at a till in time."""
     context.require(
         "the receipt is returned at the end",
         holds=tries > 1,
@@ -214,7 +214,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
 
 
 def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Fail three times; the third pause shows whether the pauses grow. Only short pauses are mistakes."""
+    """Fail three times; the third pause shows whether the pauses grow. Longer pauses are allowed."""
     before = len(till.arrivals)
     till.plan.extend([Fault(HangUp())] * 3)
     pays_after(context, name, till, books, "failing three times")
@@ -270,7 +270,8 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
     """Let the till respond after the deadline, but within the half second of a try.
 
-    On a busy machine, a client may notice the deadline late, so this repeats until one payment ends in time.
+    On a busy machine, a client may notice the deadline late. So the check repeats the payment until one ends
+    in time.
     """
     returned: list[Json] = []
 

@@ -10,7 +10,7 @@ from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # s that the student's function may wait
-LONG = 4.0  # s, a limit that is not reached
+LONG = 4.0  # s; a time limit that no call reaches
 WORK = 0.3  # s that a slow handler takes
 SLACK = 1.2  # s that a busy machine may add
 KERNEL_CODE = """

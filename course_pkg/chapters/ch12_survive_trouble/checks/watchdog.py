@@ -15,11 +15,11 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # s between two polls of the watchdog
-SELDOM = 0.5  # s; of several pauses, at least one is shorter than this, even on a busy machine
-CALLS = 4  # calls of the master in one poll, at most
+SELDOM = 0.5  # s; even on a busy machine, at least one of several pauses is shorter
+CALLS = 4  # largest number of calls of the master in one poll
 SOON = 5.0  # s for a few polls, on a busy machine
 LEFT_ALONE = 0.8  # s in which a wrong watchdog would register the name again
-LATE = 0.5  # s for a registration after stop()
+LATE = 0.5  # s for which the check waits for a wrong registration after stop()
 READY = 15.0  # s for a master to answer
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread, and start the thread in __init__."
@@ -43,7 +43,7 @@ class SecondMaster:
         self._running: Running | None = None
 
     def start(self) -> MasterClient:
-        """Start the master without registrations; return a client when the master responds."""
+        """Start the master without registrations; return a client after the master responds."""
         words = ("rosmaster", "--core", "-p", str(self.port))
         self._running = self._folder.start(*words, worded="a second master")
         client = MasterClient(self.uri, 1.0)
@@ -198,7 +198,7 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
 
 
 def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: float) -> None:
-    """Assert that the watchdog waits between two polls, from the number of polls in `took` s."""
+    """Assert that the watchdog pauses between polls: it must not make too many polls in `took` s."""
     looks = watched.looks
     context.require(
         "the watchdog polls the master at intervals of `every` seconds",
@@ -265,7 +265,7 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
-    """Return whether the watchdog registers anything once stop() has returned, LATE s later."""
+    """Return "" or the mistake: the watchdog registers the service up to LATE s after stop() has returned."""
     watched.hold()
     if not watched.inside.wait(SOON):
         return "no look"

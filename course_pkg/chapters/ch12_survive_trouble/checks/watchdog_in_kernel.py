@@ -9,11 +9,12 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
-TIMEOUT = 5.0  # s of a call of the master
-PAUSE = 5.0  # s for which a registration waits, at most
-STOPPING = 0.3  # s after which a registration goes on, if stop() waits for it
+TIMEOUT = 5.0  # s; time limit of a call of the master
+PAUSE = 5.0  # s; longest time for which a registration waits
+STOPPING = 0.3  # s after which a registration continues if stop() waits for it
 
-# A service of the kernel, and the student's watchdog, whose master is called by way of the check runner.
+# A service in the kernel, and the student's watchdog. The watchdog's calls of the master go through the check
+# runner.
 KERNEL_CODE = """
 import rosgraph
 import rospy
@@ -50,16 +51,17 @@ checked_watch = CheckedWatch()
 class CheckedMaster:
     """Calls a master for the watchdog, and records the calls.
 
-    After `hold`, it knows no service, and a registration waits, until stop() has returned, or for a moment
-    if stop() waits for the registration.
+    After a call of `hold`, the master seems to know no service, so the watchdog registers its service. This
+    registration waits until stop() has returned. If stop() waits for the registration, the registration waits
+    only for a short time.
     """
 
     def __init__(self, uri: str) -> None:
         self.addresses: list[list[str]] = []  # the last arguments of each registration
-        self.registered: list[float] = []  # when the master was called, by time.monotonic()
-        self.looks = 0  # calls of all kinds
+        self.registered: list[float] = []  # times of the registrations, by time.monotonic()
+        self.looks = 0  # number of calls of the master
         self.gap = 60.0  # s; the shortest time between two calls of the same kind
-        self.inside = threading.Event()  # a registration waits
+        self.inside = threading.Event()  # set while a registration waits
         self.stopped_at: float | None = None  # when stop() returned
         self._uri = uri
         self._times: dict[str, float] = {}
@@ -69,7 +71,7 @@ class CheckedMaster:
 
     @remote
     def ask(self, method: str, what: list[Value]) -> Value:
-        """Return what the master answers; raise OSError if there is none."""
+        """Return the response of the master; raise OSError if the master does not run."""
         with self._lock:
             self.looks += 1
             self._note(method)
@@ -97,11 +99,11 @@ class CheckedMaster:
         self._release()
 
     def hold(self) -> None:
-        """From now on, know no service, and let a registration wait."""
+        """From now on, respond that the master knows no service, and let a registration wait."""
         self._holds = True
 
     def close(self) -> None:
-        """Let a registration that waits go on."""
+        """Let a waiting registration continue."""
         self._release()
 
     def _release(self) -> None:
@@ -109,7 +111,7 @@ class CheckedMaster:
         self._go.set()
 
     def _note(self, method: str) -> None:
-        """Record the time of a call that is no registration."""
+        """Record the time of a call that is not a registration."""
         now = time.monotonic()
         if method != "registerService":
             self.gap = min(self.gap, now - self._times.get(method, now - self.gap))

@@ -16,13 +16,13 @@ from course_pkg.checking.result import Finished
 FILE = f"{PACKAGE}/src/patient_client.cpp"
 WAIT = 2.0  # s for which the client waits for a service
 TRIES = 3  # largest number of calls
-SLACK = 2.5  # s that a busy machine may need in addition
-PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s that the exercise asks for
+SLACK = 2.5  # additional s that a busy machine may need
+PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s of the exercise
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 LIMIT = 5.0  # s after which a program that runs too long is stopped
 
 MILLISECONDS = (
-    "The program hardly waited, because ros::service::waitForService reads a plain "
+    "The program waited only a few milliseconds, because ros::service::waitForService reads a plain "
     "number as milliseconds. Write ros::Duration(2) for seconds."
 )
 START = f"""%%writefile {FILE}
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {{
     start=START,
 )
 def patient_client(context: CheckContext) -> None:
-    """Run it with servers that respond, refuse twice, refuse always, or start late, and without a server."""
+    """Run it with servers that respond, refuse twice, refuse always or start late, and without a server."""
     folder = compiled(context, FILE)
     shapes = _prints_the_answer(context, folder)
     calls = _asks_again(context, folder)
@@ -66,7 +66,7 @@ def patient_client(context: CheckContext) -> None:
 
 
 def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
-    """Return the printed lines that contain the volume, with # in place of each number."""
+    """Return the printed lines that contain the volume; each number is replaced by #."""
     name, sides, volume = _random_box(context)
     server = context.serve(name, BOX, lambda _: {"volume": volume})
     finished = _run(folder, name, sides)
@@ -167,7 +167,7 @@ def _why_not_one(finished: Finished, count: int) -> str:
     if finished.status is None:
         return "The program does not stop calling. Count the calls, and stop after the third call."
     if count != TRIES:
-        return f"The number of calls was {count}, but it has to be 3. The first call is one of the three."
+        return f"The number of calls was {count}, but it has to be 3. The first call is also counted."
     if finished.status == 0:
         return (
             "No call got a response. Return 1 in this case, so that a script that starts "
@@ -219,7 +219,7 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
 
 
 def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
-    """Return a random name, three sides, and a volume that is not their product."""
+    """Return a random name, three sides, and a volume that differs from the product of the sides."""
     sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
     return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
 
@@ -256,7 +256,7 @@ def _lines(out: str) -> list[str]:
 def _volumes(out: str, shapes: set[str]) -> list[str]:
     """Return the lines with a volume: only a number, "volume" and a number, or a line like one in `shapes`.
 
-    A number of tries or of seconds is not a volume.
+    Numbers in other lines, such as a number of tries or seconds, are not volumes.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]
@@ -284,6 +284,6 @@ def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
 
 def _outcome(finished: Finished, calls: int = -1) -> str:
     printed = ", ".join(f"{each:g}" for each in _numbers(finished.out)) or "no number"
-    ending = "no end" if finished.status is None else f"exit status {finished.status}"
+    ending = "still running" if finished.status is None else f"exit status {finished.status}"
     asked = f" after {calls} calls" if calls > 0 else ""
     return f"{printed}, and {ending}{asked}"

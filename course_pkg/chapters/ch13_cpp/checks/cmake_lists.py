@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     start=START,
 )
 def cmake_list_file(context: CheckContext) -> None:
-    """Build a program of the check with the student's file, and look for the executable."""
+    """Build a program of the check with the student's CMakeLists.txt, and look for the executable."""
     require_tools()
     texts = {f"{PACKAGE}/package.xml": MANIFEST, f"{PACKAGE}/src/box_server.cpp": PROGRAM}
     folder = context.folder(files=[FILE], texts=texts)
@@ -85,13 +85,13 @@ def _builds(context: CheckContext, finished: Finished) -> None:
     printed = f"{finished.out}\n{finished.err}"
     last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
     fault = explain(printed) or Fault("catkin_make failed", f"Read the end of its output: {last}.")
-    if not fault.file.endswith("CMakeLists.txt"):  # the program belongs to the check and has no mistake
+    if not fault.file.endswith("CMakeLists.txt"):  # the check's own program has no mistake
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
             fault = replace(fault, remedy=NO_ROSCPP)
     context.fail(
         RULE,
-        expected="a build that passes",
+        expected="a successful build",
         actual=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
         hint=fault.remedy,
     )

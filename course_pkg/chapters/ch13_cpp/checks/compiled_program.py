@@ -17,9 +17,9 @@ PACKAGE = "src/cpp_boxes"
 BOX = "course_pkg/geometry"
 LIMITS = "ulimit -t 30 -f 100000"  # s of CPU time and KiB of a file; compiling one file takes 2 s
 COMPILING = 60.0  # s; it takes 2 s on an idle machine
-STARTING = 6.0  # s until a program is a node; it takes 0.1 s on an idle machine
-REGISTERING = 1.5  # s from then until it offers its service
-STAYING = 0.4  # s; a program whose main ends after advertiseService ends within 0.1 s
+STARTING = 6.0  # s until the node of a program is on the graph; it takes 0.1 s on an idle machine
+REGISTERING = 1.5  # s from this time until the program offers its service
+STAYING = 0.4  # s for which the program has to keep running; without ros::spin(), it ends within 0.1 s
 POLL = 0.05  # s between polls
 SERVED = "the program offers /{0} and continues to run"
 
@@ -67,7 +67,7 @@ def started(context: CheckContext, folder: Folder, service: str, name: str) -> R
 
 
 def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
-    """Assert that the program offers `name` and keeps running; otherwise report what it does instead."""
+    """Assert that the program offers `name` and keeps running; otherwise report what happened instead."""
     assertion, deadline = SERVED.format(service), time.monotonic() + at_this_load(STARTING)
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -116,7 +116,7 @@ def _why_not(status: int | None, code: str) -> str:
         return "The program crashed. Call ros::init before you create the first NodeHandle."
     if "Spinner" in code:
         return (
-            "A spinner that was started does not stop main from ending: call "
-            "ros::waitForShutdown() at the end of main."
+            "The function main ends although a spinner was started: call ros::waitForShutdown() at the "
+            "end of main."
         )
     return "The function main ended, so the service ended, too. Call ros::spin() at the end of main."

@@ -13,8 +13,11 @@ from course_pkg.waiting import wait_until
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
 THINKING, COUNTING = 0.4, 0.05  # s, as in the file at the start of the exercise
-APART = 0.15  # s between two responses: less if all calls overlap, more if a call has to wait for a thread
-OVERLAPPING = 3.0  # s in which six calls have to overlap once; on a busy machine, some of them begin late
+# Limit in s between two responses. If all calls overlap, the time is shorter; if a call has to wait for a
+# thread, the time is longer.
+APART = 0.15
+# Time in s in which the check repeats six calls until they overlap; on a busy machine, a call may begin late.
+OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}
 #include <mutex>
@@ -115,7 +118,7 @@ def number_server(context: CheckContext) -> None:
 
 
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
-    """Assert that think() and count() are unchanged, with the code and the duration of a call in s."""
+    """Assert that the code of think() and count(), and the duration `took` of a call in s, are unchanged."""
     context.require(
         "think() and count() take as long as before",
         holds=len(re.findall(r"\bsleep\(\)", code)) >= 2
@@ -135,8 +138,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
 def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
     """Assert that six calls at the same time get six numbers, and wait until all six overlap.
 
-    A call that waits for a thread begins with think() when another call has finished, so its response is late
-    by the duration of think().
+    A call that waits for a thread begins think() only after another call has finished. So its response is
+    late by the duration of think().
     """
     numbers_to_come = itertools.count(2)
     took: list[float] = []

@@ -1,4 +1,4 @@
-"""13.2: a repaired C++ server, with its handler and its main function."""
+"""13.2: a repaired C++ server: its handler and its main function."""
 
 from __future__ import annotations
 
@@ -40,7 +40,9 @@ NO_FRACTION = (
     "The part after the decimal point is missing, because an int contains only "
     "whole numbers. Use float or auto."
 )
-ZERO_IS_ALLOWED = "A side was 0, and 0 is not below 0. Do not refuse the call; return a volume of 0."
+ZERO_IS_ALLOWED = (
+    "A side was 0, but 0 is allowed because it is not below 0. Do not refuse the call; return a volume of 0."
+)
 RETURNED_FALSE = (
     "The handler returned false for a good request, so the client gets an error. Return true after the "
     "response is filled."

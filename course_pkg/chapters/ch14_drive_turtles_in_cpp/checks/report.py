@@ -1,4 +1,4 @@
-"""14.7 and 14.8: a handler that calls a service of its own node, and two ways to avoid that it hangs."""
+"""14.7 and 14.8: a handler that calls a service of its own node, and two ways to prevent a deadlock."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ def _counts(
 
 
 def _call(name: str, kind: ServiceClass, session: str) -> str:
-    """Call in the given session; return the message or the error, within a time limit."""
+    """Call in the given session with a time limit; return the message of the response, or the error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:
@@ -92,4 +92,4 @@ def _call(name: str, kind: ServiceClass, session: str) -> str:
     try:
         return inbox.get(timeout=WITHIN)
     except queue.Empty:
-        return f"no answer within {WITHIN:g} s"
+        return f"no response within {WITHIN:g} s"

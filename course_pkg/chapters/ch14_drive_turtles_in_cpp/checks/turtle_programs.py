@@ -17,7 +17,7 @@ RATE = cpp("pubvel_toggle_plus")
 IMPROVED = cpp("improved_pubvel_toggle")
 FOLLOW = cpp("spawn_turtle_plus")
 LAUNCH = LaunchFile(IMPROVED, FOLLOW)
-DEADLINE = 150.0  # s, of which the compiler may need 90 on a busy machine
+DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
 
 
 @part(

@@ -22,16 +22,19 @@ ENDING = 6.0  # s in which a program has to end after the response
 LIMIT = 3.0  # s for which the program waits for the service
 SOON = 1.0  # s between the start of the node and the start of the service
 REASON = "no message from the camera"
-REFUSED = 55.0  # s, a patience that the service refuses
+REFUSED = 55.0  # s; the service refuses a call with this value of `patience`
 LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")  # lines of rospy's log, and warnings of Python
 
 LATE = (
     "The service started 1 s after the program, but the program had already ended. "
     "Wait for the service with rospy.wait_for_service(name, timeout=3)."
 )
-PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+PARAMETER = (
+    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+)
 DEFAULT = (
-    "Without a parameter, the patience has to be 2 s: the second argument of rospy.get_param is the default."
+    "Without a parameter, the field `patience` has to be 2 s: the second argument of rospy.get_param is "
+    "the default."
 )
 ONCE = "The program called more than once. Make only one call, and print its result."
 NEVER = "The program did not call the service. Call detect_customer, without a slash, after rospy.init_node."
@@ -41,12 +44,12 @@ NO_END = (
 )
 SILENT = "The program printed nothing. Print one line: customer or nobody."
 FIELD = (
-    'found was False, but the program printed "customer". In an "if", a response '
-    "object is always true: test its field `found`."
+    'found was False, but the program printed "customer". In an if statement, a '
+    "response object always counts as true: test its field `found`."
 )
 OTHER_LINE = 'The line has to contain only the word "customer" or only the word "nobody".'
 MORE_LINES = "The program printed other lines, too. Print only one line, because another program may read it."
-STATUS_0 = '"nobody" is also a valid result, so the exit status has to be 0: remove the sys.exit.'
+STATUS_0 = '"nobody" is also a valid result, so the exit status has to be 0: remove the call of sys.exit.'
 CATCH_REFUSAL = (
     "A refused call raises rospy.ServiceException. Catch this error, and end with sys.exit(str(error))."
 )
@@ -77,7 +80,7 @@ NO_WORD = "There was no service, but the program ended without a message: print 
     start=start_of(NAME),
 )
 def the_client(context: CheckContext) -> None:
-    """Start the program before its service, with a responding or refusing service, and without one."""
+    """Start the program before its service; use a service that responds or refuses, and no service."""
     package = examined(context, NAME)
     with ExitStack() as ending:
         detector = _Detector(context.random.number(3.0, 30.0, digits=1))
@@ -127,7 +130,7 @@ class Run:
         )
 
     def end(self, within: float = ENDING) -> Run:
-        """Wait for the program's end, or stop it `within` s after its node is on the graph (status None)."""
+        """Wait for the program to end; stop it `within` s after its node is on the graph (status None)."""
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
         finished = self._running.stop()
@@ -152,7 +155,7 @@ class Run:
 
 
 class _Detector:
-    """Finds a customer if the patience is `wait`, and nobody otherwise; refuses the patience REFUSED."""
+    """Finds a customer only if `patience` is `wait`; refuses a call whose `patience` is REFUSED."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait

@@ -19,10 +19,10 @@ NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
 INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
 AWAIT = "course_pkg/AwaitCustomer"
-LONG = 6.0  # s of patience, longer than any wait that succeeds
+LONG = 6.0  # s; a value of `patience` that is longer than any successful wait
 LATER = 2.2  # s until a customer comes
 SLACK = 2.0  # s that a call may take longer on a busy machine
-EARLY = 0.1  # s by which a call may end too early, because of rounding
+EARLY = 0.1  # s by which a call may seem to end too early, because of rounding
 CALLERS = 4
 
 NOT_SEEN = (
@@ -32,13 +32,8 @@ REMEMBERED = (
     "In the newest message, no customer is there, but found is True in the "
     "response. Use only the newest message."
 )
-NO_WAIT = (
-    "The response came before the patience was over, although no customer was "
-    "there. Wait for request.patience seconds."
-)
-TOO_LONG = (
-    "The response came long after the patience was over: use request.patience as the limit of the wait."
-)
+NO_WAIT = "The response came too early, although no customer was there. Wait for request.patience seconds."
+TOO_LONG = "The response came too late: use request.patience as the limit of the wait."
 ONE_BY_ONE = (
     "While one call waited, another call got no response. Do not hold a lock while "
     "the handler waits; Condition.wait_for releases its lock."
@@ -47,15 +42,16 @@ NOT_WOKEN = (
     "The customer came while several calls were waiting, but a call noticed this "
     "too late. Wake up all waiting calls in the callback, with notify_all."
 )
-UNREFUSED = "The patience has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
+UNREFUSED = "The field `patience` has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
 NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
 NAMELESS = 'The error message has to contain the word "patience".'
-FIRST = "The handler waited before it refused: check the patience at the beginning of the handler."
+FIRST = "The handler waited before it refused: check request.patience at the beginning of the handler."
 
 FAILED: Hints = [
     (
         REFUSED_BY_HANDLER,
-        "The handler refused a valid call. Accept each patience from 0 to 60 s while messages arrive.",
+        "The handler refused a valid call. Accept each value of `patience` from 0 to 60 s while messages "
+        "arrive.",
     ),
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
@@ -71,7 +67,7 @@ FAILED: Hints = [
     start=start_of(NAME),
 )
 def the_detector(context: CheckContext) -> None:
-    """Publish on customer_seen; call with and without a customer, and several times at the same time."""
+    """Publish on customer_seen; call with and without a customer; then make several calls at once."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -115,7 +111,7 @@ def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> No
 
 
 def _serves_several_callers(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
-    """Let several calls wait; make a short call in the meantime; then let a customer come."""
+    """Let several calls wait, make a short call while they wait, and then let a customer come."""
     with ThreadPoolExecutor(1) as pool:
         began = time.monotonic()
         vision.show_later(LATER, True)
@@ -168,12 +164,10 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
 SILENT = 'The error message has to contain the word "camera".'
 OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
 NOBODY_KNOWS = (
-    "The camera is silent, so the node cannot know that found is False: raise "
-    "rospy.ServiceException when the patience is over."
+    "The camera is silent, so the node cannot know that found is False: raise rospy.ServiceException "
+    "after request.patience seconds."
 )
-TOO_SOON = (
-    "The node refused before the patience was over. New messages may arrive, so wait for the whole patience."
-)
+TOO_SOON = "The node refused too early. New messages may arrive, so wait for request.patience seconds."
 FRESH = "The last message was less than 1 s old, so it is valid. Use it."
 CAME_BACK = (
     "The camera was silent, but new messages came in time. Use the newest message, "
@@ -193,7 +187,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, soon and long after the last message, and when new messages come."""
+    """Call before the first message, shortly and long after the last message, and while new messages come."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -226,7 +220,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
     found = True
     if vision.silent_for() < 0.8:
         found = detect(patience=0.0).found
-    if vision.silent_for() > 1.0:  # the machine is too busy for this test
+    if vision.silent_for() > 1.0:  # the machine is too busy for this assertion
         found = True
     context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
 

@@ -11,7 +11,7 @@ from course_pkg.checking.plain_values import Fields
 JOINTS = "sensor_msgs/JointState"
 FIRST = 1000  # s, the stamp of the first joint state; each further stamp is 1 s later
 COUNT = 24
-EFFORT = 7  # the number of a joint state with an infinite effort
+EFFORT = 7  # index of the joint state with an infinite effort
 
 
 @dataclass
@@ -63,16 +63,16 @@ class JointState:
 
 
 def joint_states(context: CheckContext) -> list[JointState]:
-    """Return joint states; the first, the last and the next after each invalid joint state are valid."""
+    """Return joint states. The first, the last, and the state after each invalid state are valid."""
     states = [_joint_state(context, number) for number in range(COUNT)]
     states[3].position = states[3].position[:2]
-    states[5].position = [*states[5].position, 0.5]  # this one has no velocities
+    states[5].position = [*states[5].position, 0.5]  # this joint state has no velocities
     states[8].position = []
     states[12].position = [math.nan, *states[12].position[1:]]
     states[14].velocity = states[14].velocity[:2]
     states[17].velocity = [*states[17].velocity[:-1], math.inf]
     states[19].velocity = [*states[19].velocity, 0.5]
-    states[EFFORT].effort[0] = math.inf  # this one is valid
+    states[EFFORT].effort[0] = math.inf  # this joint state is valid
     return states
 
 

@@ -1,4 +1,4 @@
-"""15.10: a launch file with two arguments; roslaunch itself reads it."""
+"""15.10: a launch file with two arguments; the check reads it with roslaunch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # s for roslaunch to read the file on a busy machine
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
-# Prints the nodes and the parameters that roslaunch reads from a launch file with the given arguments.
+# This code prints the nodes and the parameters that roslaunch reads from a launch file with the given
+# arguments.
 READER = """
 import re, sys
 from roslaunch.config import load_config_default
@@ -31,11 +32,13 @@ for parameter in config.params.values():
     print(f"{parameter.key}: {parameter.value}")
 """
 
-UNDECLARED = 'An argument is not declared: write an <arg> tag for "wait" and an <arg> tag for "hardware".'
+UNDECLARED = (
+    'An argument is not declared: write one <arg> tag for "wait" and another <arg> tag for "hardware".'
+)
 NO_XML = "The file is not valid XML: close each tag, and write each value in quotes."
 FIXED = 'The attribute "value" of an <arg> tag cannot be overridden. Use the attribute "default" instead.'
 REQUIRED = 'The file has to work without arguments: add the attribute "default" to each <arg> tag.'
-NO_BOOLEAN = 'The attribute "if" needs the value true or false. Write if="$(arg hardware)".'
+NO_BOOLEAN = 'The value of the attribute "if" has to be true or false. Write if="$(arg hardware)".'
 OTHER = "Type roslaunch --nodes my_cashier cashier.launch in the terminal, and read its output."
 UNREADABLE: Hints = [
     (matches("Invalid roslaunch XML|not well-formed|mismatched"), NO_XML),
@@ -63,7 +66,7 @@ PLACE = (
     'The parameter "wait" does not belong to robot_cashier: write the <param> tag '
     "inside the <node> tag of robot_cashier."
 )
-DEFAULT_WAIT = 'Without an argument, the patience has to be 2 s: write default="2.0".'
+DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write default="2.0".'
 NOT_PASSED = (
     'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
 )
@@ -111,7 +114,7 @@ def _read(context: CheckContext, command: Running) -> str:
     context.require(
         "roslaunch can read the file",
         holds=status == 0,
-        expected="the nodes that it would start",
+        expected="a list of the nodes in the file",
         actual=telling_line(printed),
         hints=[(lambda _: undeclared, UNDECLARED), *UNREADABLE],
     )

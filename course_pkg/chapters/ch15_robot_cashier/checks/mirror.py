@@ -19,7 +19,7 @@ NAME = "robot_cashier"
 ARM, MIRRORED = "joint_states", "mirrored_joints"
 DETECT, RESET = "detect_customer", "till/reset"
 INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
-PROMPT = 0.5  # s from a joint state to its mirror image, on a busy machine
+PROMPT = 0.5  # s between a joint state and its mirror image on a busy machine
 EVERY = 0.05  # s between two joint states
 NOT_HEARD = "The topic joint_states has the type sensor_msgs/JointState: pass this type to rospy.Subscriber."
 NONE_CAME = "No mirror image came. Publish the mirror image of each valid joint state in the callback."
@@ -88,8 +88,8 @@ def _is_prompt(context: CheckContext, subscription: Subscription, sent: list[flo
     context.require(
         "each image comes immediately",
         holds=median < PROMPT,
-        expected="an image some milliseconds after its joint state",
-        actual=f"half of the images after more than {median:.1f} s",
+        expected="an image a few milliseconds after its joint state",
+        actual=f"half of the images with a delay of more than {median:.1f} s",
         hints=LATE,
     )
 
@@ -181,8 +181,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         ),
         (
             lambda actual: actual and actual == stamps[: len(actual)] and len(actual) < 5,
-            "No image came after the first invalid joint state. Ignore this message, and "
-            "continue with the next one.",
+            "No image came after the first invalid joint state. Ignore this message, and continue with "
+            "the next message.",
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EFFORT},
@@ -195,6 +195,6 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         ),
         (
             ANYTHING,
-            "Some images are missing. Publish in the callback, because a loop with a pause misses messages.",
+            "Some images are missing. Publish in the callback: a loop with a pause misses messages.",
         ),
     ]

@@ -1,4 +1,4 @@
-"""The package of chapter 15; files of the check replace those that the student has not written yet."""
+"""The package of chapter 15; the check adds its own version of each file that is not written yet."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ project(my_cashier)
 find_package(catkin REQUIRED)
 catkin_package()
 """
-# The node of the course replaces a node that the student has not written.
+# This program starts a node of the course, because the student has not written this node yet.
 STAND_IN = """\
 #!/usr/bin/env python3
 from course_pkg.chapters.ch15_robot_cashier.programs.{name} import main

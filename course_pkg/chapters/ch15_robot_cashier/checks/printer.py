@@ -12,18 +12,17 @@ JAM = "paper jam: two lines at once"
 
 
 class Printer:
-    """Serves print_line; a line is refused with the message `fault` if this is not empty.
+    """Serves print_line; it refuses each line if the error message `fault` is not empty.
 
-    `lines` are the printed lines. While `held` is cleared, printing waits until `held` is set, but at most
-    10 s.
+    `lines` are the printed lines. While the event `held` is not set, each line waits, but at most 10 s.
     """
 
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.fault = ""
         self.jams = 0
-        self.calls = 0  # lines that were printed or refused with `fault`
-        self.began = threading.Event()  # set when a line begins
+        self.calls = 0  # number of lines that were printed, or refused because of `fault`
+        self.began = threading.Event()  # set when the first line begins
         self.held = threading.Event()
         self.held.set()
         self._busy = threading.Lock()

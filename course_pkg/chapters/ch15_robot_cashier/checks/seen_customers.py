@@ -15,7 +15,7 @@ EVERY = 0.1  # s between two messages
 
 
 class SeenCustomers:
-    """Publishes `customer` every 0.1 s, and nothing if it is None. `last` is the time of the last message."""
+    """Publishes `customer` every 0.1 s unless it is None; `last` is the time of the last message."""
 
     def __init__(self, topic: str) -> None:
         self.customer: bool | None = None
@@ -42,13 +42,13 @@ class SeenCustomers:
         time.sleep(0.05)
 
     def show_later(self, after: float, customer: bool) -> None:
-        """Publish `customer` from `after` s later on."""
+        """Publish `customer` after a delay of `after` s, and from then on."""
         timer = threading.Timer(after, self.show, [customer])
         timer.daemon = True
         timer.start()
 
     def silent_for(self) -> float:
-        """Return how long ago the last message was sent, in s."""
+        """Return the time since the last message, in s."""
         return time.monotonic() - self.last
 
     def _send(self) -> None:

@@ -24,7 +24,8 @@ from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
 STARTING = 40.0  # s for a node to appear; it takes 1 s on an idle machine
-COMPLETE = 3.0  # s after that for all its names; at least three times what the node needed to appear
+# Time in s from the first name of a node to all its names. It is longer if the node appeared late.
+COMPLETE = 3.0
 POLL = 0.1  # s between two snapshots of the graph
 WITH_SLASH = "with_slash"  # the namespace to which the check remaps global names
 MISSING = (
@@ -68,7 +69,7 @@ class Interface:
 def student_node(
     context: CheckContext, name: str, interface: Interface, *, calls: Sequence[str] = ()
 ) -> Iterator[str]:
-    """Start the student's program `name` with rosrun; yield its namespace when all its names exist.
+    """Start the student's program `name` with rosrun; yield its namespace as soon as all its names exist.
 
     `calls` are services that the program calls as a client.
     """
@@ -108,7 +109,7 @@ def started(
 def complete(
     context: CheckContext, running: Running, script: Program, space: str, interface: Interface
 ) -> None:
-    """Wait until the node has all names of the interface; otherwise report what it does instead."""
+    """Wait until the node has all names of the interface; otherwise report what happened instead."""
     assertion = f"rosrun starts the node {script.node} with all its names"
     node = f"{space}/{script.node}"
     seen = context.look()
@@ -132,9 +133,10 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return until when a check waits for the missing names, if the first name has appeared just now.
+    """Return the time until which a check waits for missing names, if the first name has just appeared.
 
-    It waits `least` s, or longer on a busy machine. `started` and the result are in s of time.monotonic().
+    The check waits `least` s, or longer on a busy machine. `started` and the result are in s of
+    time.monotonic().
     """
     now = time.monotonic()
     return now + max(least, 3 * (now - started))
@@ -166,8 +168,8 @@ def _why_incomplete(script: Program, status: int | None, printed: str, here: lis
     if script.node not in here:
         return f'Call rospy.init_node("{script.node}") without anonymous=True, before everything else.'
     return (
-        f"The program runs, but nothing in it {lacking}. Compare the names with the "
-        "exercise, letter by letter."
+        f"The program runs, but no part of it {lacking}. Compare the names with the exercise, letter by "
+        "letter."
     )
 
 

@@ -1,4 +1,4 @@
-"""15.7, 15.8 and 15.9: a till that adds up prices, prints each item before it counts, and can be reset."""
+"""15.7, 15.8 and 15.9: a till that adds up prices, prints each item first, and can be reset."""
 
 from __future__ import annotations
 
@@ -170,7 +170,10 @@ NOT_REFUSED = (
 REASONLESS = (
     "The error message has to contain the printer's message: use the text of the exception that you caught."
 )
-COUNTED = "The line was not printed, but the item counts. Store the price only after print_line has returned."
+COUNTED = (
+    "The line was not printed, but the till counts the item. Store the price only after print_line has "
+    "returned."
+)
 NO_PRINTER = (
     "Without a printer, the till has to refuse the call within 5 s. Do not wait for "
     "the service without a limit."
@@ -179,9 +182,8 @@ ILLEGAL = (
     "A line was printed for a refused item. Check for negative cents and an empty name before you print."
 )
 ORDER = (
-    "A total is not the sum of the lines printed before it, because another call "
-    "changed the till in the meantime. Hold one lock while you print, store and add "
-    "up."
+    "A total is not the sum of the lines that were printed before, because another call changed the till "
+    "in the meantime. Hold one lock while you print, store and add up."
 )
 
 
@@ -197,7 +199,7 @@ ORDER = (
     start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
 )
 def the_printed_till(context: CheckContext) -> None:
-    """Set items with a printer that works or refuses; then many at the same time; then without a printer."""
+    """Set items with a printer that works or refuses; then many items at once; then without a printer."""
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         (item, cents), (other, more), (third, rest) = _items(context, 3)
@@ -223,7 +225,7 @@ def the_printed_till(context: CheckContext) -> None:
         context.require(
             "the till prints a line",
             holds=len(till.printer.lines) == before + 1,
-            expected="one line for each call, also if the price is the old one",
+            expected="one line for each call, even if the price did not change",
             actual=f"{len(till.printer.lines) - before} lines",
             hints="The item had this price before. Print a line for each call of till/set.",
         )
@@ -235,7 +237,7 @@ def the_printed_till(context: CheckContext) -> None:
 def _refuses_without_print(
     context: CheckContext, till: Till, total: Service, prices: dict[str, int], item: tuple[str, int]
 ) -> None:
-    """Let the printer refuse a new item, and a new price for an old item."""
+    """Let the printer refuse a new item, and then a new price for an existing item."""
     till.printer.fault = REASON
     for name, cents in (item, (next(iter(prices)), 1)):
         before = till.printer.calls
@@ -318,13 +320,13 @@ KEPT = (
     "The till still has items after a reset. Remove all items, so that the next customer begins with 0 cents."
 )
 NOT_COUNTED = (
-    "A line was being printed during the reset, and its item is missing in the sum: "
-    "let the reset wait for the lock."
+    "A line was being printed during the reset, but its item is missing in the sum: let the reset wait "
+    "for the lock."
 )
 TOO_EARLY = "The reset did not wait for the line that was being printed. Use the same lock as in till/set."
 LEFT = (
-    "A line was being printed during the reset, and its item was in the till after "
-    "the reset. Hold a lock while you print and store."
+    "A line was being printed during the reset, but its item was in the till after the reset. Hold a lock "
+    "while you print and store."
 )
 
 
@@ -382,7 +384,7 @@ def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: 
     context.require(
         "a reset waits for the line that is being printed",
         holds=waited > HOLDING - 0.1,
-        expected="a response after the line",
+        expected="a response after the line was printed",
         actual="a response before the line was printed",
         hints=TOO_EARLY,
     )

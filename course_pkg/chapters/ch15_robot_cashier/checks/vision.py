@@ -19,12 +19,12 @@ INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
 ANSWER = 8.0  # s for a message after a frame, on a busy machine; it usually takes 5 ms
-AGAIN = 0.03  # s in which a wrong second message for a frame would come
-SILENT = 0.25  # s in which a wrong message for a malformed frame would come
+AGAIN = 0.03  # s for which the check waits for a wrong second message
+SILENT = 0.25  # s for which the check waits for a wrong message after a malformed frame
 
 AVERAGE = (
-    "A fifth of the points is dark, and all others are very light. Count the dark "
-    "points; do not use the average."
+    "A fifth of the points is dark, and all other points are very light. Count the dark points; do not "
+    "use the average."
 )
 NOISE = (
     "Only a twentieth of the points is dark. A frame shows a customer if at least a "

@@ -29,15 +29,15 @@ TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
 STANDING = 1.2  # s for which the first call waits
-PAUSE, TOO_LONG = 0.4, 2.0  # s, limits for a measured pause of half a second, on a busy machine
+PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of half a second, measured on a busy machine
 BETWEEN = 0.1  # s, the shortest time between two calls while a customer is there
 NEXT_CALL = 6.0  # s for the next call, on a busy machine
 
 
 class Step(NamedTuple):
-    """One call that the node has to make: its patience, the response, and the name of the response."""
+    """One call that the node has to make: its `patience`, the response, and the name of the response."""
 
-    waits: bool  # True: the patience has to be ~wait; False: 0
+    waits: bool  # True means that `patience` has to be ~wait, and False means 0
     act: Act
     name: str
 
@@ -61,7 +61,8 @@ STEPS = (
     Step(False, found(False), "False"),
     Step(True, Late(0.3, found(False)), "False"),
 )
-# The calls of detect_customer, counted from 1, that end a visit; till/reset follows each of them.
+# The numbers of the calls of detect_customer that end a visit, counted from 1. Each of them is followed by a
+# call of till/reset.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
 GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
@@ -76,18 +77,21 @@ NO_TILL = (
     "Without the service till/reset, the node stopped calling detect_customer. Do not wait for this service "
     "without a limit, and catch rospy.ServiceException."
 )
-NO_DEFAULT = 'Without a parameter, the patience has to be 2 s: rospy.get_param("~wait", 2.0).'
-PARAMETER = 'The patience has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s: rospy.get_param("~wait", 2.0).'
+PARAMETER = (
+    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+)
 STILL_THERE = (
-    "In the last response, found was True, so a customer is there: set the patience of the next call to 0."
+    "In the last response, found was True, so a customer is there: set the field `patience` of the next "
+    "call to 0."
 )
 VISIT_GOES_ON = (
-    "A failed call does not end a visit: after this failure, continue to call with "
-    "the patience 0 until found is False."
+    "A failed call does not end a visit: after this failure, continue to call with `patience` 0 until "
+    "found is False."
 )
 VISIT_OVER = (
-    "In the last response, found was False, so no customer is there: set the "
-    "patience of the next call to the value of ~wait."
+    "In the last response, found was False, so no customer is there: set the field `patience` of the next "
+    "call to the value of ~wait."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
 NO_PAUSE = (
@@ -96,14 +100,14 @@ NO_PAUSE = (
 )
 LONG_PAUSE = "After a failed call, the next call came too late: wait only 0.5 s."
 HUNG_UP = (
-    "The node made another call before the response came. A call with a patience of "
-    "some seconds can take this long: wait for its response."
+    "The node made another call before the response came. A call can take as long as its field `patience` "
+    "says: wait for its response."
 )
 NOT_GREETED = "A customer came, but no greeting followed: publish on greetings when found is True."
 GREETED_AGAIN = "There were more greetings than visits. Publish once, when the visit begins."
 NOT_FOUND = (
     "The node acted as if a customer was there, although found was False. In an "
-    '"if", a response object is always true: test its field `found`.'
+    "if statement, a response object always counts as true: test its field `found`."
 )
 TEXT = "The text of the greeting is wrong. Compare it with the exercise, letter by letter."
 NO_RESET = "The visit is over, but till/reset was not called: call it when found is False."
@@ -127,7 +131,7 @@ STANDS_STILL = (
     start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
 )
 def the_visits(context: CheckContext) -> None:
-    """Serve a detector with responses, refusals and a lost connection, and a till that refuses once."""
+    """Serve a detector that responds, refuses and breaks a connection, and a till that refuses once."""
     package = examined(context, NAME)
     names = [*INTERFACE.names, DETECT, RESET]
     space, other = (f"/{context.random.word()}" for _ in range(2))
@@ -162,7 +166,7 @@ def the_visits(context: CheckContext) -> None:
         context.require(
             "the node calls detect_customer in a loop",
             holds=len(alone.patiences) > 2,
-            expected="a call after the end of a visit, also without the service till/reset",
+            expected="a call after the end of a visit, even without the service till/reset",
             actual="no call",
             hints=NO_TILL,
         )
@@ -182,7 +186,7 @@ class Alone:
 
 @dataclass
 class Call:
-    """One call of the node: its patience, its arrival and its response, both in s of time.monotonic()."""
+    """One call of the node: its `patience`, and the times of request and response (time.monotonic(), s)."""
 
     patience: float
     came: float
@@ -208,7 +212,7 @@ class Detector:
 
 
 class Till:
-    """Responds to each reset, and stores how often the detector was called before; refuses the second."""
+    """Refuses the second reset; stores for each reset how often the detector was called before."""
 
     def __init__(self, detector: Detector) -> None:
         self.resets: list[int] = []
@@ -222,12 +226,12 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait until the detector was called `times` times; return whether it was."""
+    """Wait for the call number `times` of the detector; return whether it came in time."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls of STEPS one after the other, and compare their patience and their times."""
+    """Wait for the calls of STEPS one after the other, and compare their `patience` and their times."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"
@@ -250,8 +254,8 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         context.require(
             "the patience is ~wait, and 0 during a visit",
             holds=abs(call.patience - wanted) < 1e-3,
-            expected=f"the patience {wanted:g} after the response {before}",
-            actual=f"the patience {call.patience:g}",
+            expected=f"`patience` {wanted:g} after the response {before}",
+            actual=f"`patience` {call.patience:g}",
             hints=_wrong_patience(number, call.patience, wanted),
         )
         if number == 0:

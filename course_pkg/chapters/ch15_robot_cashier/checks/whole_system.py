@@ -1,4 +1,4 @@
-"""15.11: the student's whole system, which the check launches and uses like a customer, with faults."""
+"""15.11: the student's whole system; the check launches it, uses it like a customer, and causes faults."""
 
 from __future__ import annotations
 
@@ -27,10 +27,11 @@ from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
 from course_pkg.waiting import wait_until
 
 STARTING = 40.0  # s for the system to start on a busy machine; it takes 3 s on an idle machine
-COMPLETE = 6.0  # s for all other nodes after the first node; at least three times what the first node needed
+# Time in s from the first node to all other nodes. It is longer if the first node appeared late.
+COMPLETE = 6.0
 POLL = 0.1  # s between two snapshots of the graph
 REACTION = 5.0  # s for a greeting, for a reset, and until the detector notices a change
-BACK = 8.0  # s until killed nodes run again; at least twice what the system needed to start
+BACK = 8.0  # s until killed nodes run again; or twice the time that the system needed to start
 EVERY = 0.1  # s between two frames
 WAIT = 1.5  # s, the argument wait
 SERVICES = {
@@ -41,7 +42,7 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
-VISITS = 2  # customers at most after the restart, until one of them is greeted
+VISITS = 2  # largest number of customers after the restart until one of them is greeted
 MANY = 6  # calls at the same time, by two customers
 
 NOT_LAUNCHED = (
@@ -61,7 +62,7 @@ UNKNOWN = "An item without a name has to be refused. Check 15.7 again."
 COUNTED = "A refused item changed the total of the till. Check 15.8 again."
 NOT_RESET = "The customer has left, but the till still has items. Check 15.6 and 15.9 again."
 NO_MIRROR = (
-    "Joint states were published all the time, but only few mirror images came. Check 15.5 and 15.6 again."
+    "Joint states were published all the time, but only a few mirror images came. Check 15.5 and 15.6 again."
 )
 SILENT = "No frame came for more than 1 s, so detect_customer has to refuse. Check 15.3 again."
 NOT_RECOVERED = "New frames came after a pause, but detect_customer still refuses. Check 15.3 again."
@@ -84,7 +85,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Serve two customers at the same time, with faults of printer and camera; then kill all nodes."""
+    """Be two customers at once, with faults of the printer and of the camera; then kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     space = f"/{context.random.word()}"
     printer = Printer()
@@ -129,7 +130,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist, or report the first one that is missing.
+    """Wait until all services and topics exist, or report the first missing name.
 
     Return the time in s that the system needed to start.
     """

@@ -1,8 +1,8 @@
 """The node `counter_camera`: a small grey camera above the counter of the robot cashier.
 
 It publishes `~rate` (default 10) images per second on `frames` (sensor_msgs/Image, mono8), and serves
-`let_in` (course_pkg/LetIn). If `~every` is above 0, additional customers come, on average one every `~every`
-s.
+`let_in` (course_pkg/LetIn). If `~every` is above 0, additional customers come: on average, one customer every
+`~every` s.
 """
 
 from __future__ import annotations

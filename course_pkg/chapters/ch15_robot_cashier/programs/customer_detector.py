@@ -27,7 +27,7 @@ class CustomerDetector:
     def handle_detect(self, request: AwaitCustomerRequest) -> bool:
         """Return True as soon as a customer is there, and False after `patience` s.
 
-        Raise ServiceException for an impossible patience, or if the camera is silent.
+        Raise ServiceException if `patience` is impossible, or if the camera is silent.
         """
         if not 0.0 <= request.patience <= LONGEST:  # this comparison is false for nan
             message = f"patience is {request.patience:g} s, but it has to be from 0 to {LONGEST:g} s"

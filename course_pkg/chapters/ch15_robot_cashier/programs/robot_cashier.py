@@ -1,8 +1,8 @@
 """The node `robot_cashier`: mirrors the arm and greets customers at the same time.
 
 It publishes the mirror image of each message of `joint_states` on `mirrored_joints`. It calls
-`detect_customer` (course_pkg/AwaitCustomer) repeatedly, each time with a patience of `~wait` (default 2) s,
-and publishes one greeting for each visit on `greetings` (std_msgs/String). After a visit it calls
+`detect_customer` (course_pkg/AwaitCustomer) repeatedly; in these calls, `patience` is `~wait` (default 2) s.
+For each visit, it publishes one greeting on `greetings` (std_msgs/String). After a visit it calls
 `till/reset` (std_srvs/Trigger).
 """
 
@@ -23,7 +23,7 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import AwaitCustomer
 
 QUIET = 5.0  # s between two warnings
-GRACE = 2.0  # s that a call may take longer than its patience
+GRACE = 2.0  # s that a call may take longer than its `patience`
 AGAIN = 0.5  # s between a failed call and the next call
 POLL = 0.2  # s between calls while a customer is there
 FAILED = (rospy.ServiceException, CourseError)  # errors of a call

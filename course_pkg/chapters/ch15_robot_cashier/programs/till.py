@@ -1,8 +1,8 @@
 """The node `till`: adds up the prices of a customer's items.
 
-Its services are `till/set` (course_pkg/TillSet), which sets the price of an item, `till/total`
-(course_pkg/TillTotal), which returns the sum, and `till/reset` (std_srvs/Trigger), which removes all items. A
-price counts only if `print_line` (course_pkg/PrintLine) has printed it.
+It has three services. `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
+(course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price counts
+only if `print_line` (course_pkg/PrintLine) has printed it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Till:
 
     def __init__(self) -> None:
         self._turn = threading.Lock()  # held while a line is printed and counted
-        self._cents: dict[str, int] = {}  # by item
+        self._cents: dict[str, int] = {}  # the price of each item
 
     def handle_set(self, request: TillSetRequest) -> int:
         """Print and store the price of an item, and return the total in cents.

@@ -18,13 +18,13 @@ from course_pkg.ros.node.action_server import ActionServer
 
 WAIT = 2.0  # s for which the client waits for an action server
 LONG = 6.0  # s that a robot needs for a goal that the client cancels
-PROMPT = 4.0  # s for a client whose robot finishes in 0.3 s, on a busy machine
-ENOUGH = 5.0  # limit of the client in s, for a robot that finishes in time
-BRIEF = 0.2  # limit of the client in s, for a robot that ignores the cancellation
+PROMPT = 4.0  # s that a client may take on a busy machine if its robot finishes in 0.3 s
+ENOUGH = 5.0  # s; the client's limit for a robot that finishes in time
+BRIEF = 0.2  # s; the client's limit for a robot that ignores the cancellation
 LATE = 0.6  # s after the call until a late robot starts
 SECONDS = 0.8  # s after which the client has to cancel the goal; not a whole number
 SLACK = 3.0  # s that a busy machine may add
-LONGEST = 4.7  # s for a client that has to give up after WAIT, on a busy machine
+LONGEST = 4.7  # s that a client may take on a busy machine if it has to give up after WAIT
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to "
     "wait_for_server and also to wait_for_result."
@@ -52,7 +52,8 @@ class Robot:
         self.goals: list[FetchGoal] = []
         self.cancelled = threading.Event()
         self.took = 0.0  # s from the goal to its cancellation
-        self.over = threading.Event()  # ends a stubborn robot, one that ignores a cancellation
+        # This event ends a stubborn robot, which ignores a cancellation.
+        self.over = threading.Event()
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
@@ -86,7 +87,7 @@ class Robot:
     deadline=60.0,
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Offer a robot that finishes in time, is too slow, ignores a cancellation, or starts late; then none."""
+    """Offer a fast, a slow, a stubborn and a late robot, one after the other; then offer no robot."""
     _in_time(context)
     _too_late(context)
     _goes_on(context)
@@ -193,7 +194,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
         "a robot that does not finish in time is cancelled",
         holds=robot.cancelled.wait(1.0),
         expected=f"a cancellation after {SECONDS:g} s",
-        actual="no cancellation: the robot continues, although the client does not wait any more",
+        actual="no cancellation: the robot continues although the client has stopped waiting",
         hints=[
             ((lambda _: not robot.goals), UNSENT),
             (ANYTHING, "If wait_for_result returns False, the time is over: call cancel_goal()."),
@@ -218,7 +219,7 @@ def _goes_on(context: CheckContext) -> None:
     context.require(
         "a robot that does not finish in time is cancelled",
         holds=not result.error.startswith("TimesUp"),
-        expected=f"an end at most {WAIT:g} s after the cancellation",
+        expected=f"a function that ends at most {WAIT:g} s after the cancellation",
         actual="a function that does not end",
         hints=(
             "The robot ignored the cancellation, so the function waited forever. Wait at "
@@ -228,7 +229,7 @@ def _goes_on(context: CheckContext) -> None:
 
 
 def _comes(context: CheckContext) -> None:
-    """Start a robot while the client waits for it."""
+    """Start a robot while the client waits for the action server."""
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, 0.1)
     with ExitStack() as ending:
@@ -250,7 +251,7 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # A client that waited for a result sent the goal before the robot had started.
+                # If the client waited for a result here, it sent the goal before the robot had started.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 

@@ -26,9 +26,10 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-QUICK, LONG = (0.03, 0.05), (0.22, 0.3)  # s for one thing, in two goals, so that no fixed time fits both
+# Time in s for one thing, in two goals: the times differ, so that no fixed time fits both goals.
+QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # s for a goal that needs less than one second
-BUSY = 2.0  # s in which a slow goal is sent again, because a busy machine delays single messages
+BUSY = 2.0  # s in which the check repeats a goal that was too slow, because a busy machine can delay messages
 STARTING = 2.0  # s for a server to start
 CANCELLING = 3.0  # s in which a goal has to end after its cancellation
 FIXED = "The time for one thing is different in each goal: sleep for goal.seconds, not for a fixed time."
@@ -47,7 +48,7 @@ NO_STATE = (
     deadline=60.0,
 )
 def executed_goal(context: CheckContext) -> None:
-    """Create an object of the student's class, and send goals with different times; one is cancelled."""
+    """Create an object of the student's class; send goals with different times, and cancel one of them."""
     name = f"/{context.random.word()}"
     context.prepare(BEGIN)
     feedback = context.subscribe(f"{name}/feedback", "course_pkg/FetchActionFeedback")
@@ -104,7 +105,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, send another one, because the machine may be busy."""
+    """Send a quick goal; if it was too slow, send another goal, because the machine may be busy."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)
@@ -137,7 +138,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
 
 
 def _pace(at: list[float], alone: float) -> float:
-    """Return the usual time between two messages in s, or `alone` if there are not enough of them."""
+    """Return the usual time between two messages in s, or `alone` if there are not enough messages."""
     gaps = [after - before for before, after in itertools.pairwise(at)]
     return statistics.median(gaps) if gaps else alone
 
@@ -152,7 +153,7 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 
 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
-    """Assert that each feedback comes as soon as its thing has been fetched, not earlier or later."""
+    """Assert that each feedback message comes when its thing has been fetched, and not earlier or later."""
     context.require(
         "the feedback arrives while the goal is executed",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
@@ -215,7 +216,7 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
     context.require(
         "a goal that is cancelled ends soon",
         holds=_is_over(client, CANCELLING),
-        expected="an end after the thing that is being fetched",
+        expected="a goal that ends after the thing that is being fetched",
         actual="a robot that continues to fetch",
         hints="Check is_preempt_requested() before each thing, and end the goal if it returns True.",
     )
@@ -285,6 +286,6 @@ def _counts(feedback: Subscription) -> list[int]:
 
 
 def _last(feedback: Subscription) -> int:
-    """Return the last count of the feedback, after 0.3 s for late messages."""
+    """Wait 0.3 s for late messages, and return the number in the last feedback."""
     feedback.during(0.3)
     return _counts(feedback)[-1]

@@ -1,4 +1,4 @@
-"""16.3: a parameter, with a default in place of missing and invalid values."""
+"""16.3: a parameter, with a default for missing and invalid values."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ ZERO = "The value was 0, but a speed has to be above 0. Return the default."
     deadline=20.0,
 )
 def speed_parameter(context: CheckContext) -> None:
-    """Set and change the parameter of a robot with a random name, to valid and invalid values."""
+    """Set the parameter of a robot with a random name to valid and invalid values, one after the other."""
     robot = context.random.word()
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)
@@ -50,7 +50,7 @@ def speed_parameter(context: CheckContext) -> None:
             2,
             "the parameter, if it is a whole number",
             2.0,
-            "The value was the int 2, which is also a valid speed. Return it.",
+            "The value was the int 2, which is also a valid speed. Return this value.",
         ),
         ("fast", no_number, default, TEXT),
         ([first, second], no_number, default, LIST),

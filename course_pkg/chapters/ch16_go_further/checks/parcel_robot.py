@@ -25,12 +25,12 @@ from course_pkg.waiting import wait_until
 
 USUAL = 5  # parcels, the capacity without an argument
 FEW = 4  # parcels, the capacity of the first robot: less than the default capacity
-PARCELS = 3  # of a delivery: fewer than any capacity
+PARCELS = 3  # parcels of a delivery; fewer than the smallest capacity
 EACH = 0.2  # s for one parcel
 PERIOD = 0.2  # s between two values of the battery
 ENDING = 4.0  # s for a goal to end
 SETTLING = 1.0  # s for the battery to show a delivery
-NOT_AT_ONCE = 0.9  # a goal was not aborted immediately if it took this part of its full time
+NOT_AT_ONCE = 0.9  # a goal that took this fraction of its full time was not aborted immediately
 
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -55,7 +55,7 @@ if __name__ == "__main__":
     start=START,
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start two robots, one of them with a capacity; read the battery, move the door, deliver, cancel."""
+    """Start robots with and without a capacity; read the battery, move the door, deliver and cancel."""
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
@@ -88,7 +88,7 @@ def _starts_with_a_full_battery(context: CheckContext, battery: Subscription) ->
         "battery has five values per second",
         holds=0.5 * PERIOD < period < 1.7 * PERIOD,
         expected=f"a value every {PERIOD:g} s",
-        actual=f"a value every {period:.2f} s" if gaps else "hardly any value",
+        actual=f"a value every {period:.2f} s" if gaps else "too few values",
         hints="Publish in a loop that calls sleep() of a rospy.Rate(5) once in each round.",
     )
     context.expect(
@@ -179,7 +179,7 @@ def _counts(feedback: Subscription) -> list[int]:
 def _cancels(
     context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription, battery: Subscription
 ) -> float:
-    """Cancel a delivery after its first parcel; return the charge after it."""
+    """Cancel a delivery after its first parcel; return the charge after the delivery."""
     before = feedback.count
     client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
     feedback.wait(before + 1, ENDING)
@@ -229,7 +229,7 @@ def _cancels(
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
     """Assert that the impossible goal before the last goal did not reduce the charge."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # the charge may reach this value only for a moment
+    battery.during(3 * PERIOD)  # wait, because the charge may have this value only for a short time
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -255,8 +255,8 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
     context.require(
         "an impossible delivery ends immediately",
         holds=time.monotonic() - began < NOT_AT_ONCE * EACH * capacity,
-        expected="an end before the first parcel",
-        actual=f"an end after {time.monotonic() - began:.1f} s",
+        expected="a goal that ends before the first parcel",
+        actual=f"a goal that ended after {time.monotonic() - began:.1f} s",
         hints="Compare goal.things with the capacity before the loop.",
     )
     context.expect(

@@ -12,7 +12,7 @@ from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
 STARTING = 8.0  # s for the program to register something; it takes 1 s on an idle machine
-REGISTERING = 1.5  # s in which it then has to register all other interfaces
+REGISTERING = 1.5  # s after the first registration in which the program has to register all other interfaces
 POLL = 0.05  # s between two snapshots of the graph
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (
@@ -61,7 +61,7 @@ def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot offers its three names; assert that each has the kind of interface that fits."""
+    """Wait until the robot offers its three names; assert that each name has a fitting kind of interface."""
     deadline = time.monotonic() + at_this_load(STARTING)
     found: dict[str, str] = {}
     while time.monotonic() < deadline:

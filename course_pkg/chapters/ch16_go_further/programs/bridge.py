@@ -1,7 +1,8 @@
 """The node `bridge`: programs without ROS can call services through it, with JSON over a websocket.
 
-It implements the part of the rosbridge protocol that calls services, and listens only on this computer.
-https://github.com/RobotWebTools/rosbridge_suite/blob/ros1/ROSBRIDGE_PROTOCOL.md, 3.4.6 and 3.4.7.
+It listens only on this computer. It implements the part of the rosbridge protocol that calls services
+(sections 3.4.6 and 3.4.7 of
+https://github.com/RobotWebTools/rosbridge_suite/blob/ros1/ROSBRIDGE_PROTOCOL.md).
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def answered(text: str | bytes) -> dict[str, JSON]:
     except ValueError as error:
         return _error(f"no JSON: {error}")
     if not isinstance(request, dict) or request.get("op") != "call_service" or not request.get("service"):
-        return _error("this bridge knows one op, call_service, with the name of a service")
+        return _error("the only op of this bridge is call_service, with the name of a service")
     name = str(request["service"])
     try:
         values: JSON = _called(name, request.get("args", {}))
@@ -60,9 +61,9 @@ def _called(name: str, args: JSON) -> JSON:
     """Call a service with fields by name or by position, and return the fields of its response."""
     cls = rosservice.get_service_class_by_name(name)
     if cls is None:
-        raise ValueError(f"service [{name}] is of a type that is not known here")
+        raise ValueError(f"the type of service [{name}] is not known here")
     if not isinstance(args, (dict, list)):
-        raise ValueError("args is neither an object, by name, nor an array, by position")
+        raise ValueError("args must be an object (fields by name) or an array (fields by position)")
     request = cls._request_class()
     genpy.message.fill_message_args(request, [args] if isinstance(args, dict) else args)
     return _fields(BoundedProxy(name, cls, timeout=TIMEOUT)(request))
@@ -86,7 +87,7 @@ class Connection(tornado.websocket.WebSocketHandler):
     """One connection; each call runs on its own thread."""
 
     def data_received(self, chunk: bytes) -> None:
-        """Do nothing: the request that opens a websocket has no body."""
+        """Do nothing, because the request that opens a websocket has no body."""
 
     async def on_message(self, message: str | bytes) -> None:
         """Reply to one message, unless the client has closed the connection in the meantime."""
@@ -117,7 +118,7 @@ def main() -> None:
         asyncio.run(_serve(port))
     except OSError as error:
         rospy.logfatal(
-            "Port %d is not available (%s). Choose another port; with _port:=0, the node takes a free one.",
+            "Port %d is not available (%s). Choose another port; with _port:=0, the node takes a free port.",
             port,
             error.strerror,
         )

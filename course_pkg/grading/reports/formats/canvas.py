@@ -1,7 +1,7 @@
 """canvas.csv, which the gradebook of Canvas imports.
 
-Canvas finds a student by the ID, else by one of the SIS columns; if it does not know the name of a column, it
-offers to create an assignment for it. The second row contains the highest possible points.
+Canvas finds a student by the ID, or by one of the SIS columns. If Canvas does not know the name of a column,
+it offers to create an assignment for this column. The second row contains the highest possible points.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""class.html: the results of each part, the most frequent hints, and who needs attention."""
+"""class.html: the results of each part, the most frequent hints, and the students who need attention."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _rects(verdicts: Counter[Verdict], there: int) -> str:
     for verdict, (kind, _) in KINDS.items():
         width = 100 * verdicts[verdict] / max(1, there)
         if width:
-            shown = max(width - 0.3, 0.3)  # a gap, so that two colours never touch
+            shown = max(width - 0.3, 0.3)  # a gap between two colours
             made.append(f'<rect class="{kind}-mark" x="{start:.2f}%" width="{shown:.2f}%" height="100%"/>')
         start += width
     return "".join(made)
@@ -119,7 +119,7 @@ def _hints(book: Book) -> str:
 def _looks(book: Book) -> str:
     """Return the students who need attention, the most serious first.
 
-    Then, collapsed, notes about the others.
+    Collapsed notes about the other students follow.
     """
     found = [(student, attention(book, student)) for student in book.students]
     grave = {student: reasons for student, reasons in found if reasons}

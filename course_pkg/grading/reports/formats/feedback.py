@@ -1,4 +1,4 @@
-"""feedback/<student>.html: what a student learns from the grade."""
+"""feedback/<student>.html: the feedback for a student about the grade."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
-CELLS = 20  # of nbval's run that are listed
+CELLS = 20  # maximum number of listed cells of nbval's run
 
 
 def write(book: Book, out: Path) -> None:
@@ -83,7 +83,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield how the notebook ran, and which cells had another result than the reference."""
+    """Yield the result of nbval's run, with the cells whose result differs from the reference."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]

@@ -1,4 +1,4 @@
-"""gradescope/<student>/results.json, as an autograder of Gradescope leaves it.
+"""gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
 Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/
 """
@@ -29,7 +29,7 @@ def _results(grades: list[Grade]) -> dict[str, Plain]:
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        # this total is used instead of the sum, because lateness is taken off
+        # This total replaces the sum, because it contains the deduction for lateness.
         "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",

@@ -1,6 +1,6 @@
 """junit.xml: a suite for each submission and a case for each part, for programs that show test results.
 
-A part that was not examined is an error and not a skipped case, because skipped cases are easily overlooked.
+A part that was not examined is an error and not a skipped case, because readers overlook skipped cases.
 """
 
 from __future__ import annotations

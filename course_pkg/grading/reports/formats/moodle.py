@@ -1,4 +1,4 @@
-"""moodle.csv, for Grades, Import, CSV file: Moodle asks for the meaning of each column.
+"""moodle.csv, for Moodle's menu Grades, Import, CSV file; Moodle asks for the meaning of each column.
 
 Map the column `username` or `email` to the student (or `full name`, if the names come from a download from
 Moodle). Map each chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle
@@ -17,7 +17,7 @@ from course_pkg.grading.intake.naming import MOODLE, number_of
 from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, points
 
-LONG = 3_000  # characters of feedback
+LONG = 3_000  # maximum number of characters of feedback
 
 
 def write(book: Book, out: Path) -> None:

@@ -32,7 +32,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _row(book: Book, student: str) -> list[str]:
-    """Return a student's row; missing submissions are empty, and lateness is taken off only in the totals."""
+    """Return a student's row; missing submissions are empty; only the totals include lateness."""
     cells = [clean.cell(name_of(student))]
     for chapter in book.chapters:
         grade = book.grade(student, chapter)
