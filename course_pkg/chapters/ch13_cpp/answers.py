@@ -30,6 +30,15 @@ TARGET_LINK_LIBRARIES(${PROJECT_NAME}_node ${catkin_LIBRARIES})
 
 # %% 13.1 wrong: the file without its folder | hint: Write its path relative to the folder of the package
 replace("src/box_server.cpp", "box_server.cpp")
+# %% 13.1 wrong: a script in the place of the program | hint: has to be built from C++ code that calls functions of roscpp
+replace("""add_executable(box_server src/box_server.cpp)
+target_link_libraries(box_server ${catkin_LIBRARIES})""", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/box_server "#!/usr/bin/env python3\\nprint()\\n")
+file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes
+     FILE_PERMISSIONS OWNER_READ OWNER_EXECUTE)""")
+# %% 13.1 wrong: another source file | hint: Name this file in add_executable.
+replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
+int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
+add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
 # %% 13.1 wrong: linked before it is declared | hint: Write add_executable first, and use the same program name
 replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})\nadd_executable")
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
@@ -68,6 +77,16 @@ replace("""ros::ServiceServer server = node.advertiseService("box", measure);
   spinner.start();
   ros::waitForShutdown();
   return 0;""")
+# %% 13.2 wrong: starts a server in Python | hint: The program can start another program.
+replace("#include <ros/ros.h>", "#include <ros/ros.h>\n#include <unistd.h>")
+replace("ros::spin();", "execlp(\"python3\", \"python3\", \"box_server.py\", nullptr);")
+# %% 13.2 wrong: a system call of its own | hint: The program can start another program.
+replace("ros::spin();", """ros::spin();
+#ifdef __x86_64__
+  __asm__ volatile("syscall");
+#else
+  __asm__ volatile("svc #0");
+#endif""")
 # %% 13.2 wrong: both halves by value | hint: and with both &
 replace("& ", " ", times=2)
 # %% 13.2 wrong: a whole number for the area | hint: The part after the decimal point is missing, because an int contains

@@ -9,6 +9,7 @@ from course_pkg.chapters.ch13_cpp.checks.compiled_program import LIMITS, PACKAGE
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import run_catkin_make
+from course_pkg.checking.shared.roscpp_program import require_roscpp
 from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cmake_messages import cmake_commands
 
@@ -19,6 +20,7 @@ NO_ROSCPP = (
     "find_package(catkin … COMPONENTS …). Add roscpp to this list."
 )
 RULE = "catkin_make builds the package"
+BUILT = "devel/lib/cpp_boxes/box_server"
 
 START = f"""%%writefile {FILE}
 cmake_minimum_required(VERSION 3.10)
@@ -47,11 +49,14 @@ PROGRAM = """\
 #include <course_pkg/geometry.h>
 #include <ros/init.h>
 
+#include <iostream>
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "sound");
+  std::cout << "DRAWN" << std::endl;
   return course_pkg::geometry::Request().length != 0;
 }
-"""
+"""  # DRAWN is replaced by a random text, so that only a program built from this file prints it
 
 
 @part(
@@ -65,17 +70,28 @@ int main(int argc, char** argv) {
 def cmake_list_file(context: CheckContext) -> None:
     """Build a program of the check with the student's CMakeLists.txt, and look for the executable."""
     require_tools()
-    texts = {f"{PACKAGE}/package.xml": MANIFEST, f"{PACKAGE}/src/box_server.cpp": PROGRAM}
+    drawn = context.random.word(12)
+    code = PROGRAM.replace("DRAWN", drawn)
+    texts = {f"{PACKAGE}/package.xml": MANIFEST, f"{PACKAGE}/src/box_server.cpp": code}
     folder = context.folder(files=[FILE], texts=texts)
     _builds(context, run_catkin_make(folder, f"{LIMITS};", within=BUILDING))
-    there = folder.command("test", "-x", "devel/lib/cpp_boxes/box_server")
+    there = folder.command("test", "-x", BUILT)
     context.require(
         "rosrun finds the program box_server",
         holds=there.status == 0,
-        expected="devel/lib/cpp_boxes/box_server",
+        expected=BUILT,
         actual="no such program",
         hints=_why_not_there(context.source(f"file:{FILE}")),
     )
+    require_roscpp(context, folder, BUILT)
+    printed = folder.command(f"./{BUILT}").out.strip()
+    if printed != drawn:
+        context.fail(
+            "the program is built from src/box_server.cpp",
+            expected=f"a program that prints {drawn}",
+            actual=printed,
+            hint="The program was not built from src/box_server.cpp. Name this file in add_executable.",
+        )
 
 
 def _builds(context: CheckContext, finished: Finished) -> None:

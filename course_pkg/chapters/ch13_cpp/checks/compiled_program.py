@@ -8,6 +8,7 @@ import time
 
 from course_pkg.checking import CheckContext
 from course_pkg.checking.commands.folder import Folder, Running
+from course_pkg.checking.shared.roscpp_program import require_roscpp
 from course_pkg.errors import CheckError, ToolMissing
 from course_pkg.waiting import at_this_load
 from course_pkg.workspace import Fault, explain, missing_for_cpp
@@ -57,6 +58,7 @@ def compiled(context: CheckContext, file: str) -> Folder:
             hint=fault.remedy,
         )
     context.require("the compiler accepts the file", holds=True)
+    require_roscpp(context, folder, "program")
     return folder
 
 

@@ -11,6 +11,7 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
 )
 from course_pkg.checking import CheckContext
 from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
+from course_pkg.checking.shared.roscpp_program import require_roscpp
 from course_pkg.errors import CheckError, ToolMissing
 from course_pkg.workspace import Fault, explain, missing_for_cpp
 from course_pkg.workspace.cpp_support import compile_command
@@ -50,4 +51,5 @@ def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:
             hint=fault.remedy,
         )
     context.require(COMPILES, holds=True)
+    require_roscpp(context, copy.folder, program.package.path(program.command))
     return copy

@@ -1,0 +1,56 @@
+"""Inspect a compiled program: it uses roscpp, and it cannot let another program do its work."""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+from course_pkg.checking.commands.folder import Folder
+from course_pkg.checking.context import CheckContext
+from course_pkg.errors import ToolMissing
+
+# A name in the list of dynamic symbols that `readelf` prints: the program calls it, and a library defines it.
+CALLED = re.compile(r"\sUND\s+([A-Za-z_]\w*)")
+STARTS = re.compile(
+    r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
+)
+NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
+# Instructions that enter the kernel without a function of a library, on x86 and ARM.
+INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
+LINES = 2000  # limit for the output of readelf; a program of a student has about 400 symbols
+
+
+def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
+    """Assert that the file `program` in `folder` is a compiled program of roscpp that works by itself.
+
+    A program in another language could otherwise answer instead: C++ code can start it (exec(3)), and a
+    CMakeLists.txt can write a script in place of the program. Raises ToolMissing without binutils, which a
+    compiler brings along. A report shows these assertions only if they fail.
+    """
+    path = shlex.quote(program)
+    seen = folder.command(
+        "bash", "-c", f"readelf --dynamic --dyn-syms --wide {path} | head -n {LINES}", worded="readelf"
+    )
+    if "readelf" in seen.err and "not found" in seen.err:
+        raise ToolMissing("The program readelf is not here. On Debian and Ubuntu: apt-get install binutils.")
+    if "roscpp" not in {name.removeprefix("lib") for name in NEEDED.findall(seen.out)}:
+        context.fail(
+            "the program is a compiled C++ program that uses roscpp",
+            expected="an ELF file that is linked with libroscpp",
+            actual=(seen.out + seen.err).strip().partition("\n")[0] or "another file",
+            hint="The program has to be built from C++ code that calls functions of roscpp.",
+        )
+    starts = sorted({name for name in CALLED.findall(seen.out) if STARTS.fullmatch(name)})
+    hidden = folder.command(
+        "bash",
+        "-c",
+        f"objdump --disassemble --no-show-raw-insn {path} | grep --count --extended-regexp '{INSTRUCTION}'",
+        worded="objdump",
+    )
+    if starts or hidden.out.strip() != "0":
+        context.fail(
+            "the C++ program does the work itself",
+            expected="no other program or library that is started or loaded",
+            actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
+            hint="The program can start another program. Solve the exercise with roscpp alone.",
+        )
