@@ -49,7 +49,8 @@ class CellOutcome:
 
     cell: str
     outcome: str  # "passed", "failed", "skipped"
-    words: str = ""
+    finding: str = ""  # a sentence for the student; empty for a cell that passed
+    line: str = ""  # the first line of the cell, which shows the student which cell it is
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,7 @@ class Grade:
     key: str = ""  # a digest of the submission, the reference and the checks
     origin: str = ""
     problem: str = ""  # the problem of the submission; if there is one, no part was examined
+    code: dict[str, str] = field(default_factory=dict)  # the student's code of each part that was examined
     private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
 
     @property
@@ -87,7 +89,8 @@ class Grade:
             else report
             for report in self.reports
         )
-        return replace(self, reports=tuple(shown))
+        code = {check: text for check, text in self.code.items() if check not in self.private}
+        return replace(self, reports=tuple(shown), code=code)
 
     def as_dict(self) -> dict[str, Any]:
         """Return the grade as plain data."""

@@ -19,6 +19,7 @@ from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
 # Maximum number of runs of a part if its sandbox worker fails, because an answer cannot cause this failure.
+LONGEST_CODE = 20_000  # characters of a part's code that are kept for feedback
 TRIES = 2
 
 
@@ -46,6 +47,17 @@ class Answers:
         """Return the files of the packages that `part` needs, with paths below src as in a workspace."""
         named = [each for each in self.packages if each.name in part.package_files]
         return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
+
+    def code(self, planned: PartPlan) -> str:
+        """Return the student's code for a part: files of a package, or the cell of the notebook."""
+        part = planned.part
+        if self.in_packages(part):
+            named = {f"src/{name}/{path}" for name, paths in part.package_files.items() for path in paths}
+            files = [file for file in self.files(part) if file.path in named]
+            text = "\n".join(f"# {each.path}\n{each.data.decode('utf-8', 'replace')}" for each in files)
+        else:
+            text = self.notebook.answers.get(planned.exercise, "") if self.notebook else ""
+        return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
         """Return a sentence for each package that lacks a file that `part` needs."""
@@ -105,7 +117,8 @@ def mark(
         extras.weighed(_examined(each, answers, run, _seed(secret, key, each.part.check)))
         for each in plan.parts
     ]
-    return replace(grade, reports=tuple(reports), notes=tuple(_notes(plan, answers)))
+    code = {each.part.check: text for each in plan.parts if (text := answers.code(each))}
+    return replace(grade, reports=tuple(reports), notes=tuple(_notes(plan, answers)), code=code)
 
 
 def _notes(plan: Plan, answers: Answers) -> Iterator[str]:

@@ -10,13 +10,15 @@ import subprocess
 import sys
 from dataclasses import replace
 
-from course_pkg.authoring.cells import Notebook
+from course_pkg.authoring.cells import Notebook, code_cells
+from course_pkg.grading.cell_findings import finding
 from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
 CELL = 40  # s on an idle machine; with this limit, a cell that blocks the kernel costs less than 60 s
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
+LINE = 100  # characters of a cell's first line
 OUTPUT = 8 << 20  # bytes of the output
 
 
@@ -55,4 +57,14 @@ def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL)
             process.communicate()
             return ()
     lines = out[:OUTPUT].decode("utf-8", "replace").splitlines()
-    return tuple(CellOutcome(**json.loads(line)) for line in lines if line.startswith("{"))
+    first = {each["id"]: _first_line(each["source"]) for each in code_cells(notebook)}
+    records = [json.loads(line) for line in lines if line.startswith("{")]
+    return tuple(
+        CellOutcome(each["cell"], each["outcome"], finding(each["words"]), first.get(each["cell"], ""))
+        for each in records
+    )
+
+
+def _first_line(source: str) -> str:
+    """Return the first line of a cell that is not empty."""
+    return next((line for line in source.splitlines() if line.strip()), "")[:LINE]

@@ -16,7 +16,7 @@ import pytest
 
 from course_pkg.checking.report import Verdict
 from course_pkg.errors import GradingError
-from course_pkg.grading.grade import Grade
+from course_pkg.grading.grade import CellOutcome, Grade
 from course_pkg.grading.reports import read_grades, record_path, write_record, write_reports
 from course_pkg.grading.reports.gradebook import WITHOUT_SANDBOX, Book, attention
 from tests.grading.grades import HINTS, NASTY, class_of, nasty, refused, report
@@ -279,6 +279,19 @@ def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
     assert read_grades(tmp_path)[0].notes.count(WITHOUT_SANDBOX) == 1
 
 
+def test_feedback_shows_the_code_and_sentences_about_cells(tmp_path: Path) -> None:
+    """A student sees the own code, and for each cell with another result its first line and a sentence."""
+    raised = CellOutcome("c7", "failed", "The cell raised NameError: name 'x' is not defined", "print(x)")
+    write_reports(
+        [Grade("s01", "05", (report("05.1"),), cells=(raised,), code={"05.1": "if a < b:\n    pass"})],
+        tmp_path,
+    )
+    page = (tmp_path / "feedback/s01.html").read_text()
+    assert "<pre>if a &lt; b:\n    pass</pre>" in page
+    assert "print(x)" in page
+    assert "The cell raised NameError" in page
+
+
 def test_private_parts_stay_private(tmp_path: Path) -> None:
     """A student's page does not show details of a private check, but the instructor's page does."""
     secret = report("05.1", Verdict.FAILED, goal="secret goal", note="secret note", printed="secret print")
@@ -286,7 +299,7 @@ def test_private_parts_stay_private(tmp_path: Path) -> None:
         secret,
         assertions=tuple(replace(rule, text="secret rule", hint="secret hint") for rule in secret.assertions),
     )
-    write_reports([Grade("s01", "05", (secret,), private=("05.1",))], tmp_path)
+    write_reports([Grade("s01", "05", (secret,), private=("05.1",), code={"05.1": "secret"})], tmp_path)
     for name in ("feedback/s01.html", "gradescope/s01/results.json", "moodle.csv", "canvas.csv"):
         assert "secret" not in (tmp_path / name).read_text()
     for name in ("class.html", "junit.xml", "results/s01/05.json"):

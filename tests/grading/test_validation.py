@@ -41,7 +41,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
         ("cell-1", "failed"),
         ("cell-2", "passed"),
     ]
-    assert "3" in seen[1].words
+    assert "3" in seen[1].finding
 
 
 @pytest.mark.usefixtures("sandbox")
@@ -59,7 +59,7 @@ lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdl
 (found, names, [line for line in lines if "pytest" in line], [name for _, name in socket.if_nameindex()])
 """
     (seen,) = outcomes_of(notebook((probe, "([], [], [], ['lo'])")))
-    assert seen.outcome == "passed", seen.words
+    assert seen.outcome == "passed", seen.finding
 
 
 @pytest.mark.usefixtures("sandbox")

@@ -97,13 +97,21 @@ def of_points(earned: float, possible: float) -> str:
 def attention(book: Book, student: str) -> list[str]:
     """Return why an instructor should look at a student's work, the most serious reason first."""
     grades = book.of(student)
-    missing = [chapter for chapter in book.chapters if not any(grade.chapter == chapter for grade in grades)]
     return [
         *(clean.line(grade.problem) for grade in grades if grade.problem),
         *(reason for grade in grades if (reason := _about(grade))),
         *(reason for grade in grades for reason in _inconclusive(grade)),
-        *(f"Nothing was handed in for chapter {chapter}." for chapter in missing),
     ]
+
+
+def not_handed_in(book: Book, student: str) -> str:
+    """Return a sentence about the chapters for which a student handed in nothing, or an empty string."""
+    there = {grade.chapter for grade in book.of(student)}
+    missing = [chapter for chapter in book.chapters if chapter not in there]
+    if not missing:
+        return ""
+    word = "chapter" if len(missing) == 1 else "chapters"
+    return f"Nothing was handed in for {word} {', '.join(missing)}."
 
 
 def notes(book: Book, student: str) -> list[str]:

@@ -15,6 +15,7 @@ from course_pkg.grading.reports.gradebook import (
     Column,
     attention,
     name_of,
+    not_handed_in,
     notes,
     of_points,
     points,
@@ -42,17 +43,18 @@ def _body(book: Book) -> Iterator[str]:
     if not book.grades:
         yield paragraph("Nothing was handed in, so there is nothing to show.")
         return
+    yield "<h2>Everybody</h2>"
+    yield _everybody(book)
+    yield "<h2>Students who need attention</h2>"
+    yield _looks(book)
+    yield _absent(book)
+    yield "<h2>Most frequent hints</h2>"
+    yield _hints(book)
     yield "<h2>Results of each part</h2>"
     yield _key()
     for chapter in book.chapters:
         for column in book.columns_of(chapter):
             yield _spread(book, column)
-    yield "<h2>Most frequent hints</h2>"
-    yield _hints(book)
-    yield "<h2>Students who need attention</h2>"
-    yield _looks(book)
-    yield "<h2>Everybody</h2>"
-    yield _everybody(book)
 
 
 def _summary(book: Book) -> str:
@@ -134,6 +136,16 @@ def _looks(book: Book) -> str:
     items = "".join(f"<li>{_link(student)}{_listed(_known(book, student))}</li>" for student in others)
     count = f"{len(others)} other {'notebook' if len(others) == 1 else 'notebooks'}"
     return f'{looks}<details><summary>Notes about {count}</summary><ul class="looks">{items}</ul></details>'
+
+
+def _absent(book: Book) -> str:
+    """Return the students with missing chapters, in a list that the reader can unfold."""
+    found = [(student, sentence) for student in book.students if (sentence := not_handed_in(book, student))]
+    if not found:
+        return ""
+    items = "".join(f"<li>{_link(student)}{_listed([sentence])}</li>" for student, sentence in found)
+    count = f"{len(found)} {'student' if len(found) == 1 else 'students'}"
+    return f'<details><summary>Missing chapters of {count}</summary><ul class="looks">{items}</ul></details>'
 
 
 def _gravity(book: Book, student: str) -> int:

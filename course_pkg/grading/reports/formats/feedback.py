@@ -13,6 +13,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
+CODE = 20_000  # characters of a student's code that are shown
 CELLS = 20  # maximum number of listed cells of nbval's run
 
 
@@ -43,19 +44,30 @@ def _chapter(grade: Grade) -> Iterator[str]:
     yield banner("This could not be graded", [grade.problem])
     yield banner("About your submission", grade.notes)
     for report in grade.reports:
-        yield _part(replace(report, note="") if report.note == grade.problem else report)
+        shown = replace(report, note="") if report.note == grade.problem else report
+        yield _part(shown, grade.code.get(report.check, ""))
     yield from _cells(grade)
 
 
-def _part(report: Report) -> str:
+def _part(report: Report, code: str) -> str:
+    """Return a part: the student's code, what is right, what to change, and the note."""
     kind, sign = KINDS[report.verdict]
     score = of_points(report.points, report.possible) if report.possible else ""
-    assertions = "".join(map(_assertion, report.assertions))
     head = f"<h3>{text(report.check)} <span>{sign} {report.verdict.value}</span></h3>"
+    sections = "".join(
+        f"{paragraph(heading)}<ul class=assertions>{''.join(map(_assertion, assertions))}</ul>"
+        for heading, assertions in report.sections()
+    )
     return (
         f'<article class="part {kind}"><header>{head}<span class="muted">{score}</span></header>'
-        f"{paragraph(report.goal)}{f'<ul class=assertions>{assertions}</ul>' if assertions else ''}"
-        f"{paragraph(report.note)}{_printed(report)}</article>"
+        f"{paragraph(report.goal)}{_code(code)}{sections}{paragraph(report.note)}{_printed(report)}</article>"
+    )
+
+
+def _code(code: str) -> str:
+    """Return the student's code, which the reader can unfold."""
+    return (
+        f"<details><summary>Your code</summary><pre>{clean.html(code, CODE)}</pre></details>" if code else ""
     )
 
 
@@ -92,13 +104,13 @@ def _cells(grade: Grade) -> Iterator[str]:
     yield paragraph(
         f"The chapter's notebook was run from top to bottom with your answers in it. {passed} of "
         f"{len(grade.cells)} cells gave the same result as with the right answers. This earns no points; it "
-        f"shows "
-        "where an answer affects a later cell."
+        "shows where an answer affects a later cell."
     )
-    for cell in others[:CELLS]:
-        yield (
-            f"<details><summary>Cell <code>{text(cell.cell, 80)}</code>: {text(cell.outcome, 20)}</summary>"
-            f"<pre>{clean.html(cell.words or 'Nothing was recorded.', 2000)}</pre></details>"
+    if others:
+        items = (
+            f"<li><code>{text(cell.line or cell.cell, 100)}</code><br>{text(cell.finding, 500)}</li>"
+            for cell in others[:CELLS]
         )
+        yield f'<ul class="cells">{"".join(items)}</ul>'
     if len(others) > CELLS:
         yield paragraph(f"{len(others) - CELLS} more cells gave another result.", "muted")

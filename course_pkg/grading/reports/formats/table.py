@@ -11,6 +11,7 @@ from course_pkg.grading.reports.gradebook import (
     about_lateness,
     attention,
     name_of,
+    not_handed_in,
     notes,
     points,
     report_of,
@@ -40,5 +41,6 @@ def _row(book: Book, student: str) -> list[str]:
         cells += ["" if report is None else points(report.points) for report in reports]
         cells += [points(grade.late), points(grade.earned)] if grade else ["", ""]
     late = [about_lateness(grade) for grade in book.of(student)]
-    words = " | ".join(text for text in [*late, *attention(book, student), *notes(book, student)] if text)
+    found = [*late, *attention(book, student), not_handed_in(book, student), *notes(book, student)]
+    words = " | ".join(filter(None, found))
     return [*cells, points(book.earned(student)), points(book.total), clean.cell(words, 3000)]

@@ -1,0 +1,36 @@
+"""Sentences for students about the cells that nbval ran."""
+
+from __future__ import annotations
+
+import re
+
+COLOUR = re.compile(r"\x1b\[[\d;]*m")
+RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILINE)
+OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
+LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
+SENTENCES = (  # a text that nbval 0.11 or pytest writes, and what it means
+    ("Missing output fields", "The cell showed no output, or less output than with the right answers."),
+    ("Unexpected output fields", "The cell showed more output than with the right answers."),
+    (
+        "dissimilar number of outputs",
+        "The cell showed another number of outputs than with the right answers.",
+    ),
+    ("Cell outputs differ", "The cell showed another output than with the right answers."),
+    ("Kernel dead", "The cell was not run, because an earlier cell had ended the kernel."),
+    ("waiting for output", "The kernel ended, or it sent no output, while the cell ran."),
+    ("previous cell timed out", "An earlier cell took too long, so this cell was not compared."),
+)
+OTHER = "The cell did not give the same result as with the right answers."
+
+
+def finding(words: str) -> str:
+    """Return a sentence about a cell from the text that nbval wrote about it; "" for an empty text."""
+    text = COLOUR.sub("", words)
+    if not text.strip():
+        return ""
+    if limit := LIMIT.search(text) or OWN_LIMIT.search(text):
+        return f"The cell was stopped, because it ran for more than {limit['seconds']} s."
+    if "caused an exception" in text and (raised := RAISED.findall(text)):
+        error, message = raised[-1]
+        return f"The cell raised {error}: {message}"
+    return next((sentence for part, sentence in SENTENCES if part.lower() in text.lower()), OTHER)

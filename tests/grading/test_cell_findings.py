@@ -1,0 +1,46 @@
+"""Sentences about what nbval wrote."""
+
+from __future__ import annotations
+
+import pytest
+
+from course_pkg.grading.cell_findings import OTHER, finding
+
+START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("", ""),
+        (
+            f"{START}Cell execution caused an exception\n\nTraceback:\n"
+            "\x1b[31mNameError\x1b[39m: name 'x' is not defined",
+            "The cell raised NameError: name 'x' is not defined",
+        ),
+        (
+            f"{START}Timeout of 40 seconds exceeded executing cell\n\nKeyboardInterrupt:",
+            "The cell was stopped, because it ran for more than 40 s.",
+        ),
+        (
+            "The cell gave no result within 160 s, so this cell and all cells after it have no result.",
+            "The cell was stopped, because it ran for more than 160 s.",
+        ),
+        (
+            f"{START}Cell outputs differ\n mismatch 'text/html'\n<p>cut",
+            "The cell showed another output than with the right answers.",
+        ),
+        (
+            f"{START}Cell outputs differ\n\nMissing output fields from running code: {{'text/plain'}}",
+            "The cell showed no output, or less output than with the right answers.",
+        ),
+        (
+            "pytest plugin exception: Kernel dead on test start",
+            "The cell was not run, because an earlier cell had ended the kernel.",
+        ),
+        ("pytest plugin exception: b'<IDS|MSG>' is not in list", OTHER),
+    ],
+)
+def test_a_finding_is_one_sentence(words: str, sentence: str) -> None:
+    """The sentence contains the error or the time, and no output of pytest."""
+    assert finding(words) == sentence
