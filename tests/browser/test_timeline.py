@@ -13,7 +13,7 @@ from course_pkg.ros import Event, Recording
 from tests.browser.jupyter import Lab, running_notebook
 from tests.browser.pages import FAINT, panel, picture, save
 
-# The colours at a point of the drawing: the number of different ones within 9 x 9 pixels.
+# The number of different colours within 9 x 9 pixels at a point of the drawing.
 COLOURS = """(canvas, [x, y]) => {
     const data = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
