@@ -209,7 +209,7 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
     """A caller that was still blocked is reported in the drawing, in the sentences and in the table."""
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
-    expect(timeline.locator(".ros-details")).to_contain_text("and was still waiting when the recording ended.")
+    expect(timeline.locator(".ros-details")).to_contain_text("was still waiting when the recording ended.")
     expect(timeline.get_by_text("800 ms, and it is not over.")).to_be_visible()
     timeline.get_by_text("The same as a table").click()
     expect(timeline.get_by_role("row", name="wait")).to_contain_text("not over")
