@@ -119,7 +119,7 @@ def test_a_saved_topic_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -
     page.set_viewport_size({"width": 560, "height": 1200})
     page.goto(save(TopicPanel("/speed", "std_msgs/Float64"), tmp_path / "page.html"))
     topic = panel(page, "Topic panel")
-    expect(topic.get_by_text("No kernel answers: this is what the panel saw last.")).to_be_visible()
+    expect(topic.get_by_text("No kernel answers: this is the last saved state of the panel.")).to_be_visible()
     expect(topic.get_by_role("button", name="Publish", exact=True)).to_be_disabled()
     topic.get_by_text("The same by hand").click()
     once = topic.get_by_label("Command that publishes once")

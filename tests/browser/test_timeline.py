@@ -13,7 +13,7 @@ from course_pkg.ros import Event, Recording
 from tests.browser.jupyter import Lab, running_notebook
 from tests.browser.pages import FAINT, panel, picture, save
 
-# The colours at a point of the drawing: the number of different ones within 9 x 9 pixels.
+# The number of different colours within 9 x 9 pixels at a point of the drawing.
 COLOURS = """(canvas, [x, y]) => {
     const data = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
@@ -89,7 +89,7 @@ def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
     """A click on an event describes it as text with milliseconds; a click beside it hides the text."""
     timeline = show(page, tmp_path, recording())
     details = timeline.locator(".ros-details")
-    expect(details).to_contain_text("Click anything")
+    expect(details).to_contain_text("Click an event")
     click(page, timeline, 0.45, 2)
     expect(details).to_contain_text("/customer waited 498 ms for /cashier to answer on /detect.")
     expect(details).to_contain_text("handler (/cashier) 497 ms")
@@ -101,7 +101,7 @@ def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
         "/simulator spent 9.8 ms in a callback for a message on /joints from /robot."
     )
     click(page, timeline, 0.9, 2)
-    expect(details).to_contain_text("Click anything")
+    expect(details).to_contain_text("Click an event")
 
 
 def test_waiting_is_hatched(page: Page, tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
     drawn(page)
     assert ticks(timeline) == whole
     page.keyboard.press("Escape")
-    expect(details).to_contain_text("Click anything")
+    expect(details).to_contain_text("Click an event")
 
 
 def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
@@ -186,7 +186,7 @@ def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
     page.mouse.up()
     drawn(page)
     assert ticks(timeline) != near
-    expect(timeline.locator(".ros-details")).to_contain_text("Click anything")
+    expect(timeline.locator(".ros-details")).to_contain_text("Click an event")
     timeline.get_by_role("button", name="Show all").click()
     drawn(page)
     assert ticks(timeline) == whole
@@ -209,7 +209,7 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
     """A caller that was still blocked is reported in the drawing, in the sentences and in the table."""
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
-    expect(timeline.locator(".ros-details")).to_contain_text("/customer was still waiting for /cashier")
+    expect(timeline.locator(".ros-details")).to_contain_text("was still waiting when the recording ended.")
     expect(timeline.get_by_text("800 ms, and it is not over.")).to_be_visible()
     timeline.get_by_text("The same as a table").click()
     expect(timeline.get_by_role("row", name="wait")).to_contain_text("not over")

@@ -49,7 +49,7 @@ def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
     model.answer("an empty reply")
     record = model.compare("an error")
     assert record.first == "an empty reply"
-    assert "otherwise" in record.verdict
+    assert "something else" in record.verdict
     late = model.answer("an error")
     assert late.changed_after
     assert late.first == "an empty reply"
@@ -90,7 +90,7 @@ def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> 
     """A file of another program is not changed, and the error names it."""
     store.path.parent.mkdir()
     store.path.write_text("{")
-    with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file away"):
+    with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file to"):
         store.read()
     assert store.path.read_text() == "{"
 

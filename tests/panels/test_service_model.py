@@ -17,7 +17,7 @@ EMPTY = "---\n"
 
 
 class Caller:
-    """Answers a geometry request, or does what the test asks for."""
+    """Answers a geometry request, or fails in the way that the test has set."""
 
     def __init__(self) -> None:
         self.requests: list[Message] = []

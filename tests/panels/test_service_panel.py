@@ -89,7 +89,7 @@ def test_no_thread_without_a_page(panel: ServicePanel) -> None:
 
 
 def test_an_error_in_a_click_is_shown_in_the_panel(panel: ServicePanel) -> None:
-    """A malformed message from the page has no effect on the kernel's cells."""
+    """If a message of the page is not valid, the panel shows the error, and no cell fails."""
     panel._dispatch(panel, {"kind": "call"}, [])
     assert panel.notice == "KeyError: 'draft'"
 

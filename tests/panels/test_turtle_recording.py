@@ -46,7 +46,7 @@ def test_the_usual_pen_until_more_is_known() -> None:
 
 
 def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
-    """The colour sensor reads the turtle's own line; from then on the line has that colour."""
+    """If the sensor reads a colour twice, this is the turtle's own line; later lines have this colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 
@@ -58,14 +58,14 @@ def test_a_crossed_line_does_not_change_the_pen() -> None:
 
 
 def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
-    """Rows since the last certain colour are corrected afterwards."""
+    """If the paper under a slow turtle is empty, the rows since the last certain colour are corrected."""
     recording = filmed(at(3.0, speed=0.0), at(3.05), at(3.1), at(3.15))
     assert [row[2] for row in recording.rows if isinstance(row[2], str)] == ["undrawn"]
     assert recording.rows[-1][5] == UP
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """A moving turtle reads the paper in front of its line; its pen colour is known only at rest."""
+    """A fast turtle reads the paper in front of its line, so the colour of its pen is known only at rest."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP

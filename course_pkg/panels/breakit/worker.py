@@ -1,4 +1,4 @@
-"""A thread for the lab's jobs, such as causing a fault, for which a page cannot wait."""
+"""A thread for jobs of the lab that take too long for a page, such as causing a fault."""
 
 from __future__ import annotations
 

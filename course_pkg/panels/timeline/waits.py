@@ -42,7 +42,7 @@ class Waits(TypedDict):
 
 
 def waits_of(recording: Recording) -> Waits:
-    """Return the waits of a recording; a wait that had not ended counts to the end of the recording."""
+    """Return the waits of a recording; a wait that had not ended counts until the end of the recording."""
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)
     receivers: dict[str, set[str]] = defaultdict(set)

@@ -7,7 +7,7 @@
 export const SIDE = 500; // px of the simulator's own paper
 export const DELAY = 150; // ms by which the picture is late, so that the next place of each turtle is already known
 const WORLD = 11088.889; // mm
-const PEN = 3; // px; no topic tells the width of a pen, and this is the default
+const PEN = 3; // px; no topic carries the width of a pen, so this is the default width
 
 /** Plays the rows up to a time. It knows the place of each turtle and draws the lines on the paper. */
 export class Player {

@@ -66,7 +66,7 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    `find` returns the type with a name. It is needed if only the connection headers tell the type.
+    `find` returns the type with a name. It is needed if only the connection headers contain the type.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))
