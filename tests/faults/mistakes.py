@@ -89,7 +89,7 @@ BUILDING = (
     Row(
         "Building",
         "- - - instead of ---",
-        (Builds("blanks in the dashes", "Invalid declaration: - - -", "in the place of the three dashes"),),
+        (Builds("blanks in the dashes", "Invalid declaration: - - -", "instead of the three dashes"),),
     ),
     Row(
         "Building",
@@ -107,7 +107,13 @@ BUILDING = (
     Row(
         "Building",
         "another Python first on PATH",
-        (Builds("another Python", 'import parse_package" failed', "The build runs another Python"),),
+        (
+            Builds(
+                "another Python",
+                'import parse_package" failed',
+                "The build uses the Python that is first on PATH",
+            ),
+        ),
     ),
     Row(
         "Building",
