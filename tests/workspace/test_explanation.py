@@ -153,7 +153,7 @@ SLIPS = {
         "my_services/srv/Box.srv",
         "float is not a built-in type of ROS",
     ),
-    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - in the place of the"),
+    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - instead of the"),
     "two dashes": (spoilt(S, ("---", "--")), "", "Write --- and nothing else"),
     "a tab": (spoilt(S, ("float32 length", "float32\tlength")), "", "one space between"),
     "a semicolon": (spoilt(S, ("length", "length;")), "", "length; is not a legal"),
