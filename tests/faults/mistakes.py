@@ -120,7 +120,7 @@ BUILDING = (
         "roslaunch instead of rosrun; rosservice show",
         (
             Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
-            Builds("rosservice show", "Commands:", "rosservice does not know that command"),
+            Builds("rosservice show", "Commands:", "rosservice does not know this command"),
         ),
     ),
     Row(
