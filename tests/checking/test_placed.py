@@ -249,7 +249,7 @@ def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
             waiting = pool.submit(other.wait)
             assert drawer.opened.wait(SOON)
         assert waiting.exception(SOON) is None or isinstance(waiting.exception(SOON), ConnectionError)
-        with pytest.raises(ConnectionError, match="the check has ended"):
+        with pytest.raises(ConnectionError, match="belongs to a check that has ended"):
             other.add(1)
     assert wait_until(lambda: threading.active_count() == before, SOON)
 

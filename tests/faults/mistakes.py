@@ -89,7 +89,7 @@ BUILDING = (
     Row(
         "Building",
         "- - - instead of ---",
-        (Builds("blanks in the dashes", "Invalid declaration: - - -", "in the place of the three dashes"),),
+        (Builds("blanks in the dashes", "Invalid declaration: - - -", "instead of the three dashes"),),
     ),
     Row(
         "Building",
@@ -107,14 +107,20 @@ BUILDING = (
     Row(
         "Building",
         "another Python first on PATH",
-        (Builds("another Python", 'import parse_package" failed', "The build runs another Python"),),
+        (
+            Builds(
+                "another Python",
+                'import parse_package" failed',
+                "The build uses the Python that is first on PATH",
+            ),
+        ),
     ),
     Row(
         "Building",
         "roslaunch instead of rosrun; rosservice show",
         (
             Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
-            Builds("rosservice show", "Commands:", "rosservice does not know that command"),
+            Builds("rosservice show", "Commands:", "rosservice does not know this command"),
         ),
     ),
     Row(

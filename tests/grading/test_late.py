@@ -101,7 +101,7 @@ def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
         ("student,chapter,days\nsecret,five,1\n", "line 2.*two digits"),
         ('student,days\n"secret,1\n', "cannot be read"),
         (b"student,days\n\xff,1\n", "UTF-8"),
-        ("x" * 1_000_001, "larger"),
+        ("x" * 1_000_001, "too large"),
     ],
 )
 def test_a_broken_table(tmp_path: Path, content: str | bytes, words: str) -> None:

@@ -123,7 +123,7 @@ def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch
     """A server that still waits for a master ends after Ctrl-C without a traceback."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
-        eventually(lambda: "Waiting for one" in process.output())
+        eventually(lambda: "Waiting for a master" in process.output())
         process.interrupt()
         assert process.wait(5) == 0
         assert "Traceback" not in process.output()

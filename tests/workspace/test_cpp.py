@@ -70,7 +70,7 @@ MISTAKES = {
         "rossrv show lists the fields",
     ),
     "something else": ('int main() {\n  return 1 / "two";\n}\n', 2, "The compiler reports: invalid operands"),
-    "no library": ("void far_away();\nint main() { far_away(); }\n", 0, "linked with no library"),
+    "no library": ("void far_away();\nint main() { far_away(); }\n", 0, "not linked with a library"),
     "no main": ("int start() { return 0; }\n", 0, "The program has no function main"),
     "a handler of another kind": (
         f"{ROS}bool handle(std_srvs::Trigger::Request, std_srvs::Trigger::Response) {{ return true; }}\n"

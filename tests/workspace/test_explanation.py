@@ -99,12 +99,12 @@ SLIPS = {
     "a bracket too many": (
         spoilt(C, (GENERATE, "generate_messages())\n")),
         f"{LIST_FILE}, line 7",
-        "in the place of a command",
+        "where a command should begin",
     ),
     "still as in the template": (
         {**GOOD, C: "...\n"},
         f"{LIST_FILE}, line 1",
-        "there is ... in the place of a command",
+        "it contains ... where a command should begin",
     ),
     "no project": (
         spoilt(C, ("project(my_services)\n", "")),
@@ -153,9 +153,9 @@ SLIPS = {
         "my_services/srv/Box.srv",
         "float is not a built-in type of ROS",
     ),
-    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - in the place of the"),
+    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - instead of the"),
     "two dashes": (spoilt(S, ("---", "--")), "", "Write --- and nothing else"),
-    "a tab": (spoilt(S, ("float32 length", "float32\tlength")), "", "one blank between"),
+    "a tab": (spoilt(S, ("float32 length", "float32\tlength")), "", "one space between"),
     "a semicolon": (spoilt(S, ("length", "length;")), "", "length; is not a legal"),
     "a name twice": (spoilt(S, ("width", "length")), "", "Duplicate field names"),
     "a byte order mark in the .srv": ({**GOOD, S: "\ufeff" + BOX}, "", "is not a legal message field type"),

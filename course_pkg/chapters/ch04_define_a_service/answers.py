@@ -272,9 +272,9 @@ replace("(DEPENDENCIES std_msgs)", "()")
 replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
 # %% 04.4 wrong: the other package's name | hint: Write the same name in
 replace("(lamp_services)", "(my_services)")
-# %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … With it, other packages can find
+# %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … This command lets other packages find
 replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
-# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without it, the build passes, but
+# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build passes but
 replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
 # %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: There is no file geometry.srv
 replace("Lamp.srv", "geometry.srv")

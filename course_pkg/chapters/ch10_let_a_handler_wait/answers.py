@@ -672,9 +672,9 @@ causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 # %% 10.7 wrong: A and B exchanged | hint: A wrong lock order needs two threads and two locks … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With a lock held across a call, you see waiting threads in … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: If a thread holds a lock across a call, threads wait in … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
-# %% 10.7 wrong: C and E exchanged | hint: A missing notify lets a thread wait longer … the number of waiting threads grows
+# %% 10.7 wrong: C and E exchanged | hint: If notify is missing, a thread waits longer … the number of waiting threads grows
 replace('"C": "no limit"', '"C": "no notify"')
 replace('"E": "no notify"', '"E": "no limit"')
 # %% 10.7 wrong: a missing notify taken for a missing limit | hint: A wait without a limit never ends … The item came after two seconds, but the handler returned only when

@@ -282,7 +282,7 @@ replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
 based_on("does not catch TimeoutError")
 replace("receipt", "receipt\n        except TimeoutError:\n            pass")
 replace("cannot process request", 'request" in str(error) or "error')
-# %% 12.3 wrong: two tries only | hint: In this case the till was … but pay() had given up
+# %% 12.3 wrong: two tries only | hint: In this case, the till was … but pay() had given up
 replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")

@@ -177,7 +177,7 @@ replace("if (client.call(box)) {", "client.call(box);\n    {")
 replace("if (client.call(box)) {", "client.call(box);\n    if (box.response.volume > 0) {")
 # %% 13.3 wrong: calls again and again | hint: Count the calls, and stop after the third
 replace("tries < 3; ++tries", ";")
-# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … The first call is one of the three
+# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … The first call is also counted
 replace("tries < 3", "tries <= 3")
 # %% 13.3 wrong: calls twice | hint: Repeat the call while call() returns false, with at most three calls
 replace("3;", "2;")

@@ -86,7 +86,7 @@ replace('ros::ServiceServer server = node', 'node')
 # %% 14.2 wrong: the same message object in each loop | hint: The turtle turns, but it also still moves ahead
 replace('    geometry_msgs::Twist message;\n', '')
 replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
-# %% 14.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) stand for 2 Hz
+# %% 14.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
 replace('rate(2)', 'rate(10)')
 # %% 14.2 wrong: no header | hint: std_srvs/Empty.h
 replace('#include <std_srvs/Empty.h>\n', '')

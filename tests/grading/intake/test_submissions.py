@@ -282,14 +282,14 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
         [found] = submissions(source)
         assert (found.student, found.chapter, found.content) == ("s01", "05", b"")
         assert FIVE in found.problem
-        assert words in found.problem or "more than a hundred times" in found.problem
+        assert words in found.problem or "after unpacking is too large" in found.problem
 
 
 @pytest.mark.parametrize(
     ("name", "words"),
     [
         ("s01/77_other.ipynb", "no chapter 77"),
-        ("s01/mine.ipynb", "give it a name such as"),
+        ("s01/mine.ipynb", "give the file a name such as"),
         ("s01/notes.pdf", "neither a notebook"),
         ("s01/all.zip", "archive inside"),
         (FIVE, "its student is unknown"),
@@ -371,7 +371,7 @@ def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
-    assert "more than a hundred times" in bad.problem
+    assert "after unpacking is too large" in bad.problem
     assert good.content
     liar = zipped(tmp_path / "b.zip", {f"s01/{FIVE}": b" " * (30 << 20)})
     data = liar.read_bytes().replace(struct.pack("<L", 30 << 20), struct.pack("<L", 1000))

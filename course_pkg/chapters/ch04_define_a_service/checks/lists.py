@@ -53,7 +53,7 @@ def the_list_file(context: CheckContext) -> None:
         holds=folder.command("test", "-f", CONFIGURATION).status == 0,
         expected="a file that catkin_package writes for other packages",
         actual="no such file",
-        hints=_about(text, "catkin_package", "It lets other packages find this package."),
+        hints=_about(text, "catkin_package", "This command lets other packages find this package."),
     )
 
 
