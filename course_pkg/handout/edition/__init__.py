@@ -1,0 +1,1 @@
+"""The students' edition: its files, its folder and git repository, its zip, and the link to it."""
