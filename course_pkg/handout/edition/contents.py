@@ -1,7 +1,8 @@
 """The files of the students' edition: what the course needs to run, and notebooks derived from the solutions.
 
 Solutions, tests, example answers, the fixtures of grading, an instructor's private checks, and the recordings
-of the site are left out. The checks stay, because `check()` runs on the student's computer.
+of the site are left out. The checks stay, because `check()` runs on the student's computer, but they are
+packed: their source contains answers.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from course_pkg.authoring.normalise import tidy
 from course_pkg.authoring.notebook_store import NotebookStore, derived, read, text_of
+from course_pkg.checking.packed import pack
 from course_pkg.checking.parts import chapters as all_chapters
 from course_pkg.errors import HandoutError
 from course_pkg.handout.edition.git import git
@@ -30,6 +32,7 @@ FILES = (
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )
+CHECKS = re.compile(r"course_pkg/chapters/ch\d\d_\w+/checks(?:/.*)?\.py")
 WRITTEN_BY_TOOLS = re.compile(r"(?:^|/)(?:__pycache__|\.[^/]+|[^/]+\.egg-info)(?:/|$)|\.pyc$|~$")
 
 
@@ -47,7 +50,7 @@ def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) 
     `root` is the checkout with the solutions, and `hidden` are the commands that README does not list.
     Raises AuthoringError if a solution cannot be used, HandoutError if a file cannot be read.
     """
-    found = {name: _file(root / name) for name in _released_paths(root)}
+    found = {name: _file(root / name, packed=bool(CHECKS.fullmatch(name))) for name in _released_paths(root)}
     readme = (root / README).read_text("utf-8")
     found[README] = File(student_readme(readme, released, all_chapters(), hidden).encode())
     for path in NotebookStore(root).solutions(released):
@@ -59,7 +62,7 @@ def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) 
 def untracked_files(root: Path) -> list[str]:
     """Return the files of the package that git does not track; the edition does not contain them."""
     listed = _git_listing(root, "--others", "--exclude-standard") or []
-    return [name for name in listed if _is_released(name)]
+    return [name for name in listed if is_released(name)]
 
 
 def _notebook(solution: Path, released: Collection[str]) -> str:
@@ -84,11 +87,12 @@ def _released_paths(root: Path) -> Iterator[str]:
         listed = [*(name for name in listed if not WRITTEN_BY_TOOLS.search(name)), *FILES]
     for name in listed:
         path = root / name
-        if _is_released(name) and path.is_file() and not path.is_symlink():
+        if is_released(name) and path.is_file() and not path.is_symlink():
             yield name
 
 
-def _is_released(name: str) -> bool:
+def is_released(name: str) -> bool:
+    """Return whether the edition has a copy of the checkout's file `name`."""
     return (name in FILES or name.partition("/")[0] in FOLDERS) and not LEFT_OUT.match(name)
 
 
@@ -99,9 +103,10 @@ def _git_listing(root: Path, *options: str) -> list[str] | None:
     return list(filter(None, git(root, "ls-files", "-z", *options).split("\0")))
 
 
-def _file(path: Path) -> File:
+def _file(path: Path, *, packed: bool) -> File:
     try:
-        return File(path.read_bytes(), bool(path.stat().st_mode & 0o100))
+        content = pack(path.read_text("utf-8")).encode() if packed else path.read_bytes()
+        return File(content, bool(path.stat().st_mode & 0o100))
     except OSError as error:
         raise HandoutError(
             f"{path} cannot be read ({error.strerror}). Correct its permissions, and type the command again."

@@ -63,6 +63,7 @@ def read_home(
 def become(home: Home) -> None:
     """Give up all rights except those of the home's owner; do nothing if this process is not root's.
 
+    From then on, no process of the owner can trace this one, because it has changed its user (ptrace(2)).
     Raises PermissionError if rights of root are left.
     """
     if os.geteuid() != 0:
@@ -70,11 +71,8 @@ def become(home: Home) -> None:
     os.setgroups(groups_of(home))
     os.setresgid(home.gid, home.gid, home.gid)
     os.setresuid(home.uid, home.uid, home.uid)
-    with suppress(PermissionError):
-        os.setresuid(0, 0, 0)
-        raise SystemExit("the rights of root are still there")
-    if 0 in (*os.getresuid(), home.uid):
-        raise PermissionError("the rights of root are still there")
+    if set(os.getresuid()) != {home.uid} or home.uid == 0:
+        raise PermissionError(f"{home.path} is not read with the rights of root")
 
 
 def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:
@@ -82,6 +80,8 @@ def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], a
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends this process
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        os.closerange(3, writer)
+        os.closerange(writer + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
         become(home)
         with os.fdopen(writer, "wb") as pipe:
             for found in work_in(str(home.path), folder, notebooks, asked):
