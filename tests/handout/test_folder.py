@@ -70,7 +70,9 @@ def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
     """The folder stays as it was; an empty one is used."""
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("")
-    with pytest.raises(HandoutError, match=r"did not make it, so nothing was written\. Give a new or an empty"):
+    with pytest.raises(
+        HandoutError, match=r"did not make it, so nothing was written\. Give a new or an empty"
+    ):
         write(tmp_path / "mine", a="1")
     assert [path.name for path in (tmp_path / "mine").iterdir()] == ["thesis.txt"]
     with pytest.raises(HandoutError, match="did not make it"):
@@ -168,7 +170,9 @@ def test_the_link_for_nbgitpuller() -> None:
     }
 
 
-@pytest.mark.parametrize(("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")])
+@pytest.mark.parametrize(
+    ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
+)
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
     """The message names the option and shows how the address begins."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):

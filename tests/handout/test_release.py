@@ -78,7 +78,9 @@ def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
 def test_what_students_must_not_have_is_left_out(edition: Path) -> None:
     """There are no solutions, tests, example answers, fixtures, recordings, private checks and no history."""
     names = [*files_of(edition), *zipped(edition)]
-    secret = re.compile(r"(solutions|tests|\.ci)/|.*/chapters/(.*(answers|fixtures)\.py|.*recordings\.json|private_)")
+    secret = re.compile(
+        r"(solutions|tests|\.ci)/|.*/chapters/(.*(answers|fixtures)\.py|.*recordings\.json|private_)"
+    )
     assert [name for name in names if secret.match(name)] == []
     assert git(edition, "rev-list", "--count", "HEAD") == "1"
 
@@ -86,7 +88,9 @@ def test_what_students_must_not_have_is_left_out(edition: Path) -> None:
 def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
     """Each chapter's notebook is the same, byte for byte, as the one in notebooks/."""
     for path in NotebookStore().solutions():
-        assert (edition / "notebooks" / path.name).read_bytes() == (ROOT / "notebooks" / path.name).read_bytes()
+        assert (edition / "notebooks" / path.name).read_bytes() == (
+            ROOT / "notebooks" / path.name
+        ).read_bytes()
 
 
 def zipped(edition: Path) -> dict[str, zipfile.ZipInfo]:
@@ -109,18 +113,24 @@ def test_the_readme_is_for_students(edition: Path) -> None:
     """README has the first command, no command that needs the solutions, and no link that leads nowhere."""
     text = (edition / "README.md").read_text("utf-8")
     assert "./course lab" in text
-    assert [name for name in ("grade", "release", "collect", "sync", "test") if f"./course {name}" in text] == []
+    assert [
+        name for name in ("grade", "release", "collect", "sync", "test") if f"./course {name}" in text
+    ] == []
     assert "instructors" not in text
     targets = re.findall(r"\]\(([\w./-]+)\)", text)
     assert targets
     assert [target for target in targets if not (edition / target).exists()] == []
 
 
-@pytest.mark.parametrize("words", [["grade", "x"], ["grade-one", "x", "--out", "y"], ["sync"], ["test"], ["site"]])
+@pytest.mark.parametrize(
+    "words", [["grade", "x"], ["grade-one", "x", "--out", "y"], ["sync"], ["test"], ["site"]]
+)
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
     """The message comes before a set-up, names the students' edition, and says where the command works."""
     nowhere = {**os.environ, "XDG_CACHE_HOME": "/proc/nowhere"}
-    done = subprocess.run([edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stderr.count("\n")) == (1, 1)
     assert "students' edition" in done.stderr
     assert "instructors' edition" in done.stderr
@@ -162,7 +172,9 @@ def test_some_chapters(tmp_path: Path) -> None:
     assert re.findall(r"^\| (\d\d) \|", text, re.MULTILINE) == ["05", "06"]
     linked = {name for path in (edition / "notebooks").iterdir() for name in links(read(path))}
     assert linked <= set(names)
-    shown = python_in(edition, "from course_pkg import progress; print(progress())", COURSE_STATE=str(tmp_path))
+    shown = python_in(
+        edition, "from course_pkg import progress; print(progress())", COURSE_STATE=str(tmp_path)
+    )
     assert re.findall(r"^  (\d\d)  ", shown, re.MULTILINE) == ["05", "06"]
 
 
@@ -174,7 +186,9 @@ def links(notebook: Notebook) -> list[str]:
 
 @pytest.mark.slow
 @pytest.mark.timeout(900)
-def test_the_edition_sets_itself_up_and_passes_all_answers_of_a_chapter(edition: Path, tmp_path: Path) -> None:
+def test_the_edition_sets_itself_up_and_passes_all_answers_of_a_chapter(
+    edition: Path, tmp_path: Path
+) -> None:
     """`./course run` works in a fresh clone; its notebook with right answers passes all its checks."""
     git(tmp_path, "clone", "--quiet", str(edition), "clone")
     clone = tmp_path / "clone"
