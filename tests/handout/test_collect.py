@@ -149,7 +149,7 @@ def home_of(homes: Path, student: str) -> Home:
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """A link in place of the course's folder, of a folder in it, or of a notebook is reported, not followed."""
+    """A link in place of a folder or of a notebook is reported, and not followed."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)

@@ -148,14 +148,14 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
 
 
 def test_paths_and_chapters() -> None:
-    """A path is found by its name in any case; both ends of a path count; unknown names list the known ones."""
+    """A path is found by its name in any case, with both of its ends; a message lists the known names."""
     assert chosen_chapters("the lab session") == chosen_chapters("Lab-Session") == ("00", "05", "06", "07")
     assert chosen_chapters("The turtle tutorial") == ("00", "02", "05", "06", "07", "09", "13", "14")
     assert chosen_chapters("The whole course") == chosen_chapters()
     assert chosen_chapters(listed=["06", "05"]) == ("05", "06")
-    with pytest.raises(HandoutError, match='no path "lab".*"The lab session", "The turtle tutorial"'):
+    with pytest.raises(HandoutError, match=r'no path "lab".*"The lab session", "The turtle tutorial"'):
         chosen_chapters("lab")
-    with pytest.raises(HandoutError, match="no chapter 42.*00 to 16"):
+    with pytest.raises(HandoutError, match=r"no chapter 42.*00 to 16"):
         chosen_chapters(listed=["05", "42"])
 
 
@@ -182,7 +182,7 @@ def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository:
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     """The record names the chapters; without record and solutions, the message says what to get."""
     assert released_chapters(tmp_path) is None
-    with pytest.raises(SetupError, match="there are none in .*solutions.* Get that folder"):
+    with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get that folder"):
         require_solutions(tmp_path, "grade")
     write(tmp_path / "out", a="1")
     assert released_chapters(tmp_path / "out") == ("05",)

@@ -123,7 +123,8 @@ def test_the_readme_is_for_students(edition: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["grade", "x"], ["grade-one", "x", "--out", "y"], ["sync"], ["test"], ["site"]]
+    "words",
+    [["grade", "x"], ["grade-one", "x", "--out", "y"], ["release", "x"], ["sync"], ["test"], ["site"]],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
     """The message comes before a set-up, names the students' edition, and says where the command works."""
