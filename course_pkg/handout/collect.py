@@ -12,6 +12,7 @@ from course_pkg.checking.parts import chapters as all_chapters
 from course_pkg.checking.parts import notebook_of, parts_of
 from course_pkg.errors import HandoutError
 from course_pkg.grading import clean
+from course_pkg.grading.intake.naming import TIMES
 from course_pkg.handout.homes.listing import Home, homes_in, read_students
 from course_pkg.handout.homes.reading import read_home
 from course_pkg.handout.homes.storing import store
@@ -73,14 +74,15 @@ def collect(options: Options) -> int:
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    table = TimesTable(options.out)
+    TimesTable(options.out)  # another folder is refused before it is changed
     if os.geteuid() != 0:
         sys.stderr.write("You are not root, so only what your own account can read is collected.\n")
     found, out = Collected(), options.out
     try:
         out.mkdir(parents=True, exist_ok=True, mode=0o700)
-        table.replace((), ())  # first: an interrupted collection may be repeated
         with locked(out / LOCK, lambda: _note("Another collection is under way; waiting for it.")):
+            table = TimesTable(out)
+            table.replace((), ())  # first: an interrupted collection may be repeated
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)
     except OSError as error:
@@ -105,20 +107,29 @@ def _collect_one(
         found.nothing.append(student)
         return
     store(out / student, files)
-    rows = [
-        Row(student, chapter, _path(file), iso_time(file.modified))
-        for file in files
-        for chapter in wanted.chapters_of(file)
-    ]
+    rows = list(_rows(student, files, wanted))
     table.replace({row.unit for row in rows}, rows)
     found.students += 1
     found.notebooks += sum(not file.package for file in files)
     found.packages += len({file.package for file in files if file.package})
     found.set_back += [
-        f"{student}/{_path(file)}: {iso_time(file.modified)}, changed {iso_time(file.changed)}"
+        f"{student}/{file.place}: time {iso_time(file.modified)}, written or moved {iso_time(file.changed)}"
         for file in files
         if file.changed - file.modified > SET_BACK
     ]
+
+
+def _rows(student: str, files: Sequence[WorkFile], wanted: Wanted) -> Iterator[Row]:
+    """Yield a row for each file, and one for each package: its time is that of its newest file."""
+    newest: dict[str, WorkFile] = {}
+    for file in files:
+        for chapter in wanted.chapters_of(file):
+            yield Row(student, chapter, f"{student}/{file.place}", iso_time(file.modified))
+        if file.package and file.modified >= newest.get(file.package, file).modified:
+            newest[file.package] = file
+    for package, file in newest.items():
+        for chapter in wanted.chapters_of(file):
+            yield Row(student, chapter, f"{student}/{package}", iso_time(file.modified))
 
 
 def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
@@ -129,14 +140,15 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
         )
     else:
         yield (
-            f"{found.notebooks} notebooks and {found.packages} packages of {found.students} students are in "
-            f"{options.out}; their times are in {options.out / 'times.csv'}."
+            f"{_count(found.notebooks, 'notebook')} and {_count(found.packages, 'package')} of "
+            f"{_count(found.students, 'student')} are in {options.out}. Their times are in "
+            f"{options.out / TIMES}."
         )
     if found.nothing:
         yield f"Nothing from {len(found.nothing)}: {', '.join(found.nothing)}"
     for title, lines in (
         ("Not collected:", found.problems),
-        ("Files that were changed or moved after their own time, which their owner can set:", found.set_back),
+        ("Files that were written or moved after their time, which their owner can set:", found.set_back),
     ):
         yield from [title, *(f"  {line}" for line in lines)] if lines else []
     if found.students:
@@ -154,8 +166,8 @@ def _course_folder(given: str) -> str:
     return path.as_posix()
 
 
-def _path(file: WorkFile) -> str:
-    return f"{file.package}/{file.path}" if file.package else file.path
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _note(text: str) -> None:

@@ -14,10 +14,8 @@ def released_chapters(checkout: Path) -> tuple[str, ...] | None:
     """Return the chapters of a students' edition, such as ("05", "06"); None for the instructors' edition."""
     try:
         return tuple(map(str, json.loads((checkout / RECORD).read_text("utf-8"))["chapters"]))
-    except FileNotFoundError:
-        return None
     except (OSError, ValueError, KeyError, TypeError):
-        return ()
+        return None
 
 
 def require_solutions(checkout: Path, command: str) -> None:

@@ -91,7 +91,7 @@ def test_work_is_where_the_grader_looks(
     out = tmp_path / "out"
     assert run(homes, out) == 0
     printed = capsys.readouterr().out
-    assert "2 notebooks and 1 packages of 2 students" in printed
+    assert "2 notebooks and 1 package of 2 students" in printed
     assert "Nothing from 2: carla, dora" in printed
     assert (out / "anna" / NOTEBOOK).read_bytes() == notebook
     assert stat.S_IMODE(out.stat().st_mode) == 0o700
@@ -100,11 +100,13 @@ def test_work_is_where_the_grader_looks(
     assert head == ["student", "chapter", "file", "time"]
     expected = datetime.fromtimestamp(TIME, timezone.utc)
     assert {datetime.fromisoformat(time) for *_, time in rows} == {expected}
-    assert ["anna", "05", NOTEBOOK] in [row[:3] for row in rows]
-    assert ["anna", "07", "my_geometry/package.xml"] in [row[:3] for row in rows]
+    assert ["anna", "05", f"anna/{NOTEBOOK}"] in [row[:3] for row in rows]
+    assert ["anna", "07", "anna/my_geometry/package.xml"] in [row[:3] for row in rows]
+    assert ["anna", "07", "anna/my_geometry"] in [row[:3] for row in rows]
     found = {(each.student, each.chapter, each.problem) for each in submissions(out)}
     assert {("anna", "05", ""), ("ben", "05", "")} <= found
     assert {student for student, _, _ in found} == {"anna", "ben"}
+    assert {each.origin for each in submissions(out)} <= {row[2] for row in rows}
     [with_package] = [each for each in submissions(out, ["07"]) if each.chapter == "07"]
     assert [package.name for package in with_package.packages] == ["my_geometry"]
 
@@ -121,7 +123,7 @@ def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Pat
     assert run(homes, tmp_path / "out") == 0
     assert (tmp_path / "out" / "anna" / NOTEBOOK).read_bytes() == b"2"
     rows = [row[:3] for row in times(tmp_path / "out")]
-    assert rows.count(["anna", "05", NOTEBOOK]) == 1
+    assert rows.count(["anna", "05", f"anna/{NOTEBOOK}"]) == 1
     assert not any(row[2].endswith("server.py") for row in rows)
     assert sorted(path.name for path in (tmp_path / "out" / "anna").iterdir()) == [NOTEBOOK, "my_geometry"]
 
@@ -230,8 +232,17 @@ def test_a_time_that_was_set_back_is_listed(
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
     run(homes, tmp_path / "out")
     printed = capsys.readouterr().out
-    assert f"anna/{NOTEBOOK}: 2023-11-1" in printed
+    assert f"anna/{NOTEBOOK}: time 2023-11-1" in printed
     assert f"ben/{NOTEBOOK}" not in printed
+
+
+def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> None:
+    """A file's owner can give it a time that no calendar has."""
+    home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
+    os.utime(home / "ros-course" / "notebooks" / NOTEBOOK, (10**12, 10**12))
+    assert run(homes, tmp_path / "out") == 0
+    [_, row] = times(tmp_path / "out")
+    assert datetime.fromisoformat(row[3]).year <= 2446  # the last year of some file systems
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -46,10 +46,10 @@ def read_home(
     problems: list[str] = []
     try:
         for found in _received(_Pipe(reader, timeout)):
-            if isinstance(found, WorkFile):
-                files.append(found)
-            else:
+            if isinstance(found, Problem):
                 problems.append(found.reason)
+            elif found.asked in asked if found.package else found.path in notebooks:
+                files.append(found)
     except HandoutError as error:
         problems.append(str(error))
     finally:

@@ -1,7 +1,8 @@
 """times.csv: when each collected file was last changed, so that a deadline can be computed.
 
-Its columns are student, chapter, file and time. The time is that of the file (mtime) in ISO 8601 with its
-time zone. A package that several chapters ask for has a row for each of them.
+Its columns are student, chapter, file and time. The file is a path in the folder of submissions, and the time
+is that of the file (mtime) in ISO 8601 with its time zone. A package has a row for each of its files, and one
+for its folder with the time of its newest file; if several chapters ask for it, each has these rows.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ COLUMNS = ["student", "chapter", "file", "time"]
 
 
 class Row(NamedTuple):
-    """One collected file: its path below the student's folder, and its time."""
+    """One collected file or package: its path in the folder of submissions, and its time."""
 
     student: str
     chapter: str
@@ -31,7 +32,7 @@ class Row(NamedTuple):
     @property
     def unit(self) -> tuple[str, str]:
         """The student, and the notebook or package that the file belongs to; it is collected as a whole."""
-        return self.student, self.file.partition("/")[0]
+        return self.student, "/".join(self.file.split("/")[:2])
 
 
 def iso_time(nanoseconds: int) -> str:
@@ -62,7 +63,7 @@ class TimesTable:
 
     def _read(self, folder: Path) -> list[Row]:
         try:
-            if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
+            if not folder.exists() or all(path.name.startswith(".") for path in folder.iterdir()):
                 return []
             with self._path.open(encoding="utf-8", newline="") as file:
                 lines = list(csv.reader(file))

@@ -21,6 +21,7 @@ from course_pkg.workspace.fault import manifest_tags
 NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # in the course's folder
 DEPTH = 12  # folders within folders
 ENTRIES = 5_000  # files and folders of a workspace that are looked at
+LATEST = 4_102_444_800 * 10**9  # ns, the year 2100: a file may have any time, and not each is a date
 TRIES = 3  # reads of a file that changes meanwhile
 
 
@@ -38,6 +39,11 @@ class WorkFile:
     executable: bool = False
     package: str = ""
     asked: str = ""
+
+    @property
+    def place(self) -> str:
+        """The path below the student's folder."""
+        return f"{self.package}/{self.path}" if self.package else self.path
 
 
 @dataclass(frozen=True)
@@ -190,7 +196,8 @@ def _read(folder: int, name: str, largest: int) -> WorkFile:
             raise Refused(f"it has more than {largest >> 20} MiB")
         if (status.st_mtime_ns, status.st_size) == (after.st_mtime_ns, after.st_size):
             executable = bool(status.st_mode & stat.S_IXUSR)
-            return WorkFile(name, content, status.st_mtime_ns, status.st_ctime_ns, executable)
+            modified = min(max(status.st_mtime_ns, 0), LATEST)
+            return WorkFile(name, content, modified, status.st_ctime_ns, executable)
     raise Refused("it was being written; type the command again")
 
 
