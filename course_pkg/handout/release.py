@@ -49,7 +49,7 @@ def release(options: Options, hidden: Collection[str], root: Path | None = None)
     for name in untracked_files(checkout):
         sys.stderr.write(f"Not released, because git does not track it: {name}\n")
     sys.stdout.write("".join(f"{line}\n" for line in _summary(folder, archive, len(files), released, done)))
-    sys.stdout.write("".join(f"{line}\n" for line in _how_to_hand_out(out, options, repository, link)))
+    sys.stdout.write("".join(f"{line}\n" for line in _how_to_hand_out(folder, options, repository, link)))
     return 0
 
 
@@ -72,15 +72,16 @@ def _files(count: int) -> str:
     return "1 file" if count == 1 else f"{count} files"
 
 
-def _how_to_hand_out(out: Path, options: Options, repository: str, link: str) -> Iterator[str]:
+def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, link: str) -> Iterator[str]:
     yield "Students unpack the zip or clone the repository, and type ./course lab in its folder."
-    here = shlex.quote(str(out))
+    yield ""
     if link:
-        yield f"Push the repository (git -C {here} push), and give students this link for nbgitpuller:"
-        yield ""
+        yield "For students on a JupyterHub with nbgitpuller, push the repository, and give them the link:"
+        yield f"  git -C {shlex.quote(str(folder.path))} push {shlex.quote(repository)} {folder.branch}"
         yield f"  {link}"
         return
-    yield "For students on a JupyterHub with nbgitpuller, push the repository to a server that they can read,"
     missing = [] if options.hub else ["--hub https://YOUR.HUB"]
     missing += [] if repository else ["--repository https://YOUR.SERVER/COURSE.git"]
-    yield f"and type the command again with {' '.join(missing)}. It then prints a link for them."
+    yield "For students on a JupyterHub with nbgitpuller, type the same command again with these options. It"
+    yield "then prints a link for them:"
+    yield f"  {' '.join(missing)}"

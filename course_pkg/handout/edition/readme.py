@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 
-INSTRUCTORS = re.compile(r"\n?<!-- instructors -->\n.*?<!-- end -->\n", re.DOTALL)
+INSTRUCTORS = re.compile(r"<!-- instructors -->\n.*?<!-- end -->\n\n?", re.DOTALL)
 PATHS = re.compile(r"^## Three paths\n.*?(?=^## )", re.DOTALL | re.MULTILINE)
 CHAPTER = re.compile(r"\| (\d\d) \| \[")  # a row of the table of chapters
 COMMAND = re.compile(r"\| `\./course ([a-z-]+)")  # a row of the table of commands
@@ -27,7 +27,7 @@ def student_readme(text: str, released: Sequence[str], known: Sequence[str], hid
     lines = [line for line in kept.split("\n") if not _is_hidden(line, released, hidden)]
     note = NOTE.format(SOME.format(named(released)) if some else "")
     place = next((number for number, line in enumerate(lines) if line.startswith("## ")), len(lines))
-    return unlinked("\n".join([*lines[:place], note, "", *lines[place:]]), released)
+    return unlinked("\n".join([*lines[:place], note, "", *lines[place:]]), released).rstrip() + "\n"
 
 
 def unlinked(text: str, released: Collection[str]) -> str:
