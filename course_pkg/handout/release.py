@@ -7,11 +7,12 @@ import sys
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote, urlencode, urlsplit
 
 from course_pkg.checking.parts import chapters as all_chapters
+from course_pkg.errors import HandoutError
 from course_pkg.handout.edition.contents import edition_files, untracked_files
 from course_pkg.handout.edition.folder import Release, ReleaseFolder, refuse_inside
-from course_pkg.handout.edition.link import pull_link
 from course_pkg.handout.edition.readme import named
 from course_pkg.handout.edition.zipped import write_zip, zip_path
 from course_pkg.handout.selection import chosen_chapters
@@ -85,3 +86,22 @@ def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, l
     yield "For students on a JupyterHub with nbgitpuller, type the same command again with these options. It"
     yield "then prints a link for them:"
     yield f"  {' '.join(missing)}"
+
+
+def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
+    """Return the link with which nbgitpuller copies the edition into a student's account on a JupyterHub.
+
+    It pulls `branch` of `repository` and opens `notebook`, a path inside of it. `hub` is the address of the
+    JupyterHub. The form is that of https://nbgitpuller.readthedocs.io/en/latest/link.html. Raises
+    HandoutError if one of the addresses begins with neither https:// nor http://.
+    """
+    for option, address in (("--hub", hub), ("--repository", repository)):
+        parts = urlsplit(address)
+        if parts.scheme not in ("http", "https") or not parts.netloc:
+            raise HandoutError(
+                f"{option} {address} is not an address that nbgitpuller can use. Write one that begins with "
+                "https://, such as https://hub.example.edu or https://git.example.edu/ros/course.git."
+            )
+    folder = repository.rstrip("/").rpartition("/")[2].removesuffix(".git")  # where nbgitpuller clones to
+    query = {"repo": repository, "urlpath": f"lab/tree/{folder}/{notebook}", "branch": branch}
+    return f"{hub.rstrip('/')}/hub/user-redirect/git-pull?{urlencode(query, quote_via=quote, safe='')}"

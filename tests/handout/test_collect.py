@@ -23,6 +23,7 @@ from course_pkg.handout.homes.storing import store
 from course_pkg.handout.homes.work import WorkFile
 from tests.grading.handing_in import handed_out, raw
 from tests.grading.packages import my_geometry
+from tests.setup.test_course import course
 
 ROOT = os.geteuid() == 0
 NOTEBOOK = "05_write_a_server.ipynb"
@@ -109,6 +110,21 @@ def test_work_is_where_the_grader_looks(
     assert {each.origin for each in submissions(out)} <= {row[2] for row in rows}
     [with_package] = [each for each in submissions(out, ["07"]) if each.chapter == "07"]
     assert [package.name for package in with_package.packages] == ["my_geometry"]
+
+
+def test_the_command_line(homes: Path, tmp_path: Path) -> None:
+    """The command does the same as the function; an error is one message."""
+    add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
+    words = ["collect", "ros-course", str(tmp_path / "out"), "--chapters", "5", "--homes"]
+    done = course(*words, str(homes))
+    assert done.returncode == 0, done.stderr
+    assert "1 notebook and 0 packages of 1 student are in" in done.stdout
+    refused = course(*words, "/nowhere")
+    assert (refused.returncode, refused.stderr) == (
+        1,
+        "course: /nowhere cannot be listed (No such file or directory). Give the folder of the home folders "
+        "with --homes.\n",
+    )
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:

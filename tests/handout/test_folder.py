@@ -12,8 +12,8 @@ from course_pkg.checking.packed import pack
 from course_pkg.errors import HandoutError, SetupError
 from course_pkg.handout.edition.contents import File, edition_files, is_released
 from course_pkg.handout.edition.folder import Release, ReleaseFolder, refuse_inside
-from course_pkg.handout.edition.link import pull_link
 from course_pkg.handout.edition.zipped import write_zip, zip_path
+from course_pkg.handout.release import pull_link
 from course_pkg.handout.selection import chosen_chapters
 from course_pkg.setup.edition import RECORD, released_chapters, require_solutions
 from tests.handout.releases import ROOT, git

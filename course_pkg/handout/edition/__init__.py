@@ -1,1 +1,1 @@
-"""The students' edition: its files, its folder and git repository, its zip, and the link to it."""
+"""The students' edition: its files, its folder with the git repository, and its zip."""
