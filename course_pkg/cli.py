@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NoReturn
 from course_pkg.authoring import commands as authoring
 from course_pkg.errors import CourseError
 from course_pkg.grading import commands as grading
+from course_pkg.handout import commands as handout
 from course_pkg.lab import commands as lab
 from course_pkg.overview import commands as overview
 from course_pkg.setup import commands as setup
@@ -30,6 +31,7 @@ COMMANDS: dict[str, Command] = {
     **overview.COMMANDS,
     **authoring.COMMANDS,
     **grading.COMMANDS,
+    **handout.COMMANDS,
     **site.COMMANDS,
     **setup.COMMANDS,
 }
@@ -78,6 +80,11 @@ def _parser() -> ArgumentParser:
 def _dispatch(arguments: Sequence[str]) -> int:
     options = parse(arguments)
     command = COMMANDS[options.command]
+    if "solutions" in command.needs:
+        from course_pkg.setup.edition import require_solutions
+        from course_pkg.setup.places import Places
+
+        require_solutions(Places.of().checkout, options.command)
     if command.needs:
         _enter_environment(command, arguments)
     return command.run(options)

@@ -32,6 +32,7 @@ CourseError
 ├── GradingError: submissions cannot be graded
 │   ├── SandboxUnavailable: this machine cannot isolate a submission
 │   └── WorkerFailed: the process that runs submissions ended, or did not start
+├── HandoutError: an edition for students cannot be made, or work cannot be collected
 ├── PanelError: a panel cannot do what a cell asks for
 │   ├── NoServiceSelected: no service is selected, or one without a form
 │   ├── CallInProgress: a panel makes one call at a time
@@ -237,6 +238,10 @@ class SandboxUnavailable(GradingError):
 
 class WorkerFailed(GradingError):
     """The process that runs submissions ended, or did not start."""
+
+
+class HandoutError(CourseError):
+    """An edition for students cannot be made, or students' work cannot be collected."""
 
 
 class PanelError(CourseError):

@@ -40,13 +40,13 @@ COMMANDS = {
     "test": Command(
         "run the whole suite: lint, types, spelling, tests",
         _test,
-        frozenset({"course", "test"}),
+        frozenset({"course", "test", "solutions"}),
         rest="[PYTEST ARGUMENT …]",
     ),
     "sync": Command(
         "derive the students' notebooks from the solutions",
         _sync,
-        frozenset({"course", "libraries"}),
+        frozenset({"course", "libraries", "solutions"}),
         _sync_arguments,
     ),
 }

@@ -17,6 +17,7 @@ from course_pkg.grading.late import LatePolicy, LateTable, late_policy, late_tab
 from course_pkg.grading.marking import key_of
 from course_pkg.grading.queue import Task, executor_of, grade_all
 from course_pkg.grading.reports import write_reports
+from course_pkg.grading.required import require_references
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -49,6 +50,7 @@ def grade(options: Options) -> int:
         raise GradingError(
             f"--jobs {options.jobs} is not a valid number of notebooks. Leave it out, or give 1 or more."
         )
+    require_references(options.chapters)
     policy = late_policy(options.late, options.late_per_day, options.late_max_days)
     table = late_table(options.late) if options.late else None
     extras = read_extras(options.private)
@@ -85,6 +87,7 @@ def _report(grades: Sequence[Grade], out: Path) -> None:
 
 def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Path | None = None) -> int:
     """Grade one notebook into the file `out`, and store nothing else; a job array of a cluster uses this."""
+    require_references()
     found = submissions(notebook)
     if not found:
         raise GradingError(f"{notebook} is not a notebook of this course.")

@@ -11,7 +11,7 @@ from course_pkg.setup.commands import UNSAFE, Command
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-NEEDS = frozenset({"course", "grade", "libraries"})
+NEEDS = frozenset({"course", "grade", "libraries", "solutions"})
 
 
 def _grade(options: SimpleNamespace) -> int:

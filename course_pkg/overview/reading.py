@@ -14,6 +14,8 @@ from course_pkg.overview.model import ChapterProgress, LearningPath, PartProgres
 from course_pkg.panels.choices.model import ChoiceRecord, ChoiceStore
 from course_pkg.panels.prediction.model import Prediction, PredictionStore
 from course_pkg.panels.store import of_chapter
+from course_pkg.setup import Places
+from course_pkg.setup.edition import released_chapters
 
 PATHS = Path(__file__).parents[1] / "chapters" / "paths.json"
 
@@ -24,7 +26,7 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
     The result leaves out records that cannot be read, and names them in `problems`. Raises UnknownCheck if
     there is no such chapter.
     """
-    parts = {number: parts_of(number) for number in chapters or all_chapters()}
+    parts = {number: parts_of(number) for number in chapters or _present()}
     records, message = StudentRecord().read(part.check for each in parts.values() for part in each)
     predictions, choices, problems = _answers()
     found = [
@@ -39,6 +41,12 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
         for number, each in parts.items()
     ]
     return Progress(tuple(found), learning_paths(), tuple(filter(None, (message, *problems))))
+
+
+def _present() -> Sequence[str]:
+    """Return the chapters of this edition: those that were released to students, or else all."""
+    released = released_chapters(Places.of().checkout)
+    return [number for number in all_chapters() if released is None or number in released]
 
 
 def learning_paths() -> tuple[LearningPath, ...]:

@@ -17,8 +17,9 @@ class Command(NamedTuple):
     """A subcommand. It exists before the set-up, so only `run` may import other modules.
 
     `needs` lists what has to be set up first: "course", and also "grade" or "test". A command that imports
-    libraries needs "libraries" and runs with the interpreter of the virtual environment. If `rest` is not
-    empty, all arguments are for another program, and `rest` is their text in the usage.
+    libraries needs "libraries" and runs with the interpreter of the virtual environment. A command that needs
+    "solutions" is refused, with one message, in the students' edition. If `rest` is not empty, all arguments
+    are for another program, and `rest` is their text in the usage.
     """
 
     summary: str

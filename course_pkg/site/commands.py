@@ -46,7 +46,7 @@ COMMANDS = {
     "site": Command(
         "write the course as pages that need no network and no kernel",
         _site,
-        frozenset({"course", "libraries"}),
+        frozenset({"course", "libraries", "solutions"}),
         _site_arguments,
     )
 }

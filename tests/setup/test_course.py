@@ -9,7 +9,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SUBCOMMANDS = ("lab", "run", "test", "sync", "grade", "grade-one", "progress", "site", "doctor", "lock")
+SUBCOMMANDS = (
+    *("lab", "run", "test", "sync", "grade", "grade-one", "release", "collect", "progress", "site", "doctor"),
+    "lock",
+)
 
 
 def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:

@@ -26,6 +26,7 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
+TIMES = "times.csv"  # `course collect` writes it beside the students' folders
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
 # Some systems add .txt or .json.

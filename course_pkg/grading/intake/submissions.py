@@ -17,6 +17,7 @@ from course_pkg.grading.intake.first_edition import RenumberedChapter, first_edi
 from course_pkg.grading.intake.naming import (
     METADATA,
     NOTEBOOK,
+    TIMES,
     Claim,
     claims,
     gradescope_submitters,
@@ -136,7 +137,7 @@ def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[_File]:
         with suppress(GradingError):
             submitters |= gradescope_submitters(entry.read())
     for entry, path in zip(entries, paths, strict=True):
-        if entry not in listed or not submitters:
+        if path != (TIMES,) and (entry not in listed or not submitters):
             yield _File(entry, path, claims(path or ("?",), submitters))
 
 

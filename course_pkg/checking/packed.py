@@ -1,0 +1,42 @@
+"""The packed source of checks, for the students' edition.
+
+A check compares with expected values, and builds packages around a student's file, so its source contains
+answers. `check()` needs it on the student's computer. Packed, it cannot be read by accident or found by a
+search; it is not protected from a person who unpacks it.
+"""
+
+from __future__ import annotations
+
+import base64
+import textwrap
+import zlib
+
+WIDTH = 100  # characters of a line
+MODULE = '''"""Packed by `course release`, because the source of a check contains answers."""
+
+from course_pkg.checking.packed import load
+
+load(
+    globals(),
+    """
+{}
+""",
+)
+'''
+
+
+def pack(source: str) -> str:
+    """Return the source of a module that works like the module with `source`."""
+    packed = base64.b85encode(zlib.compress(source.encode(), 9)).decode()
+    return MODULE.format("\n".join(textwrap.wrap(packed, WIDTH, break_on_hyphens=False)))
+
+
+def unpack(packed: str) -> str:
+    """Return the source that pack() has packed."""
+    return zlib.decompress(base64.b85decode("".join(packed.split()))).decode()
+
+
+def load(module: dict[str, object], packed: str) -> None:
+    """Run packed source as the module with the global names `module`."""
+    code = compile(unpack(packed), str(module["__file__"]), "exec", dont_inherit=True)
+    exec(code, module)  # noqa: S102 -- it is the module's own source

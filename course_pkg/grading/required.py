@@ -1,0 +1,36 @@
+"""What grading compares submissions with: the solution and the fixtures of each chapter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from course_pkg.authoring.notebook_store import NotebookStore
+from course_pkg.checking.parts import chapters, folder_of, notebook_of
+from course_pkg.errors import GradingError
+
+SHOWN = 3  # the most names that the message lists
+
+
+def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
+    """Raise GradingError if a chapter of `asked`, such as "05", lacks its solution or its fixtures.
+
+    The default is every chapter: a submission's chapter is found by a comparison with all solutions, so a
+    missing one would cost all students of that chapter their points. `root` is the checkout.
+    """
+    missing = list(_missing(asked or chapters(), NotebookStore(root).root))
+    if missing:
+        more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
+        raise GradingError(
+            f"Nothing was graded, because these files are missing: {', '.join(missing[:SHOWN])}{more}. "
+            "Without them, students would get 0 points. Get them from the course's repository, or grade "
+            "other chapters with --chapters."
+        )
+
+
+def _missing(wanted: Sequence[str], root: Path) -> Iterator[str]:
+    for chapter in sorted(set(wanted) & set(chapters())):  # an unknown chapter has its own message
+        fixtures = Path("course_pkg", "chapters", folder_of(chapter).name, "fixtures.py")
+        for path in (Path("solutions", notebook_of(chapter)), fixtures):
+            if not (root / path).is_file():
+                yield str(path)

@@ -1,0 +1,97 @@
+"""The command-line arguments of `course release` and `course collect`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+from course_pkg.setup.commands import Command
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser
+
+NO_COMMANDS = frozenset({"release", "collect", "grade", "grade-one", "site", "sync", "test"})  # for students
+
+
+def _release(options: SimpleNamespace) -> int:
+    from course_pkg.handout.release import Options, release
+
+    chosen = Options(options.out, options.path, options.chapters, options.hub, options.repository)
+    return release(chosen, NO_COMMANDS)
+
+
+def _chapters(text: str) -> tuple[str, ...]:
+    return tuple(word.strip().zfill(2) for word in text.split(",") if word.strip())
+
+
+def _release_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "out",
+        metavar="DIR",
+        type=Path,
+        help="the folder and git repository, new or from an earlier release; the zip is DIR.zip",
+    )
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--path", default="", metavar="NAME", help='the chapters of a path, such as "The lab session"'
+    )
+    which.add_argument(
+        "--chapters", type=_chapters, default=(), metavar="05,06", help="only the notebooks of these chapters"
+    )
+    parser.add_argument(
+        "--hub", default="", metavar="URL", help="the address of a JupyterHub, for a link with nbgitpuller"
+    )
+    parser.add_argument(
+        "--repository",
+        default="",
+        metavar="URL",
+        help="the address from which students get the repository, for the same link (default: the address of "
+        "the remote `origin` of DIR)",
+    )
+
+
+def _collect(options: SimpleNamespace) -> int:
+    from course_pkg.handout.collect import Options, collect
+
+    return collect(Options(options.folder, options.out, options.homes, options.students, options.chapters))
+
+
+def _collect_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "folder",
+        metavar="FOLDER",
+        help="the course's folder in each home folder, such as ros-course or work/ros-course",
+    )
+    parser.add_argument(
+        "out", metavar="SUBMISSIONS", type=Path, help="the folder to write, new or written by this command"
+    )
+    parser.add_argument(
+        "--homes", type=Path, default=Path("/home"), metavar="DIR", help="contains the home folders (/home)"
+    )
+    parser.add_argument(
+        "--students",
+        type=Path,
+        metavar="FILE",
+        help="only these students: a text file with one user name in each line, or a CSV file with a column "
+        "`username` (default: all folders in DIR)",
+    )
+    parser.add_argument(
+        "--chapters", type=_chapters, default=(), metavar="05,06", help="only the work for these chapters"
+    )
+
+
+COMMANDS = {
+    "release": Command(
+        "write the students' edition, without solutions: a folder, a git repository and a zip",
+        _release,
+        frozenset({"course", "libraries", "solutions"}),
+        _release_arguments,
+    ),
+    "collect": Command(
+        "copy students' work from their home folders, with the rights of each student",
+        _collect,
+        frozenset({"course", "libraries"}),
+        _collect_arguments,
+    ),
+}

@@ -1,0 +1,151 @@
+"""The folder of an edition: it is also a git repository, and each release that changes it is a commit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from course_pkg.errors import HandoutError
+from course_pkg.files import write_atomically
+from course_pkg.handout.edition.contents import File
+from course_pkg.handout.edition.git import git, git_value
+from course_pkg.setup.edition import RECORD
+
+BRANCH = "main"  # of a new repository; an existing one keeps the branch that it is on
+SHOWN = 5  # the most names that a message lists
+
+
+@dataclass(frozen=True)
+class Release:
+    """What a release changed: the short name of the new commit, or an empty string if nothing changed."""
+
+    commit: str
+    changed: int  # files
+
+
+class ReleaseFolder:
+    """A folder that `course release` writes, and that nothing else has written."""
+
+    def __init__(self, path: Path) -> None:
+        """Read which files an earlier release wrote.
+
+        Raises HandoutError if the folder contains files and was not made by a release.
+        """
+        self.path = path
+        self._before = self._released_before()
+
+    @property
+    def branch(self) -> str:
+        """The branch of the repository."""
+        return git_value(self.path, "symbolic-ref", "--short", "HEAD") or BRANCH
+
+    @property
+    def remote(self) -> str:
+        """The address of the repository's remote `origin`, or an empty string."""
+        return git_value(self.path, "remote", "get-url", "origin") if (self.path / ".git").exists() else ""
+
+    def write(self, files: Mapping[str, File], message: str) -> Release:
+        """Write `files`, remove those of an earlier release that are not among them, and commit the changes.
+
+        Raises HandoutError, and changes nothing, if a file that would be overwritten was changed by hand and
+        not committed; or if the folder cannot be written.
+        """
+        self._refuse_changes_by_hand(files)
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            self._put(RECORD, files[RECORD])  # first: an interrupted release may be repeated
+            changed = [name for name, file in files.items() if self._put(name, file)]
+            removed = [name for name in self._before if name not in files and self._remove(name)]
+        except OSError as error:
+            raise HandoutError(
+                f"{error.filename or self.path} cannot be written ({error.strerror}). Correct that, and type "
+                "the command again."
+            ) from error
+        return Release(self._commit([*files, *self._before], message), len({*changed, *removed}))
+
+    def _released_before(self) -> list[str]:
+        try:
+            record = json.loads((self.path / RECORD).read_text("utf-8"))
+            return [name for name in record["files"] if _stays_inside(name)]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            if self.path.exists() and not (self.path.is_dir() and not any(self.path.iterdir())):
+                raise HandoutError(
+                    f"{self.path} exists, and `course release` did not make it, so nothing was written. "
+                    "Give a new or an empty folder."
+                ) from error
+            return []
+
+    def _refuse_changes_by_hand(self, files: Mapping[str, File]) -> None:
+        if not (self.path / ".git").exists() or not git_value(
+            self.path, "rev-parse", "-q", "--verify", "HEAD"
+        ):
+            return
+        listed = git(self.path, "status", "--porcelain", "-z", "--no-renames", "--untracked-files=no")
+        touched = [entry[3:] for entry in listed.split("\0") if entry]
+        lost = [
+            name for name in touched if name in {*files, *self._before} and self._would_change(name, files)
+        ]
+        if lost:
+            more = f" and {len(lost) - SHOWN} more" if len(lost) > SHOWN else ""
+            raise HandoutError(
+                f"Nothing was written, because files in {self.path} were changed by hand and not committed: "
+                f"{', '.join(lost[:SHOWN])}{more}. The release would overwrite them. Discard the changes "
+                f"(`git -C {self.path} checkout HEAD -- .`) or keep them in a commit (`git -C {self.path} "
+                "commit -a`), and type the command again."
+            )
+
+    def _would_change(self, name: str, files: Mapping[str, File]) -> bool:
+        path = self.path / name
+        present = path.read_bytes() if path.is_file() else None
+        wanted = files[name].content if name in files else None
+        return present is not None and present != wanted
+
+    def _put(self, name: str, file: File) -> bool:
+        """Write a file if it is not there yet in the same state; return whether it was written."""
+        path = self.path / name
+        mode = 0o755 if file.executable else 0o644
+        same = path.is_file() and not path.is_symlink() and path.read_bytes() == file.content
+        if same and path.stat().st_mode & 0o777 == mode:
+            return False
+        if not same:
+            write_atomically(path, file.content)
+        path.chmod(mode)
+        return True
+
+    def _remove(self, name: str) -> bool:
+        path = self.path / name
+        if not path.exists():
+            return False
+        path.unlink()
+        for folder in path.relative_to(self.path).parents[:-1]:
+            with suppress(OSError):  # it contains other files
+                (self.path / folder).rmdir()
+        return True
+
+    def _commit(self, names: Sequence[str], message: str) -> str:
+        """Commit the present state of the files; return the commit's short name, "" if nothing changed."""
+        if not (self.path / ".git").exists():
+            git(self.path, "init", "--quiet", f"--initial-branch={BRANCH}", "--template=")
+        listed = "".join(f"{name}\0" for name in dict.fromkeys(names))
+        git(self.path, "update-index", "--add", "--remove", "-z", "--stdin", given=listed)
+        if git_value(self.path, "rev-parse", "-q", "--verify", "HEAD") and not git(
+            self.path, "diff", "--cached", "--name-only", "HEAD"
+        ):
+            return ""
+        git(self.path, "commit", "--quiet", "--message", message, identity=True)
+        return git(self.path, "rev-parse", "--short", "HEAD").strip()
+
+
+def _stays_inside(name: str) -> bool:
+    return bool(name) and not name.startswith("/") and ".." not in name.split("/")
+
+
+def refuse_inside(path: Path, checkout: Path) -> None:
+    """Raise HandoutError if `path` is in the checkout: the course would be released with its own release."""
+    if path.resolve().is_relative_to(checkout.resolve()):
+        raise HandoutError(
+            f"{path} is inside of the course's own folder. Give a folder outside of {checkout}."
+        )

@@ -1,0 +1,54 @@
+"""The zip of an edition, the same bytes for the same files."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from course_pkg.errors import HandoutError
+from course_pkg.files import write_atomically
+from course_pkg.handout.edition.contents import File
+
+MARK = b"made by course release"  # the zip's comment
+TIME = (2000, 1, 1, 0, 0, 0)  # of each file in the zip, so that an unchanged edition gives an unchanged zip
+
+
+def zip_path(folder: Path) -> Path:
+    """Return the path of the zip, beside the folder of the edition.
+
+    Raises HandoutError if there is a file of this name that no release wrote.
+    """
+    path = folder.with_name(f"{folder.name}.zip")
+    if path.exists() and not _is_ours(path):
+        raise HandoutError(
+            f"{path} exists, and `course release` did not make it, so nothing was written. Move it, or give "
+            "another folder."
+        )
+    return path
+
+
+def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
+    """Write `files` to the zip at `path`, below one folder named `folder`."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.comment = MARK
+        for name, file in files.items():
+            entry = zipfile.ZipInfo(f"{folder}/{name}", TIME)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.create_system = 3  # Unix: unzip sets the permissions
+            entry.external_attr = (0o100755 if file.executable else 0o100644) << 16
+            archive.writestr(entry, file.content)
+    try:
+        write_atomically(path, buffer.getvalue())
+    except OSError as error:
+        raise HandoutError(f"{path} cannot be written ({error.strerror}). Give another folder.") from error
+
+
+def _is_ours(path: Path) -> bool:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return archive.comment == MARK
+    except (OSError, zipfile.BadZipFile):
+        return False

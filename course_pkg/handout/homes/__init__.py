@@ -1,0 +1,1 @@
+"""Students' work: find it in home folders, read it with the rights of its owner, and store it."""

@@ -1,0 +1,111 @@
+"""The home folders of students: whose they are, and which students an instructor asked for."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import pwd
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from course_pkg.errors import HandoutError
+
+COLUMN = "username"  # of a roster
+LARGEST = 4 << 20  # bytes of a list of students
+
+
+@dataclass(frozen=True)
+class Home:
+    """A student's home folder, and the user whose rights are needed to read it."""
+
+    student: str
+    path: Path
+    uid: int = -1
+    gid: int = -1
+    problem: str = ""  # why it cannot be read
+
+
+def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
+    """Return the homes in `folder`, of `students` or of all its folders, in the order of their names.
+
+    Hidden folders, links and `lost+found` are no homes. Raises HandoutError if `folder` cannot be listed.
+    """
+    if students is not None:
+        return [_home(folder / name, name) for name in sorted(set(students))]
+    try:
+        names = sorted(item.name for item in os.scandir(folder) if item.is_dir(follow_symlinks=False))
+    except OSError as error:
+        raise HandoutError(
+            f"{folder} cannot be listed ({error.strerror}). Give the folder of the home folders with --homes."
+        ) from error
+    found = (
+        _home(folder / name, name) for name in names if not name.startswith(".") and name != "lost+found"
+    )
+    return [home for home in found if home.uid != 0]  # root is no student
+
+
+def groups_of(home: Home) -> list[int]:
+    """Return all groups of the home's owner."""
+    try:
+        return os.getgrouplist(pwd.getpwuid(home.uid).pw_name, home.gid)
+    except KeyError:  # a user of a container, whom this machine does not know
+        return [home.gid]
+
+
+def read_students(path: Path) -> list[str]:
+    """Return the user names in a text file with one in each line, or in the column `username` of a CSV file.
+
+    Raises HandoutError if the file cannot be read, or if a name cannot be the name of a user.
+    """
+    try:
+        with path.open("rb") as file:
+            text = file.read(LARGEST).decode("utf-8-sig")
+    except (OSError, ValueError) as error:
+        raise HandoutError(f"The list of students {path} cannot be read: {error}.") from error
+    found = []
+    for number, name in _names(path, text):
+        if "/" in name or name.startswith((".", "-")) or not name.isprintable():
+            raise HandoutError(
+                f"{path.name}, line {number}: this is not the name of a user. Correct the line."
+            )
+        found.append(name)
+    if not found:
+        raise HandoutError(f"{path} contains no student. Write one user name in each line.")
+    return found
+
+
+def _names(path: Path, text: str) -> Iterator[tuple[int, str]]:
+    """Yield each name with the number of its line."""
+    first = text.partition("\n")[0]
+    if not set(",;\t") & set(first) and first.strip().lower() != COLUMN:
+        yield from (
+            (number, line.strip()) for number, line in enumerate(text.splitlines(), 1) if line.strip()
+        )
+        return
+    delimiter = max(",;\t", key=first.count)
+    rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    head = [name.strip().lower() for name in rows[0]]
+    if COLUMN not in head:
+        raise HandoutError(
+            f"{path.name}, line 1: no column is named {COLUMN}. Name the column with the names that students "
+            "use to log in."
+        )
+    place = head.index(COLUMN)
+    for number, row in enumerate(rows[1:], 2):
+        if len(row) > place and row[place].strip():
+            yield number, row[place].strip()
+
+
+def _home(path: Path, student: str) -> Home:
+    try:
+        status = path.lstat()
+    except OSError as error:
+        return Home(student, path, problem=f"there is no home folder {path} ({error.strerror})")
+    if not stat.S_ISDIR(status.st_mode):
+        return Home(student, path, problem=f"{path} is a link or a file, not a home folder")
+    if status.st_uid == 0:
+        return Home(student, path, 0, 0, f"{path} belongs to root, so it is not read as a student's home")
+    return Home(student, path, status.st_uid, status.st_gid)

@@ -1,0 +1,163 @@
+"""Read a student's work in a child process that has the rights of this student, and no others.
+
+If root collects, the child gives up all rights of root before it looks at the home folder. It can read what
+the student can read, so no link, and no change of a folder meanwhile, leads to a file that the student may
+not see. If another user collects, the child has the rights of that user.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import select
+import signal
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict
+from typing import BinaryIO
+
+from course_pkg.errors import HandoutError
+from course_pkg.handout.homes.listing import Home, groups_of
+from course_pkg.handout.homes.work import Problem, WorkFile, work_in
+from course_pkg.waiting import Deadline
+
+TIMEOUT = 60.0  # s for one home; a folder on a network that does not answer must not stop the others
+ALTOGETHER = 200 << 20  # bytes of one student
+HEADER = 64 << 10  # bytes of a header
+CHUNK = 1 << 20
+
+
+def read_home(
+    home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str], timeout: float = TIMEOUT
+) -> tuple[list[WorkFile], list[str]]:
+    """Return the work in the course's `folder` of a home, and what could not be collected, as sentences.
+
+    `notebooks` are the chapters by the names of their files; `asked` are the names of the packages that parts
+    ask for. The child has at most `timeout` s.
+    """
+    reader, writer = os.pipe()
+    pid = os.fork()
+    if not pid:
+        os.close(reader)
+        _serve(writer, home, folder, notebooks, asked)
+    os.close(writer)
+    files: list[WorkFile] = []
+    problems: list[str] = []
+    try:
+        for found in _received(_Pipe(reader, timeout)):
+            if isinstance(found, Problem):
+                problems.append(found.reason)
+            elif found.asked in asked if found.package else found.path in notebooks:
+                files.append(found)
+    except HandoutError as error:
+        problems.append(str(error))
+    finally:
+        os.close(reader)
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
+    return files, problems
+
+
+def become(home: Home) -> None:
+    """Give up all rights except those of the home's owner; do nothing if this process is not root's.
+
+    From then on, no process of the owner can trace this one, because it has changed its user (ptrace(2)).
+    Raises PermissionError if rights of root are left.
+    """
+    if os.geteuid() != 0:
+        return
+    os.setgroups(groups_of(home))
+    os.setresgid(home.gid, home.gid, home.gid)
+    os.setresuid(home.uid, home.uid, home.uid)
+    if set(os.getresuid()) != {home.uid} or home.uid == 0:
+        raise PermissionError(f"{home.path} is not read with the rights of root")
+
+
+def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:
+    """Send the work through a pipe, and end this process."""
+    try:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends this process
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        os.closerange(3, writer)
+        os.closerange(writer + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
+        become(home)
+        with os.fdopen(writer, "wb") as pipe:
+            for found in work_in(str(home.path), folder, notebooks, asked):
+                _send(pipe, found)
+            pipe.write(b'{"end": true}\n')
+    finally:
+        os._exit(0)
+
+
+def _send(pipe: BinaryIO, found: WorkFile | Problem) -> None:
+    if isinstance(found, Problem):
+        pipe.write(json.dumps({"reason": found.reason[:1000]}).encode() + b"\n")
+        return
+    header = {name: value for name, value in asdict(found).items() if name != "content"}
+    pipe.write(json.dumps({**header, "size": len(found.content)}).encode() + b"\n")
+    pipe.write(found.content)
+
+
+class _Pipe:
+    """The parent's end: lines and blocks of bytes, within a deadline."""
+
+    def __init__(self, descriptor: int, timeout: float) -> None:
+        self._descriptor = descriptor
+        self._deadline = Deadline(timeout)
+        self._kept = bytearray()
+
+    def line(self) -> bytes:
+        """Return the next line; an empty one at the end."""
+        while b"\n" not in self._kept:
+            if len(self._kept) > HEADER:
+                raise HandoutError("the process that reads the folder sent no valid data")
+            if not self._more():
+                return b""
+        line, _, rest = bytes(self._kept).partition(b"\n")
+        self._kept = bytearray(rest)
+        return line
+
+    def block(self, size: int) -> bytes:
+        """Return the next `size` bytes."""
+        while len(self._kept) < size:
+            if not self._more():
+                raise HandoutError("the process that reads the folder ended too early")
+        block = bytes(self._kept[:size])
+        del self._kept[:size]
+        return block
+
+    def _more(self) -> bool:
+        if not select.select([self._descriptor], [], [], self._deadline.left)[0]:
+            raise HandoutError(f"reading the folder took more than {self._deadline.seconds:g} s")
+        data = os.read(self._descriptor, CHUNK)
+        self._kept += data
+        return bool(data)
+
+
+def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
+    """Yield what the child sends; raise HandoutError if it ends before it has sent everything."""
+    left = ALTOGETHER
+    while line := pipe.line():
+        header = json.loads(line)
+        if header.pop("end", False):
+            return
+        if "reason" in header:
+            yield Problem(str(header["reason"]))
+            continue
+        left -= header["size"]
+        if left < 0:
+            raise HandoutError(f"the work has more than {ALTOGETHER >> 20} MiB; the rest was not collected")
+        file = WorkFile(content=pipe.block(header.pop("size")), **header)
+        if not _stays_inside(file):
+            raise HandoutError("the process that reads the folder sent the name of a file elsewhere")
+        yield file
+    raise HandoutError("the process that reads the folder ended too early")
+
+
+def _stays_inside(file: WorkFile) -> bool:
+    """Return whether the file's name leads to no other folder, whatever its owner called it."""
+    names = [*file.path.split("/"), *([file.package] if file.package else [])]
+    safe = all(name not in ("", ".", "..") and "\0" not in name for name in names)
+    return safe and "/" not in file.package and (bool(file.package) or len(names) == 1)

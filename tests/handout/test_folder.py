@@ -1,0 +1,199 @@
+"""The folder, repository and zip of an edition: what is overwritten, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+
+from course_pkg.checking.packed import pack
+from course_pkg.errors import HandoutError, SetupError
+from course_pkg.handout.edition.contents import File, edition_files, is_released
+from course_pkg.handout.edition.folder import Release, ReleaseFolder, refuse_inside
+from course_pkg.handout.edition.zipped import write_zip, zip_path
+from course_pkg.handout.release import pull_link
+from course_pkg.handout.selection import chosen_chapters
+from course_pkg.setup.edition import RECORD, released_chapters, require_solutions
+from tests.handout.releases import ROOT, git
+
+HUB, REPOSITORY = "https://hub.example.edu/", "https://git.example.edu/ros/course.git"
+
+
+def files(**texts: str) -> dict[str, File]:
+    """Return the files of a small edition, which has a program named `course`."""
+    found = {name: File(text.encode()) for name, text in texts.items()}
+    found["course"] = File(b"#!/bin/sh\n", executable=True)
+    record = {"chapters": ["05"], "files": [*found, RECORD]}
+    return {**found, RECORD: File(json.dumps(record).encode())}
+
+
+def write(folder: Path, **texts: str) -> Release:
+    """Release a small edition."""
+    return ReleaseFolder(folder).write(files(**texts), "Release")
+
+
+def test_a_second_release_makes_a_commit_only_if_something_changed(tmp_path: Path) -> None:
+    """The same files make no commit; a new text makes one; a file that is gone is removed."""
+    folder = tmp_path / "out"
+    assert write(folder, a="1", b="1").commit
+    assert write(folder, a="1", b="1") == Release("", 0)
+    assert write(folder, a="2").commit == git(folder, "rev-parse", "--short", "HEAD")
+    assert git(folder, "rev-list", "--count", "HEAD") == "2"
+    assert sorted(path.name for path in folder.iterdir()) == [RECORD, ".git", "a", "course"]
+    assert git(folder, "ls-files", "-s", "course").startswith("100755")
+
+
+def test_an_interrupted_release_is_completed(tmp_path: Path) -> None:
+    """Files that an interrupted release has written are committed by the next one."""
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / RECORD).write_bytes(files(a="1")[RECORD].content)
+    (folder / "a").write_text("half")
+    assert write(folder, a="1").commit
+    (folder / "a").write_text("2")
+    assert write(folder, a="2").commit
+
+
+def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
+    """An instructor's own committed and uncommitted files are neither removed nor committed."""
+    folder = tmp_path / "out"
+    write(folder, a="1")
+    (folder / "syllabus.md").write_text("Week 1")
+    write(folder, a="2")
+    assert (folder / "syllabus.md").read_text() == "Week 1"
+    assert git(folder, "status", "--porcelain") == "?? syllabus.md"
+
+
+def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
+    """The folder stays as it was; an empty one is used."""
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.txt").write_text("")
+    with pytest.raises(
+        HandoutError, match=r"did not make it, so nothing was written\. Give a new or an empty"
+    ):
+        write(tmp_path / "mine", a="1")
+    assert [path.name for path in (tmp_path / "mine").iterdir()] == ["thesis.txt"]
+    with pytest.raises(HandoutError, match="did not make it"):
+        write(tmp_path / "mine" / "thesis.txt", a="1")
+    (tmp_path / "empty").mkdir()
+    assert write(tmp_path / "empty", a="1").commit
+
+
+def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
+    """A released file with an uncommitted change by hand stops the release; a commit lets it go on."""
+    folder = tmp_path / "out"
+    write(folder, a="1", b="1")
+    (folder / "a").write_text("by hand")
+    with pytest.raises(HandoutError, match=r"changed by hand and not committed: a\. .*checkout HEAD"):
+        write(folder, a="2", b="2")
+    assert (folder / "b").read_text() == "1"
+    git(folder, "-c", "user.name=x", "-c", "user.email=x@localhost", "commit", "-qam", "by hand")
+    assert write(folder, a="2", b="2").changed == 2
+
+
+def test_a_folder_inside_the_course_is_refused() -> None:
+    """A release inside the checkout would be part of the next one."""
+    with pytest.raises(HandoutError, match="Give a folder outside of"):
+        refuse_inside(ROOT / "out", ROOT)
+
+
+def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
+    """A zip of a release is replaced, and is the same for the same files; another file is not replaced."""
+    folder = tmp_path / "out"
+    path = zip_path(folder)
+    write_zip(path, "out", files(a="1"))
+    first = path.read_bytes()
+    write_zip(zip_path(folder), "out", files(a="1"))
+    assert path.read_bytes() == first
+    path.write_bytes(b"PK")
+    with pytest.raises(HandoutError, match="did not make it"):
+        zip_path(folder)
+
+
+@pytest.mark.parametrize(
+    ("name", "released"),
+    [
+        ("course_pkg/chapters/ch05_write_a_server/checks/__init__.py", True),
+        ("course_pkg/chapters/ch03_choose/programs/cashier.py", True),
+        ("course_pkg/chapters/paths.json", True),
+        ("course_pkg/chapters/private_05.py", False),
+        ("course_pkg/chapters/ch05_write_a_server/answers.py", False),
+        ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
+        ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
+        ("solutions/05_write_a_server.ipynb", False),
+        ("notebooks/05_write_a_server.ipynb", False),  # they are derived anew: an author may work in them
+        ("roster.csv", False),
+        ("grades/class.html", False),
+        ("private/private_05.py", False),
+    ],
+)
+def test_which_files_are_copied(name: str, released: bool) -> None:
+    """Files are copied from the package's own folders only, and nothing that contains answers."""
+    assert is_released(name) is released
+
+
+def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
+    """A downloaded course without git's data gives the same edition."""
+    for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
+        if (ROOT / name).is_file() and not name.startswith("tests/"):
+            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    (tmp_path / "course_pkg" / "__pycache__").mkdir()
+    (tmp_path / "course_pkg" / "__pycache__" / "x.pyc").write_bytes(b"")
+    expected = edition_files(ROOT, ["05"], ())
+    assert set(edition_files(tmp_path, ["05"], ())) >= set(expected)
+    assert not any("__pycache__" in name for name in edition_files(tmp_path, ["05"], ()))
+
+
+def test_paths_and_chapters() -> None:
+    """A path is found by its name in any case, with both of its ends; a message lists the known names."""
+    assert chosen_chapters("the lab session") == chosen_chapters("Lab-Session") == ("00", "05", "06", "07")
+    assert chosen_chapters("The turtle tutorial") == ("00", "02", "05", "06", "07", "09", "13", "14")
+    assert chosen_chapters("The whole course") == chosen_chapters()
+    assert chosen_chapters(listed=["06", "05"]) == ("05", "06")
+    with pytest.raises(HandoutError, match=r'no path "lab".*"The lab session", "The turtle tutorial"'):
+        chosen_chapters("lab")
+    with pytest.raises(HandoutError, match=r"no chapter 42.*00 to 16"):
+        chosen_chapters(listed=["05", "42"])
+
+
+def test_the_link_for_nbgitpuller() -> None:
+    """The link names repository, branch and notebook as nbgitpuller's documentation says."""
+    link = urlsplit(pull_link(HUB, REPOSITORY, "main", "notebooks/05_write_a_server.ipynb"))
+    assert (link.netloc, link.path) == ("hub.example.edu", "/hub/user-redirect/git-pull")
+    assert parse_qs(link.query) == {
+        "repo": [REPOSITORY],
+        "urlpath": ["lab/tree/course/notebooks/05_write_a_server.ipynb"],
+        "branch": ["main"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
+)
+def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
+    """The message names the option and shows how the address begins."""
+    with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
+        pull_link(hub, repository, "main", "x.ipynb")
+
+
+def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
+    """The record names the chapters; without record and solutions, the message says what to get."""
+    assert released_chapters(tmp_path) is None
+    with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get that folder"):
+        require_solutions(tmp_path, "grade")
+    write(tmp_path / "out", a="1")
+    assert released_chapters(tmp_path / "out") == ("05",)
+    with pytest.raises(SetupError, match="students' edition"):
+        require_solutions(tmp_path / "out", "grade")
+
+
+def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
+    """Packed, a module has the same names and its own docstring, and its source cannot be searched."""
+    source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
+    module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
+    exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above
+    assert (module["ANSWER"], module["__doc__"]) == ("lock order", "Text.")
+    assert "lock" not in pack(source)
