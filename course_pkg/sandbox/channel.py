@@ -69,8 +69,8 @@ def fork(work: Callable[[], None]) -> int:
 def share_memory_with_children() -> None:
     """Exclude all existing objects from garbage collection.
 
-    The garbage collector writes to each object, so every fork would copy their memory. Without it, a part
-    needs 20 % less processor time.
+    The garbage collector writes to each object, so every fork would copy its memory. Without these copies, a
+    part needs 20 % less processor time.
     """
     gc.collect()
     gc.freeze()

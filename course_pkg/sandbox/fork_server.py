@@ -1,4 +1,4 @@
-"""The process that forks a process for each submission; it has imported everything except the checks."""
+"""The process that forks a new process for each part; it has imported everything except the checks."""
 
 from __future__ import annotations
 

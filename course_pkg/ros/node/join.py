@@ -160,7 +160,7 @@ class _Kernel:
             self._private = found
 
     def _start_cleaner(self, master: MasterClient) -> None:
-        """Start a process that unregisters the node if this kernel is killed, unless its master ends, too."""
+        """Start a process that unregisters the node if this kernel is killed; a private master needs none."""
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
         if registered != self._registered:

@@ -1,7 +1,7 @@
 """Start rospy in a notebook's kernel, also a second time, and without changes to the kernel's logging.
 
-rospy can end only once: signal_shutdown(), an interrupted rospy.spin(), or another node with the same name
-shuts it down. After that, init_node() does nothing and reports no error. In a notebook, the student would
+rospy can start only once in a process. signal_shutdown(), an interrupted rospy.spin(), or another node with
+the same name shuts it down. After that, init_node() does nothing and reports no error. The student would
 have to restart the kernel and would lose all variables. This module therefore sets rospy's variables to
 their values from before the first init_node().
 

@@ -48,7 +48,7 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait until the program has printed `line` or serves `service`; without both, wait for its end.
+        """Wait for `line` in the output and for `service`, if given; without both, wait for its end.
 
         Returns the exit status, or None while the program is running. Raises NodeFailed, with the end of the
         output, after `timeout` s, or if the program ends without the line or the service.

@@ -57,7 +57,7 @@ class PrivateGraph:
         return self._processes[-1]
 
     def kill_master(self) -> None:
-        """End the master, and nothing else."""
+        """End only the master; the programs of the graph continue."""
         self._master.stop()
 
     def close(self) -> None:

@@ -57,7 +57,7 @@ class Hook:
 def install_all(
     hooks: Sequence[Hook], module: ModuleType, transport: type, required: Sequence[Hook] = ()
 ) -> bool:
-    """Install all `hooks`, and make `transport` the class of the module's connections; return the success.
+    """Install all `hooks`, and make `transport` the class of the module's connections; return if it worked.
 
     The hooks in `required` are only checked. If any hook does not fit, the function changes nothing and
     returns False.

@@ -136,7 +136,7 @@ def _by_transfer(spans: Iterable[Span]) -> dict[TransferKey, list[Span]]:
 
 
 def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
-    """Return a key for each exchange, numbered in order of time; an unmatched span is its own exchange."""
+    """Return a key for each exchange, numbered in order of time; an unmatched span has its own exchange."""
     numbers = {"call": 0, "message": 0}
     keys: dict[Exchange, str] = {}
     for each in spans:
