@@ -147,7 +147,7 @@ SERVING = (
     Row(
         "Serving",
         "handler raises ServiceException('x')",
-        (Shows("refuses", f"{REPLY}'service cannot process request: somebody", "on purpose"),),
+        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "on purpose"),),
     ),
     Row(
         "Serving",
