@@ -89,7 +89,7 @@ BUILDING = (
     Row(
         "Building",
         "- - - instead of ---",
-        (Builds("blanks in the dashes", "Invalid declaration: - - -", "in the place of the three dashes"),),
+        (Builds("blanks in the dashes", "Invalid declaration: - - -", "instead of the three dashes"),),
     ),
     Row(
         "Building",
@@ -107,14 +107,14 @@ BUILDING = (
     Row(
         "Building",
         "another Python first on PATH",
-        (Builds("another Python", 'import parse_package" failed', "The build runs another Python"),),
+        (Builds("another Python", 'import parse_package" failed', "ROS is installed for another Python"),),
     ),
     Row(
         "Building",
         "roslaunch instead of rosrun; rosservice show",
         (
             Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
-            Builds("rosservice show", "Commands:", "rosservice does not know that command"),
+            Builds("rosservice show", "Commands:", "does not know this command"),
         ),
     ),
     Row(
@@ -147,7 +147,7 @@ SERVING = (
     Row(
         "Serving",
         "handler raises ServiceException('x')",
-        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "on purpose"),),
+        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "refused this request"),),
     ),
     Row(
         "Serving",
@@ -369,7 +369,7 @@ NODES_AND_MASTERS = (
     Row(
         "Nodes and masters",
         "init_node on a thread",
-        (Shows("init_on_thread", "signal only works in main thread", "called outside of the main thread"),),
+        (Shows("init_on_thread", "signal only works in main thread", "called outside the main thread"),),
     ),
     Row(
         "Nodes and masters",
