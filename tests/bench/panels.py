@@ -247,7 +247,7 @@ def first_drawing(page: Page, files: dict[str, object]) -> float:
 
 
 def moving(page: Page) -> float:
-    """Return the frames per second while the mouse moves the timeline to and fro."""
+    """Return the frames per second while the mouse moves the timeline to the left and to the right."""
     frames = page.evaluate(PAN, TIMELINE_WATCH)
     slow = sorted(frames)[int(0.95 * len(frames))]
     print(f"  frames: median {statistics.median(frames):.1f} ms, 95 % within {slow:.1f} ms")

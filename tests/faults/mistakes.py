@@ -120,7 +120,7 @@ BUILDING = (
         "roslaunch instead of rosrun; rosservice show",
         (
             Builds("roslaunch for rosrun", "is neither a launch file in package", "roslaunch starts launch"),
-            Builds("rosservice show", "Commands:", "rosservice does not know this command"),
+            Builds("rosservice show", "Commands:", "does not know this command"),
         ),
     ),
     Row(
@@ -153,7 +153,7 @@ SERVING = (
     Row(
         "Serving",
         "handler raises ServiceException('x')",
-        (Shows("refuses", f"{REPLY}'service cannot process request: somebody", "on purpose"),),
+        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "refused this request"),),
     ),
     Row(
         "Serving",
@@ -375,7 +375,7 @@ NODES_AND_MASTERS = (
     Row(
         "Nodes and masters",
         "init_node on a thread",
-        (Shows("init_on_thread", "signal only works in main thread", "called outside of the main thread"),),
+        (Shows("init_on_thread", "signal only works in main thread", "called outside the main thread"),),
     ),
     Row(
         "Nodes and masters",
