@@ -17,6 +17,7 @@ from course_pkg.grading.late import LatePolicy, LateTable, late_policy, late_tab
 from course_pkg.grading.marking import key_of
 from course_pkg.grading.queue import Task, executor_of, grade_all
 from course_pkg.grading.reports import write_reports
+from course_pkg.grading.roster.class_list import ClassList, origins_of, read_lists
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -40,6 +41,8 @@ class Options:
     late: Path | None = None
     late_per_day: float | None = None  # percent
     late_max_days: float | None = None
+    roster: Path | None = None
+    moodle_worksheet: Path | None = None
     validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
 
 
@@ -51,6 +54,7 @@ def grade(options: Options) -> int:
         )
     policy = late_policy(options.late, options.late_per_day, options.late_max_days)
     table = late_table(options.late) if options.late else None
+    lists = read_lists(options.roster, options.moodle_worksheet)
     extras = read_extras(options.private)
     found = _handed_in(options, table)
     if options.sandboxed:
@@ -67,15 +71,17 @@ def grade(options: Options) -> int:
         # The threads would wait until their notebooks have ended. The processes that they run end with this
         # process.
         os._exit(130)
-    _report(_in_order([_with_lateness(each, policy) for each in grades]), options.out)
+    class_list = lists.matched(origins_of(grades), options.source)
+    _report(_in_order([_with_lateness(each, policy) for each in grades]), options.out, class_list)
     took = time.monotonic() - began
     sys.stdout.write(f"{len(grades)} notebooks graded in {took:.0f} s: {options.out / 'class.html'}\n")
+    sys.stdout.writelines(f"{sentence}\n" for sentence in class_list.summary())
     return 0
 
 
-def _report(grades: Sequence[Grade], out: Path) -> None:
+def _report(grades: Sequence[Grade], out: Path, class_list: ClassList) -> None:
     try:
-        write_reports(grades, out)
+        write_reports(grades, out, class_list)
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "

@@ -6,6 +6,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
+from course_pkg.grading.roster.arguments import add_roster_arguments
 from course_pkg.setup.commands import UNSAFE, Command
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=Path, default=Path("grades"), help="the folder for the reports (default: grades)"
     )
+    add_roster_arguments(parser)
     parser.add_argument(
         "--jobs",
         type=int,

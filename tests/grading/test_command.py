@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -14,6 +15,7 @@ import pytest
 
 from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
+from tests.grading.roster.worksheets import ENGLISH
 from tests.grading.submitted import WRONG, hand_in
 from tests.support import eventually
 
@@ -35,7 +37,7 @@ def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def grade(submissions: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
+def grade(submissions: Path, out: Path, *words: str | Path) -> subprocess.CompletedProcess[str]:
     """Run the command to its end."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none", *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False)
@@ -154,6 +156,23 @@ def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -
         assert "without a sandbox" in (tmp_path / name).read_text()
 
 
+def test_a_roster_and_a_worksheet(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
+    """The terminal says who is missing; the copy of the worksheet contains the grade."""
+    out = tmp_path / "out"
+    shutil.copytree(undisturbed, out)
+    roster, sheet = tmp_path / "roster.csv", tmp_path / "sheet.csv"
+    roster.write_text("username,email,name\ns01,jane@uni.example,Jane Doe\ns05,,Late Riser\n")
+    sheet.write_text(ENGLISH)
+    done = grade(submissions, out, "--roster", roster, "--moodle-worksheet", sheet)
+    assert done.returncode == 0, done.stderr
+    assert "Roster: 1 of 2 students handed in." in done.stdout
+    assert "1 handed in nothing: Late Riser." in done.stdout
+    assert "3 are not on the roster: s02; s03; s04." in done.stdout
+    assert "1 of 4 participants have a grade in moodle_worksheet.csv" in done.stdout
+    first, *_ = list(csv.DictReader((out / "moodle_worksheet.csv").read_text("utf-8-sig").splitlines(True)))
+    assert (first["Full name"], first["Grade"]) == ("Jane Doe", "100")
+
+
 def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
     """`course grade-one` writes no other file."""
     notebook = submissions / "s02" / "05_write_a_server.ipynb"
@@ -174,6 +193,11 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
         (["{here}", "--late", "late.csv"], "--late needs a policy"),
         (["{here}", "--late-per-day", "much"], "--late-per-day"),
         (["{here}", "--private", "/nowhere"], "not a folder"),
+        (["{here}", "--roster", "/nowhere.csv"], "The roster nowhere.csv cannot be read"),
+        (
+            ["{here}", "--moodle-worksheet", "/nowhere.csv"],
+            "The grading worksheet nowhere.csv cannot be read",
+        ),
         (["{here}", "--out", "/proc/here"], "--out"),
         (["{here}", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
     ],

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
+from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of
+from course_pkg.grading.roster.people import Person
 
 WITHOUT_SANDBOX = (
     "Run without a sandbox: this submission had access to the machine, its check and the other submissions, "
@@ -29,7 +31,8 @@ class Column:
 class Book:
     """Grades by student, chapter and part; the notes of a grade say if it was run without a sandbox."""
 
-    def __init__(self, grades: Sequence[Grade]) -> None:
+    def __init__(self, grades: Sequence[Grade], class_list: ClassList | None = None) -> None:
+        self.class_list = class_list or Lists().matched(origins_of(grades))
         marked = [_with_warning(grade) for grade in grades]
         self.grades = tuple(sorted(marked, key=lambda grade: (grade.student, grade.chapter, grade.origin)))
         self.students = tuple(sorted({grade.student for grade in self.grades}))
@@ -39,6 +42,15 @@ class Book:
         self._by_student: dict[str, list[Grade]] = {student: [] for student in self.students}
         for grade in self.grades:
             self._by_student[grade.student].append(grade)
+
+    def person(self, student: str) -> Person | None:
+        """Return who a student is, or None if only the name of the folder is known."""
+        return self.class_list.people.get(student)
+
+    @property
+    def identified(self) -> list[str]:
+        """The students whom a platform can identify; others get no row in a file for a platform."""
+        return [student for student in self.students if student and student not in self.class_list.unclear]
 
     def of(self, student: str) -> list[Grade]:
         """Return the grades of a student, in the order of the chapters."""

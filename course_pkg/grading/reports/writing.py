@@ -11,17 +11,20 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports import formats
 from course_pkg.grading.reports.gradebook import Book
+from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
 
 
-def write_reports(grades: Sequence[Grade], out: Path) -> None:
+def write_reports(grades: Sequence[Grade], out: Path, class_list: ClassList | None = None) -> None:
     """Write every report about `grades` into the folder `out`.
+
+    `class_list` tells who the students are, and who is missing.
 
     Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
     such a module.
     """
-    book = Book(grades)
+    book = Book(grades, class_list)
     try:
         out.mkdir(parents=True, exist_ok=True)
         for write in _writers():
