@@ -29,7 +29,7 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
             f"permissions of the file {path}."
         ) from error
     if len(content) > largest:
-        raise GradingError(f"{path.name} is larger than a {what} can be ({largest} bytes).")
+        raise GradingError(f"{path.name} is too large for a {what} (the limit is {largest} bytes).")
     if content.startswith(SPREADSHEET):
         raise _unreadable(path, what, "it is a spreadsheet and not a CSV file")
     return content

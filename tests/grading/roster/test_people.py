@@ -81,7 +81,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
         ('name,id\n"secret,1\n', "cannot be read.*Save it as CSV in UTF-8"),
         (b"name\n\xff\n", "cannot be read.*UTF-8"),
         (b"PK\x03\x04secret", "spreadsheet and not a CSV file. Save it as CSV"),
-        ("x" * 1_000_001, "larger than a roster"),
+        ("x" * 1_000_001, "too large for a roster"),
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
