@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from course_pkg.grading.run.summary import NEED_A_LOOK
 from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
 from tests.grading.roster.worksheets import ENGLISH
@@ -54,7 +55,8 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     """Grade all submissions, and return the folder."""
     out = tmp_path_factory.mktemp("grades")
     done = grade(submissions, out)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
+    assert done.stdout.splitlines()[-1] == "3 graded, 1 needs a look"
     assert not {"s01", "s02", "s03", "s04"} & set(done.stderr.replace(",", " ").split())
     return out
 
@@ -103,7 +105,7 @@ def test_a_run_that_was_killed_goes_on(
         family = descendants(process.pid)
         process.send_signal(signal.SIGKILL)
     eventually(lambda: not any(os.path.exists(f"/proc/{pid}/exe") for pid in family), timeout=20)
-    assert grade(submissions, tmp_path).returncode == 0
+    assert grade(submissions, tmp_path).returncode == NEED_A_LOOK
     assert points(tmp_path) == points(undisturbed)
 
 
@@ -115,7 +117,7 @@ def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, t
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
     ) as cluster:
         done = grade(submissions, tmp_path, "--scheduler", cluster.scheduler_address)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     assert points(tmp_path) == points(undisturbed)
 
 
@@ -134,7 +136,7 @@ def flat(context: CheckContext) -> None:
     (private / "points.json").write_text('{"05.2": 0, "05.1": 5}')
     out = tmp_path / "out"
     done = grade(submissions, out, "--private", str(private), "--fresh")
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     record = json.loads((out / "results" / "s01" / "05.json").read_text())
     earned = {report["check"]: report["points"] for report in record["reports"]}
     assert (earned["05.1"], earned["05.1.1"], earned["05.2"]) == (5, 3, 0)
@@ -150,7 +152,7 @@ def flat(context: CheckContext) -> None:
 def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -> None:
     """--unsafe-no-sandbox gives the same grades, with a warning in each report."""
     done = grade(submissions, tmp_path, "--unsafe-no-sandbox")
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     assert points(tmp_path)["s01"] > points(tmp_path)["s02"]
     for name in ("feedback/s01.html", "class.html"):
         assert "without a sandbox" in (tmp_path / name).read_text()

@@ -16,7 +16,8 @@ def add_roster_arguments(parser: ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="a CSV file with the students of the class (columns name, id, email, username, section): the "
-        "reports then show who is missing, and contain these columns",
+        "reports then show who is missing, and contain these columns; with the column extension_days, the "
+        "deadlines of these students are later by that number of days",
     )
     parser.add_argument(
         "--moodle-worksheet",

@@ -25,7 +25,7 @@ def write(book: Book, out: Path) -> None:
     graded = {
         participant.place: (_grade(book, student, participant.maximum), _feedback(book, student))
         for student, participant in class_list.participants.items()
-        if book.total and not participant.locked
+        if book.total and not participant.locked and book.of(student)
     }
     write_atomically(out / NAME, class_list.worksheet.copy(graded))
 
