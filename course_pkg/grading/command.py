@@ -5,19 +5,33 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from course_pkg.errors import GradingError
+from course_pkg.grading.deadlines.deadline import deadlines
+from course_pkg.grading.deadlines.extensions import extensions_of
+from course_pkg.grading.deadlines.lateness import LAST, Lateness, attempts_to_grade, best_attempts
+from course_pkg.grading.deadlines.moments import zone_of
+from course_pkg.grading.deadlines.times import times_of
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission
+from course_pkg.grading.intake.folders import require_other_folder
+from course_pkg.grading.intake.naming import NOTEBOOK
 from course_pkg.grading.intake.submissions import submissions
 from course_pkg.grading.late import LatePolicy, LateTable, late_policy, late_table
 from course_pkg.grading.marking import key_of
-from course_pkg.grading.queue import Task, executor_of, grade_all
+from course_pkg.grading.queue import Task, grade_all, pool_of
 from course_pkg.grading.reports import write_reports
+from course_pkg.grading.reports.records import RESULTS
 from course_pkg.grading.required import require_references
+from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of, read_lists
+from course_pkg.grading.run.changes import changes, described, write_changes
+from course_pkg.grading.run.earlier import Earlier, read_earlier
+from course_pkg.grading.run.regrade import Regrade
+from course_pkg.grading.run.selection import Selection, selection
+from course_pkg.grading.run.summary import about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -33,51 +47,89 @@ class Options:
     source: Path
     out: Path
     chapters: tuple[str, ...] = ()
+    students: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
     jobs: int = 0
     scheduler: str = ""
     fresh: bool = False
     sandboxed: bool = True
     private: Path | None = None
+    deadlines: tuple[str, ...] = ()
+    times: str = ""
+    time_zone: str = ""
+    grace_minutes: float = 0.0
+    attempts: str = LAST
     late: Path | None = None
     late_per_day: float | None = None  # percent
     late_max_days: float | None = None
+    roster: Path | None = None
+    moodle_worksheet: Path | None = None
     validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
 
 
 def grade(options: Options) -> int:
-    """Grade all submissions, and write the reports; return the exit status 0 for any grades."""
+    """Grade the selected submissions, and write the reports; return the exit status (see run/summary.py)."""
     if options.jobs < 0:
         raise GradingError(
             f"--jobs {options.jobs} is not a valid number of notebooks. Leave it out, or give 1 or more."
         )
     require_references(options.chapters)
-    policy = late_policy(options.late, options.late_per_day, options.late_max_days)
+    policy = late_policy(options.late, options.late_per_day, options.late_max_days, options.deadlines)
     table = late_table(options.late) if options.late else None
+    lists = read_lists(options.roster, options.moodle_worksheet)
+    require_other_folder(options.source, options.out)
     extras = read_extras(options.private)
-    found = _handed_in(options, table)
+    selected = selection(options.students, options.chapters, options.parts)
+    everyone = _dated(options, _handed_in(options, selected), lists, table)
+    selected = selected.for_students(everyone)
     if options.sandboxed:
         require_sandbox()
-    store = Store(options.out)
-    if options.fresh:
+    store, earlier = Store(options.out), read_earlier(options.out)
+    if options.fresh and selected.everything:
         store.forget()
     began = time.monotonic()
     try:
-        grades = list(_graded(options, found, extras, store))
+        found = selected.of(everyone)
+        graded = list(_graded(options, found, extras, store, Regrade(selected, earlier, fresh=options.fresh)))
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
         # The threads would wait until their notebooks have ended. The processes that they run end with this
         # process.
         os._exit(130)
-    _report(_in_order([_with_lateness(each, policy) for each in grades]), options.out)
-    took = time.monotonic() - began
-    sys.stdout.write(f"{len(grades)} notebooks graded in {took:.0f} s: {options.out / 'class.html'}\n")
-    return 0
+    graded = best_attempts([_with_lateness(each, policy) for each in graded])
+    rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
+    class_list = _class_list(lists, options.source, [*everyone, *rest])
+    chapters = {each.chapter for each in graded}
+    _report(_in_order([*graded, *rest]), options.out, class_list, chapters)
+    earlier.forget_files(graded, selected)
+    sys.stdout.writelines(f"{sentence}\n" for sentence in class_list.summary())
+    _print_end(options.out, earlier, graded, rest, time.monotonic() - began)
+    return status_of(graded)
 
 
-def _report(grades: Sequence[Grade], out: Path) -> None:
+def _print_end(
+    out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
+) -> None:
+    """Print what changed since the last run, what stayed, where the reports are, and the last line."""
+    lines = []
+    if earlier.grades:
+        found = changes(earlier.grades, graded)
+        write_changes(found, out)
+        lines += described(found, out)
+    if earlier.unreadable:
+        lines.append(
+            f"{earlier.unreadable} files in {out / RESULTS} are not results of this version of the course."
+        )
+    lines += about_rest(rest, out)
+    count = "1 submission" if len(graded) == 1 else f"{len(graded)} submissions"
+    lines += [f"{count} in {took:.0f} s. Open {out / 'class.html'} first.", last_line(graded)]
+    sys.stdout.write("\n".join([*lines, ""]))
+
+
+def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, chapters: Collection[str]) -> None:
     try:
-        write_reports(grades, out)
+        write_reports(grades, out, class_list, chapters)
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
@@ -100,46 +152,73 @@ def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Pat
     return 0
 
 
-def _handed_in(options: Options, table: LateTable | None) -> list[Submission]:
-    found = submissions(options.source, options.chapters)
+def _is_class(source: Path) -> bool:
+    """Return whether all students hand in here; a single notebook says nothing about the other students."""
+    return not (source.is_file() and NOTEBOOK.fullmatch(source.name))
+
+
+def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Grade]) -> ClassList:
+    """Return who handed in something, in this run or an earlier one, and who did not."""
+    there = [each for each in handed_in if not each.nothing and not (isinstance(each, Grade) and each.absent)]
+    return lists.matched(origins_of(there), source)
+
+
+def _dated(
+    options: Options, found: Sequence[Submission], lists: Lists, table: LateTable | None
+) -> list[Submission]:
+    """Return the submissions to grade, with their days late."""
+    extensions_of({str(each.line): each for each in lists.roster or ()})  # reports a wrong number early
+    people = _class_list(lists, options.source, found).people
+    zone = zone_of(options.time_zone) if options.time_zone else None
+    due = deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
+    times = options.times or (options.deadlines and options.moodle_worksheet) or ""
+    lateness = Lateness(due, times_of(str(times), options.source, zone))
+    if table and (strangers := table.strangers(found)):
+        sys.stderr.write(
+            f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"
+        )
+    dated = lateness.applied(attempts_to_grade(found, options.attempts, lateness.when))
+    return table.applied(dated) if table else dated
+
+
+def _handed_in(options: Options, selected: Selection) -> list[Submission]:
+    found = submissions(options.source, selected.chapters, without=options.out)
     if not found:
         raise GradingError(
             f"There is nothing to grade in {options.source}. Give a folder that contains "
             "STUDENT/NN_topic.ipynb, or a zip of it."
         )
-    if table and (strangers := table.strangers(found)):
-        sys.stderr.write(
-            f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"
-        )
-    return table.applied(found) if table else found
+    return found
 
 
-def _graded(options: Options, found: Sequence[Submission], extras: Extras, store: Store) -> Iterator[Grade]:
+def _graded(
+    options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
+) -> Iterator[Grade]:
     """Yield a grade for each submission: first the grades of earlier runs, then new grades when ready."""
-    todo: dict[str, list[Submission]] = {}
+    todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:
         key = key_of(submission, extras, options.validate, sandboxed=options.sandboxed)
-        known = store.find(key, submission)
+        known = None if regrade.again else store.find(key, submission)
         if known is not None:
             yield known
         else:
-            todo.setdefault(key, []).append(submission)
+            todo.setdefault((key, regrade.parts(submission)), []).append(submission)
     if kept := len(found) - sum(map(len, todo.values())):
         progress.advance(kept, kept=True)
         progress.note(f"{kept} of {len(found)} notebooks are graded from an earlier run.")
     jobs = options.jobs or (0 if options.scheduler else A_CORE * (os.cpu_count() or 1))
     private = str(options.private.resolve()) if options.private else ""
     tasks = [
-        Task(alike[0], store.secret, key, options.sandboxed, private, options.validate)
-        for key, alike in todo.items()
+        Task(alike[0], store.secret, key, options.sandboxed, private, options.validate, parts)
+        for (key, parts), alike in todo.items()
     ]
-    with progress.painting(), executor_of(options.scheduler, jobs) as (executor, workers):
-        for graded in grade_all(tasks, executor, workers):
-            store.keep(graded)
-            alike = todo[graded.key]
+    with progress.painting(), pool_of(options.scheduler, jobs) as pool:
+        for task, graded in grade_all(tasks, pool):
+            alike = todo[task.key, task.parts]
+            regrade.keep(store, graded, task.parts, alike)
             progress.advance(len(alike))
-            yield from (handed_in(graded, each) for each in alike)
+            yield from (regrade.completed(handed_in(graded, each), task.parts) for each in alike)
 
 
 def _with_lateness(graded: Grade, policy: LatePolicy) -> Grade:

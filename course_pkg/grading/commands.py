@@ -6,11 +6,23 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
+from course_pkg.grading.deadlines.arguments import add_deadline_arguments
+from course_pkg.grading.roster.arguments import add_roster_arguments
 from course_pkg.setup.commands import UNSAFE, Command
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
+STATUSES = """exit status:
+  0    every submission was graded
+  1    nothing was graded, or the run could not continue; the message says why
+  2    an option is wrong
+  3    some submissions need a look: they could not be graded, a part of them was not examined,
+       the time of handing in is not known, or they have no points
+  130  you stopped the run; the same command continues it
+
+Results that a run does not select stay in the reports. Each run prints the points that have
+changed since the last run, and writes them into changes.csv."""
 NEEDS = frozenset({"course", "grade", "libraries", "solutions"})
 
 
@@ -18,14 +30,22 @@ def _grade(options: SimpleNamespace) -> int:
     from course_pkg.grading.command import Options, grade
 
     given = {name: value for name, value in vars(options).items() if name != "command"}
+    given |= {name: tuple(given[name]) for name in ("students", "parts", "deadlines")}
     return grade(Options(**given))
 
 
 def _chapters(text: str) -> tuple[str, ...]:
-    return tuple(filter(None, text.split(",")))
+    """Return the chapters of a list such as "5,06": each number gets two digits."""
+    return tuple(part.strip().zfill(2) for part in text.split(",") if part.strip())
+
+
+def _parts(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
 def _grade_arguments(parser: ArgumentParser) -> None:
+    from argparse import RawDescriptionHelpFormatter
+
     parser.add_argument(
         "source",
         metavar="submissions",
@@ -36,8 +56,26 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         "--chapters", type=_chapters, default=(), metavar="05,06", help="grade only these chapters"
     )
     parser.add_argument(
+        "--student",
+        dest="students",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="grade only this student again, even if nothing has changed; can be repeated",
+    )
+    parser.add_argument(
+        "--part",
+        dest="parts",
+        type=_parts,
+        action="extend",
+        default=[],
+        metavar="05.2,05.3",
+        help="grade only these parts again; the notebooks' other results stay",
+    )
+    parser.add_argument(
         "--out", type=Path, default=Path("grades"), help="the folder for the reports (default: grades)"
     )
+    add_roster_arguments(parser)
     parser.add_argument(
         "--jobs",
         type=int,
@@ -46,21 +84,6 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--scheduler", default="", metavar="tcp://…", help="a dask scheduler, to use several machines"
-    )
-    parser.add_argument(
-        "--late", type=Path, metavar="TABLE", help="a CSV file: student,days or student,chapter,days"
-    )
-    parser.add_argument(
-        "--late-per-day",
-        type=float,
-        metavar="PERCENT",
-        help="the percentage of the points that is taken off for each day late, such as 10",
-    )
-    parser.add_argument(
-        "--late-max-days",
-        type=float,
-        metavar="N",
-        help="the number of days late after which no points are left, such as 3",
     )
     parser.add_argument(
         "--validate",
@@ -73,9 +96,14 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     again.add_argument(
         "--resume", dest="fresh", action="store_false", help="continue a run that was stopped (the default)"
     )
-    again.add_argument("--fresh", action="store_true", help="delete the earlier grades first")
+    again.add_argument(
+        "--fresh", action="store_true", help="grade all selected notebooks again, even if nothing has changed"
+    )
     parser.set_defaults(fresh=False)  # this is the default, and the value of --resume
     _add_common(parser)
+    add_deadline_arguments(parser)
+    parser.formatter_class = RawDescriptionHelpFormatter
+    parser.epilog = STATUSES
 
 
 def _grade_one(options: SimpleNamespace) -> int:

@@ -15,6 +15,7 @@ from pathlib import Path
 from course_pkg.checking.parts import add_private, chapters, parts_of
 from course_pkg.checking.report import Report
 from course_pkg.errors import GradingError
+from course_pkg.grading.run.private_folder import require_names, require_parts
 from course_pkg.setup.stamps import digest
 
 
@@ -49,6 +50,7 @@ def read_extras(folder: Path | None) -> Extras:
             f"{folder} is not a folder: give the folder that contains private_NN.py and points.json."
         )
     folder = folder.resolve()
+    require_names(folder, chapters())
     add_private(str(folder))
     try:
         known = {part.check for chapter in chapters() for part in parts_of(chapter)}
@@ -56,6 +58,7 @@ def read_extras(folder: Path | None) -> Extras:
         raise GradingError(
             f"The private parts in {folder} cannot be read: {type(error).__name__}: {error}"
         ) from error
+    require_parts(folder)
     return Extras(folder, _points(folder / "points.json", known))
 
 

@@ -5,12 +5,17 @@ All data can be stored as JSON and read again without a change. So a report need
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from course_pkg.checking.report import Report, report_from
 from course_pkg.sandbox.job import WorkFile
+
+IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
+NOTHING = "The student handed in nothing"  # the beginning of the problem of an empty folder
+NO_TIME = "The time of handing in is not known, so this submission counts as handed in in time."
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,22 @@ class Submission:
     problem: str = ""
     notes: tuple[str, ...] = ()  # notes about an unusual form of the submission
     packages: tuple[Package, ...] = ()
+    attempts: tuple[Submission, ...] = field(default=(), repr=False)  # the earlier ones for this chapter
+
+    @property
+    def nothing(self) -> bool:
+        """Whether it stands for an empty folder."""
+        return self.problem.startswith(NOTHING)
+
+    @property
+    def digest(self) -> str:
+        """A digest of everything that was handed in."""
+        digest = hashlib.sha256(self.content)
+        digest.update(b"\0" + self.chapter.encode() + b"\0" + self.problem.encode())
+        for package in self.packages:
+            for file in package.files:
+                digest.update(repr((package.name, file)).encode("utf-8", "surrogatepass"))
+        return digest.hexdigest()[:32]
 
 
 @dataclass(frozen=True)
@@ -70,6 +91,13 @@ class Grade:
     problem: str = ""  # the problem of the submission; if there is one, no part was examined
     code: dict[str, str] = field(default_factory=dict)  # the student's code of each part that was examined
     private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
+    handed_in: str = ""  # the digest of the submission
+    absent: bool = False  # True: the result of an earlier run, for which nothing was handed in this time
+
+    @property
+    def nothing(self) -> bool:
+        """Whether it stands for an empty folder."""
+        return self.problem.startswith(NOTHING)
 
     @property
     def earned(self) -> float:

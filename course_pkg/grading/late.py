@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -12,7 +10,8 @@ from pathlib import Path
 
 from course_pkg.errors import GradingError
 from course_pkg.grading import clean
-from course_pkg.grading.grade import Submission
+from course_pkg.grading.grade import NO_TIME, Submission
+from course_pkg.grading.tables import table_rows
 
 COLUMNS = (["student", "days"], ["student", "chapter", "days"])
 LARGEST = 1_000_000  # bytes of a table
@@ -37,18 +36,24 @@ class LatePolicy:
         return round(max(0.0, 1.0 - math.ceil(late) * self.per_day / 100.0), 6)
 
 
-def late_policy(table: Path | None, per_day: float | None, max_days: float | None) -> LatePolicy:
+def late_policy(
+    table: Path | None, per_day: float | None, max_days: float | None, deadlines: Sequence[str] = ()
+) -> LatePolicy:
     """Return the policy of the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if there is only a table or only a policy, or if a number is out of its range.
+    Raises GradingError if there is a table of late days or a deadline and no policy, or a policy and neither
+    of them, or if a number is out of its range.
     """
-    if table and per_day is None and max_days is None:
+    if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
-            "--late needs a policy. Give --late-per-day PERCENT, --late-max-days N, or both: with "
-            "--late-per-day 10 --late-max-days 3, each day costs 10 %, and after day 3 no points are left."
+            f"{'--late' if table else '--deadline'} needs a policy. Give --late-per-day PERCENT, "
+            "--late-max-days N, or both: with --late-per-day 10 --late-max-days 3, each day costs 10 %, and "
+            "after day 3 no points are left. With --late-per-day 0, late work is only marked."
         )
-    if not table and (per_day is not None or max_days is not None):
-        raise GradingError("A late policy needs the table of late days: give it with --late TABLE.")
+    if not table and not deadlines and (per_day is not None or max_days is not None):
+        raise GradingError(
+            "A late policy needs a deadline (--deadline TIME) or a table of late days (--late TABLE)."
+        )
     if per_day is not None and not 0 <= per_day <= 100:
         raise GradingError(f"--late-per-day {per_day:g} is not a percentage: give a number from 0 to 100.")
     if max_days is not None and not 0 <= max_days < math.inf:
@@ -67,8 +72,17 @@ class LateTable:
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with their days late."""
-        return [replace(each, late=self.days(each.student, each.chapter)) for each in submissions]
+        """Return the submissions with their days late; one without a row keeps the days that it has."""
+        return [
+            self._late(each)
+            if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows
+            else each
+            for each in submissions
+        ]
+
+    def _late(self, submission: Submission) -> Submission:
+        notes = tuple(note for note in submission.notes if note != NO_TIME)
+        return replace(submission, late=self.days(submission.student, submission.chapter), notes=notes)
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
         """Return how many students of the table handed in nothing; their names may be misspelt."""
@@ -77,7 +91,7 @@ class LateTable:
 
 def late_table(path: Path) -> LateTable:
     """Return the table in the CSV file at `path`, with the columns student,days or student,chapter,days."""
-    lines = _lines(path)
+    lines = table_rows(path, "table of late days")
     head = [name.strip().lower() for name in lines[0]] if lines else []
     if head not in COLUMNS:
         raise GradingError(
@@ -93,25 +107,6 @@ def late_table(path: Path) -> LateTable:
                 raise GradingError(f"{where}: this student and chapter are in the table twice; keep one row.")
             rows[key] = days
     return LateTable(rows)
-
-
-def _lines(path: Path) -> list[list[str]]:
-    """Return the rows; the separator of the columns may be a comma, a semicolon or a tab."""
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
-        if len(content) > LARGEST:
-            raise GradingError(
-                f"{path.name} is too large for a table of late days (the limit is {LARGEST} bytes)."
-            )
-        whole = content.decode("utf-8-sig")
-        first = whole.partition("\n")[0]
-        delimiter = max(",;\t", key=first.count)
-        return list(csv.reader(io.StringIO(whole, newline=""), delimiter=delimiter, strict=True))
-    except (OSError, ValueError, csv.Error) as error:
-        raise GradingError(
-            f"The table of late days {path.name} cannot be read: {error}. Save it as CSV in UTF-8."
-        ) from error
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:

@@ -11,7 +11,7 @@ from course_pkg.checking.parts import Part
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.errors import WorkerFailed
 from course_pkg.grading.extras import Extras
-from course_pkg.grading.grade import Grade, Package, Submission
+from course_pkg.grading.grade import IN_PACKAGES, Grade, Package, Submission
 from course_pkg.grading.plan import PartPlan, Plan, course_digest
 from course_pkg.grading.rebuild.context import needed
 from course_pkg.grading.rebuild.rebuilder import Rebuilt
@@ -74,19 +74,9 @@ class Answers:
 
 def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: bool) -> str:
     """Return the key under which this grade is stored: a digest of all data on which it depends."""
-    digest = hashlib.sha256(submission.content)
-    for text in (
-        submission.chapter,
-        submission.problem,
-        course_digest(),
-        extras.digest,
-        str(sandboxed),
-        validate,
-    ):
+    digest = hashlib.sha256(submission.digest.encode())
+    for text in (course_digest(), extras.digest, str(sandboxed), validate):
         digest.update(b"\0" + text.encode())
-    for package in submission.packages:
-        for file in package.files:
-            digest.update(repr((package.name, file)).encode("utf-8", "surrogatepass"))
     return digest.hexdigest()[:32]
 
 
@@ -123,7 +113,7 @@ def mark(
 
 def _notes(plan: Plan, answers: Answers) -> Iterator[str]:
     if packaged := [each.part.check for each in plan.parts if answers.in_packages(each.part)]:
-        yield f"Examined in the packages, not in the cells of the notebook: {', '.join(packaged)}."
+        yield f"{IN_PACKAGES}: {', '.join(packaged)}."
     yield from answers.notebook.notes if answers.notebook else [answers.problem]
 
 

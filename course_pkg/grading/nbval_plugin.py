@@ -1,23 +1,28 @@
 """A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
 
-The result is only feedback: it comes from the outputs of the notebook, and student code can forge them. If
-the variable COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one JSON
-object per line.
+The run fails if a part has not all of its points: its check did not pass, did not run, or is not in the
+notebook. The result is only feedback: it comes from the outputs of the notebook, and student code can forge
+them. If the variable COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one
+JSON object per line.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Generator
+import re
+from collections.abc import Generator, Iterable, Sequence
 
 import pytest
 
-from course_pkg.authoring.cells import Cell, check_of
+from course_pkg.authoring.cells import Cell, check_of, exercise_of
+from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # maximum number of characters of a failure
-LINES = pytest.StashKey[list[str]]()
+PART, MISSING = "part", "missing"  # the user properties of a report
+CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
+SEEN = pytest.StashKey[bool]()
 
 
 @pytest.hookimpl(wrapper=True)
@@ -26,21 +31,69 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):
-        if check_of(cell):
-            report.user_properties.append(("part", _headline(item, cell)))
+        if part := check_of(cell):
+            headline = _headline(item, cell)
+            report.user_properties.append((PART, headline))
+            if report.outcome == "passed" and not _is_passed(headline):
+                report.outcome = "failed"
+                report.longrepr = f"{headline}. The output of the check of {part} shows the reason."
+        report.user_properties += [(MISSING, part) for part in _missing(item)]
         _record(cell, report)
     return report
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """End the run as failed if points are missing."""
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if session.exitstatus == pytest.ExitCode.OK and reporter and _lacking(_lines(reporter)):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Show a line for each part."""
-    reports = [each for group in terminalreporter.stats.values() for each in group]
-    properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
-    lines = sorted({words for key, words in properties if key == "part"})
+    lines = _lines(terminalreporter)
     if lines:
         terminalreporter.section("parts of the course")
         for line in lines:
             terminalreporter.write_line(line)
+        lacking = _lacking(lines)
+        terminalreporter.write_line(
+            f"{len(lines)} parts, {len(lacking)} of them without their points."
+            if lacking
+            else f"{len(lines)} parts, all passed."
+        )
+
+
+def _lines(reporter: pytest.TerminalReporter) -> list[str]:
+    """Return the first line of each check, in the order of the parts."""
+    reports = [each for group in reporter.stats.values() for each in group]
+    properties = [pair for each in reports for pair in getattr(each, "user_properties", [])]
+    missing = {
+        f"{part} not examined: its check is not in the notebook" for key, part in properties if key == MISSING
+    }
+    return sorted({*(text for key, text in properties if key == PART), *missing})
+
+
+def _lacking(lines: Iterable[str]) -> list[str]:
+    return [line for line in lines if not _is_passed(line)]
+
+
+def _is_passed(headline: str) -> bool:
+    return headline.split(":")[0].endswith(" passed")
+
+
+def _missing(item: pytest.Item) -> Sequence[str]:
+    """Return the parts of the notebook's chapter that it does not check; for its first report only."""
+    notebook = item.parent
+    if notebook is None or notebook.stash.get(SEEN, False):
+        return ()
+    notebook.stash[SEEN] = True
+    cells = [cell for cell in getattr(notebook, "nb", {}).get("cells", []) if cell["cell_type"] == "code"]
+    checked = {part for cell in cells for part in (check_of(cell), *CALL.findall(cell["source"])) if part}
+    known = {part.partition(".")[0] for part in (*checked, *map(exercise_of, cells)) if part}
+    expected = [part.check for chapter in sorted(known & set(chapters())) for part in parts_of(chapter)]
+    return [part for part in expected if part not in checked]
 
 
 def _headline(item: pytest.Item, cell: Cell) -> str:

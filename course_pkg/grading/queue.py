@@ -10,20 +10,26 @@ import os
 import threading
 from collections import deque
 from collections.abc import Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Executor,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from course_pkg.checking.parts import chapters
-from course_pkg.errors import GradingError
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import Plan, plan
 from course_pkg.grading.rebuild.rebuilder import Rebuilder
+from course_pkg.grading.run.cluster import INTERVAL, Cluster, cluster_of
 from course_pkg.grading.validation import validated, wanted
 from course_pkg.sandbox.worker_client import SandboxWorker
 
@@ -40,49 +46,67 @@ class Task:
     sandboxed: bool
     private: str = ""  # the folder of an instructor's extras
     validate: str = "none"  # the students whose notebooks nbval runs: "all", "missing" points, "none"
+    parts: tuple[str, ...] = ()  # the parts to grade, or none for all; nbval does not run for some parts
 
     def grade(self) -> dict[str, Any]:
         """Grade the submission in this process, with the sandbox worker of this thread."""
         tools = _tools(os.getpid(), threading.get_ident(), self.sandboxed, self.private)
         planned, extras = _plan(self.submission.chapter), _extras(os.getpid(), self.private)
+        if self.parts:
+            planned = replace(
+                planned, parts=tuple(each for each in planned.parts if each.part.check in self.parts)
+            )
         grade = mark(
             self.submission, planned, extras, tools.run, self.secret, self.key, sandboxed=self.sandboxed
         )
-        if self.submission.content and wanted(grade, self.validate):
+        if self.submission.content and not self.parts and wanted(grade, self.validate):
             grade = validated(grade, self.submission, planned)
         return grade.as_dict()
 
 
-def grade_all(tasks: Iterable[Task], executor: Executor, workers: int) -> Iterator[Grade]:
-    """Yield the grades of `tasks` when they are ready; at most `workers` tasks run at the same time."""
-    todo, under_way = deque(tasks), set[Future[dict[str, Any]]]()
+@dataclass(frozen=True)
+class Pool:
+    """An executor and the number of its workers; a pool of threads has no cluster."""
+
+    executor: Executor
+    workers: int
+    cluster: Cluster | None = None
+
+
+def grade_all(tasks: Iterable[Task], pool: Pool) -> Iterator[tuple[Task, Grade]]:
+    """Yield each of the `tasks` with its grade when it is ready; few more are submitted than can run.
+
+    Raises GradingError if the cluster is gone.
+    """
+    todo, under_way = deque(tasks), dict[Future[dict[str, Any]], Task]()
     while todo or under_way:
-        while todo and len(under_way) < workers * AHEAD:
-            under_way.add(executor.submit(Task.grade, todo.popleft()))
-        done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-        yield from (grade_from(future.result()) for future in done)
+        while todo and len(under_way) < pool.workers * AHEAD:
+            task = todo.popleft()
+            under_way[pool.executor.submit(Task.grade, task)] = task
+        done, _ = wait(under_way, INTERVAL, return_when=FIRST_COMPLETED)
+        yield from ((under_way.pop(future), _result(future, pool.cluster)) for future in done)
+        if pool.cluster and not done:
+            pool.cluster.require()
+
+
+def _result(future: Future[dict[str, Any]], cluster: Cluster | None) -> Grade:
+    if cluster is None:
+        return grade_from(future.result())
+    try:
+        return grade_from(future.result())
+    except cluster.failures as error:
+        raise cluster.explained(error) from error
 
 
 @contextmanager
-def executor_of(scheduler: str, jobs: int) -> Iterator[tuple[Executor, int]]:
-    """Yield an executor and its number of workers: threads here, or the cluster of `scheduler`."""
-    if not scheduler:
-        with ThreadPoolExecutor(jobs, thread_name_prefix="grading") as pool:
-            yield pool, jobs
+def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
+    """Yield threads of this process, or the cluster at the address `scheduler`; `jobs` limits the tasks."""
+    if scheduler:
+        with cluster_of(scheduler) as cluster:
+            yield Pool(cluster.executor, jobs or cluster.workers, cluster)
         return
-    try:
-        from distributed import Client
-    except ImportError as error:
-        raise GradingError(
-            "--scheduler needs dask.distributed, which is not installed here. Type: "
-            "./course run python -m pip install distributed"
-        ) from error
-    try:
-        client = Client(scheduler, timeout=20)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise GradingError(f"No dask scheduler answers at {scheduler}: {error}.") from error
-    with client, client.get_executor(pure=False) as pool:
-        yield pool, jobs or max(1, sum(client.ncores().values()))
+    with ThreadPoolExecutor(jobs, thread_name_prefix="grading") as threads:
+        yield Pool(threads, jobs)
 
 
 @cache

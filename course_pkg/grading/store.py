@@ -24,6 +24,7 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
         student=submission.student,
         origin=submission.origin,
         late=submission.late,
+        handed_in=submission.digest,
         notes=(*submission.notes, *grade.notes),
     )
 
@@ -45,16 +46,21 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is stored under `key`, for this submission, or None if there is none."""
+        """Return the grade that is kept under `key` for this submission, or None if there is none."""
+        grade = self.load(key)
+        return handed_in(grade, submission) if grade else None
+
+    def load(self, key: str) -> Grade | None:
+        """Return the grade that is kept under `key`, which belongs to no student, or None."""
         try:
-            grade = grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
+            return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
             return None
-        return handed_in(grade, submission)
 
     def keep(self, grade: Grade) -> None:
         """Store `grade` under its key, unless a part could not be examined; the next run tries it again."""
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
+            self.drop(grade.key)
             return
         nameless = replace(grade, student=NOBODY, origin=NOBODY, late=0.0)
         try:
@@ -64,6 +70,10 @@ class Store:
                 f"The grades cannot be written ({error.strerror}). Free some disk space, and type the "
                 "same command again. The run then continues."
             ) from error
+
+    def drop(self, key: str) -> None:
+        """Remove what is kept under `key`, so that the next run grades this notebook again."""
+        (self._folder / f"{key}.json").unlink(missing_ok=True)
 
     def forget(self) -> None:
         """Remove all stored grades."""

@@ -11,6 +11,14 @@ from course_pkg.lab.master import master_of_this_command
 from course_pkg.ros.process.supervised import SupervisedProcess
 
 BASHRC = Path(__file__).with_name("bashrc")
+# They give each notebook its own master and folder, compare no pictures, and fail a notebook whose checks did
+# not all pass.
+NBVAL_PLUGINS = (
+    "course_pkg.authoring.private_notebook",
+    "course_pkg.authoring.nbval_figures",
+    "course_pkg.grading.nbval_plugin",
+)
+SANITIZE = Path(__file__).parents[1] / "authoring" / "nbval_sanitize.cfg"
 AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
 
@@ -21,10 +29,22 @@ def run_command(command: Sequence[str]) -> int:
     """
     if list(command) == ["bash"]:
         command = ["bash", "--rcfile", str(BASHRC)]
+    command = _with_plugins(command)
     with master_of_this_command(), _signals_held_back():
         process = SupervisedProcess(command, foreground=True)
         status = _wait(process)
     return 128 - status if status < 0 else status
+
+
+def _with_plugins(command: Sequence[str]) -> list[str]:
+    """Return `command` with the course's plug-ins of pytest, if it runs notebooks with nbval."""
+    given = list(command)
+    runs_pytest = Path(given[0]).name in ("pytest", "py.test") or given[1:3] == ["-m", "pytest"]
+    if not runs_pytest or not any(word.startswith("--nbval") for word in given):
+        return given
+    plugins = [option for plugin in NBVAL_PLUGINS for option in ("-p", plugin)]
+    sanitized = any(word.startswith("--nbval-sanitize-with") for word in given)
+    return [*given, *plugins, *([] if sanitized else ["--nbval-sanitize-with", str(SANITIZE)])]
 
 
 @contextmanager

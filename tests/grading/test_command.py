@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -12,8 +13,10 @@ from pathlib import Path
 
 import pytest
 
+from course_pkg.grading.run.summary import NEED_A_LOOK
 from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
+from tests.grading.roster.worksheets import ENGLISH
 from tests.grading.submitted import WRONG, hand_in
 from tests.support import eventually
 
@@ -35,7 +38,7 @@ def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def grade(submissions: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
+def grade(submissions: Path, out: Path, *words: str | Path) -> subprocess.CompletedProcess[str]:
     """Run the command to its end."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none", *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False)
@@ -52,7 +55,8 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     """Grade all submissions, and return the folder."""
     out = tmp_path_factory.mktemp("grades")
     done = grade(submissions, out)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
+    assert done.stdout.splitlines()[-1] == "3 graded, 1 needs a look"
     assert not {"s01", "s02", "s03", "s04"} & set(done.stderr.replace(",", " ").split())
     return out
 
@@ -101,7 +105,7 @@ def test_a_run_that_was_killed_goes_on(
         family = descendants(process.pid)
         process.send_signal(signal.SIGKILL)
     eventually(lambda: not any(os.path.exists(f"/proc/{pid}/exe") for pid in family), timeout=20)
-    assert grade(submissions, tmp_path).returncode == 0
+    assert grade(submissions, tmp_path).returncode == NEED_A_LOOK
     assert points(tmp_path) == points(undisturbed)
 
 
@@ -113,7 +117,7 @@ def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, t
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
     ) as cluster:
         done = grade(submissions, tmp_path, "--scheduler", cluster.scheduler_address)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     assert points(tmp_path) == points(undisturbed)
 
 
@@ -132,7 +136,7 @@ def flat(context: CheckContext) -> None:
     (private / "points.json").write_text('{"05.2": 0, "05.1": 5}')
     out = tmp_path / "out"
     done = grade(submissions, out, "--private", str(private), "--fresh")
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     record = json.loads((out / "results" / "s01" / "05.json").read_text())
     earned = {report["check"]: report["points"] for report in record["reports"]}
     assert (earned["05.1"], earned["05.1.1"], earned["05.2"]) == (5, 3, 0)
@@ -148,10 +152,27 @@ def flat(context: CheckContext) -> None:
 def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -> None:
     """--unsafe-no-sandbox gives the same grades, with a warning in each report."""
     done = grade(submissions, tmp_path, "--unsafe-no-sandbox")
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == NEED_A_LOOK, done.stderr
     assert points(tmp_path)["s01"] > points(tmp_path)["s02"]
     for name in ("feedback/s01.html", "class.html"):
         assert "without a sandbox" in (tmp_path / name).read_text()
+
+
+def test_a_roster_and_a_worksheet(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
+    """The terminal says who is missing; the copy of the worksheet contains the grade."""
+    out = tmp_path / "out"
+    shutil.copytree(undisturbed, out)
+    roster, sheet = tmp_path / "roster.csv", tmp_path / "sheet.csv"
+    roster.write_text("username,email,name\ns01,jane@uni.example,Jane Doe\ns05,,Late Riser\n")
+    sheet.write_text(ENGLISH)
+    done = grade(submissions, out, "--roster", roster, "--moodle-worksheet", sheet)
+    assert done.returncode == 0, done.stderr
+    assert "Roster: 1 of 2 students handed in." in done.stdout
+    assert "1 handed in nothing: Late Riser." in done.stdout
+    assert "3 are not on the roster: s02; s03; s04." in done.stdout
+    assert "1 of 4 participants have a grade in moodle_worksheet.csv" in done.stdout
+    first, *_ = list(csv.DictReader((out / "moodle_worksheet.csv").read_text("utf-8-sig").splitlines(True)))
+    assert (first["Full name"], first["Grade"]) == ("Jane Doe", "100")
 
 
 def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
@@ -174,6 +195,11 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
         (["{here}", "--late", "late.csv"], "--late needs a policy"),
         (["{here}", "--late-per-day", "much"], "--late-per-day"),
         (["{here}", "--private", "/nowhere"], "not a folder"),
+        (["{here}", "--roster", "/nowhere.csv"], "The roster nowhere.csv cannot be read"),
+        (
+            ["{here}", "--moodle-worksheet", "/nowhere.csv"],
+            "The grading worksheet nowhere.csv cannot be read",
+        ),
         (["{here}", "--out", "/proc/here"], "--out"),
         (["{here}", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
     ],

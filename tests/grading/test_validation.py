@@ -13,7 +13,9 @@ import nbformat
 import pytest
 
 from course_pkg.authoring.cells import Notebook
+from course_pkg.checking.parts import parts_of
 from course_pkg.grading.validation import outcomes_of
+from course_pkg.setup import Places
 
 
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
@@ -80,29 +82,66 @@ def test_a_kernel_with_damaged_connections_is_ended() -> None:
     assert [each.outcome for each in seen][:2] == ["passed", "failed"]
 
 
-def plain_nbval(path: Path, *words: str) -> str:
-    """Return what pytest prints for a student's notebook with the course's plug-in."""
+def plain_nbval(path: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run pytest for a student's notebook with the course's plug-in."""
     plugin = ["-p", "course_pkg.grading.nbval_plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "-q", "-c", "/dev/null", "--nbval", *plugin, *words, str(path)]
-    return subprocess.run(
-        command, capture_output=True, text=True, cwd=path.parent, timeout=100, check=False
-    ).stdout
+    return subprocess.run(command, capture_output=True, text=True, cwd=path.parent, timeout=100, check=False)
+
+
+def chapter_three(folder: Path, *headlines: str, first: str = "1") -> Path:
+    """Write a notebook in which the checks of 03.1, 03.2 and so on show these headlines; return its path."""
+    shows = "from IPython.display import display\ndisplay({{'text/plain': {!r}}}, raw=True)"
+    made = notebook((first, "1"), *((shows.format(each), "") for each in headlines))
+    for number, cell in enumerate(made["cells"][1:], 1):
+        cell["metadata"]["course"] = {"check": f"03.{number}"}
+        # nbval alone would pass this notebook, because each output is the stored one
+        data = {"text/plain": headlines[number - 1]}
+        cell["outputs"] = [nbformat.v4.new_output("display_data", data)]
+    path = folder / "chapter.ipynb"
+    path.write_text(json.dumps(made))
+    return path
+
+
+PASSED = [f"{part.check} passed: {part.points} of {part.points} points" for part in parts_of("03")]
+
+
+def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
+    """Run by hand, the plug-in ends with a line for each part."""
+    done = plain_nbval(chapter_three(tmp_path, *PASSED))
+    lines = done.stdout.splitlines()
+    assert done.returncode == 0, done.stdout
+    assert _after(lines, "parts of the course")[: len(PASSED) + 1] == [
+        *PASSED,
+        f"{len(PASSED)} parts, all passed.",
+    ]
 
 
 @pytest.mark.parametrize(
-    ("shown", "line"),
+    ("headlines", "line"),
     [
-        ("05.1 passed: 2 of 2 points", "05.1 passed: 2 of 2 points"),
-        ("something else", "05.1 not examined"),
+        ([PASSED[0], "03.2 not yet: 0 of 2 points", *PASSED[2:]], "03.2 not yet: 0 of 2 points"),
+        ([PASSED[0], "something else", *PASSED[2:]], "03.2 not examined"),
+        (PASSED[:-1], f"{PASSED[-1].split()[0]} not examined: its check is not in the notebook"),
     ],
 )
-def test_plain_nbval_ends_with_a_line_for_each_part(tmp_path: Path, shown: str, line: str) -> None:
-    """If nbval is run without the course's command, the plug-in shows the result of each part."""
-    path = tmp_path / "chapter.ipynb"
-    says = f"from IPython.display import display\ndisplay({{'text/plain': {shown!r}}}, raw=True)"
-    path.write_text(json.dumps(notebook(("1", "1"), (says, ""), check="05.1")))
-    lines = plain_nbval(path).splitlines()
-    assert line in _after(lines, "parts of the course")
+def test_plain_nbval_fails_if_points_are_missing(tmp_path: Path, headlines: list[str], line: str) -> None:
+    """A check that did not pass, did not run or was removed fails the run, whatever output is stored."""
+    done = plain_nbval(chapter_three(tmp_path, *headlines))
+    assert done.returncode == 1, done.stdout
+    assert line in _after(done.stdout.splitlines(), "parts of the course")
+
+
+def test_course_run_adds_the_plug_in(tmp_path: Path) -> None:
+    """`course run pytest --nbval` needs no further option, and a comment that skips a check earns nothing."""
+    path = chapter_three(tmp_path, *PASSED)
+    made = json.loads(path.read_text())
+    made["cells"][2]["source"] = f"# NBVAL_SKIP\n{made['cells'][2]['source']}"
+    path.write_text(json.dumps(made))
+    command = [Places.of().checkout / "course", "run", "pytest", "-q", "--nbval", path]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=100, check=False)
+    assert done.returncode == 1, done.stdout
+    assert "03.2 not examined" in _after(done.stdout.splitlines(), "parts of the course")
 
 
 def _after(lines: Sequence[str], title: str) -> list[Any]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import yaml
 
@@ -109,7 +110,18 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return the submitters of each folder of an export: their student numbers, addresses or names.
+    """Return the submitters of each folder of an export: their student numbers, addresses or names."""
+    return {
+        folder: [_submitter(each) or folder for each in record.get(":submitters") or [{}]]
+        for folder, record in gradescope_records(content).items()
+        if isinstance(record.get(":submitters", []), list)
+    }
+
+
+def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
+    """Return what the metadata of an export says about each folder.
+
+    Raises GradingError if the metadata cannot be read.
 
     The file is YAML with Ruby's symbols as keys. Every scalar is read as a string, and tags are ignored.
     """
@@ -120,11 +132,8 @@ def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
         raise GradingError(
             f"{METADATA} cannot be read ({clean.line(error, 120)}); export the submissions again"
         ) from error
-    return {
-        str(folder): [_submitter(each) or str(folder) for each in record.get(":submitters") or [{}]]
-        for folder, record in (known.items() if isinstance(known, dict) else ())
-        if isinstance(record, dict) and isinstance(record.get(":submitters", []), list)
-    }
+    records = known.items() if isinstance(known, dict) else ()
+    return {str(folder): record for folder, record in records if isinstance(record, dict)}
 
 
 def _submitter(record: object) -> str:

@@ -14,6 +14,7 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.archive import Entry, leads_out, one_file, opened
 from course_pkg.grading.intake.first_edition import RenumberedChapter, first_edition
+from course_pkg.grading.intake.folders import handed_in_nothing, is_inside, report_folders
 from course_pkg.grading.intake.naming import (
     METADATA,
     NOTEBOOK,
@@ -37,7 +38,7 @@ from course_pkg.grading.intake.packages import (
 from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
-LATE = "Canvas marks it as late. Only the table of late days can contain the number of days."
+LATE = "Canvas marks it as late. It does not say by how much: a table of late days or of times can."
 SHOWN = 3  # maximum number of file names in a sentence
 
 
@@ -54,23 +55,32 @@ class _Found:
         return not self.submission.problem, self.attempt, self.modified, self.submission.origin
 
 
-def submissions(source: Path, chapters: Sequence[str] = (), root: Path | None = None) -> list[Submission]:
-    """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
+def submissions(
+    source: Path, chapters: Sequence[str] = (), root: Path | None = None, without: Path | None = None
+) -> list[Submission]:
+    """Return what was handed in for `chapters`, or for all of them, in the order of students and chapters.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
-    or one notebook. `root` is the checkout with the solutions. A file that cannot be used becomes a
-    submission with a `problem`. GradingError is raised only if `source` can be neither listed nor opened.
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, what a platform offers for download (see
+    naming.py), or one notebook; `root` is the checkout with the solutions. Nothing in the folder `without`
+    was handed in, and nothing in a folder with the reports of an earlier run. A file that cannot be used
+    becomes a submission with a `problem`, and so does a student's folder without any file; GradingError is
+    raised only when `source` can be neither listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
     NotebookStore(root).solutions(chapters)  # raises an error for an unknown chapter
     references = References(root)
-    with opened(source) as entries:
-        files = list(_unwrapped(entries, "" if source.is_dir() else source.stem))
+    reports = report_folders(source, without)
+    with opened(source) as everything:
+        entries = [each for each in everything if not is_inside(each.path, reports)]
+        outer, submitters = _layout(entries, "" if source.is_dir() else source.stem)
+        files = list(_unwrapped(entries, outer, submitters))
         packages, others = _packages(files)
         found = [each for file in others for each in _found(file, references)]
     wanted = [each for each in found if not chapters or each.submission.chapter in ("", *chapters)]
     decided = attached(list(_decided(wanted)), packages, chapters)
+    if entries:
+        decided += handed_in_nothing(source, [each.path for each in entries], outer, submitters, reports)
     return sorted(decided, key=lambda each: (each.student, each.chapter, each.origin))
 
 
@@ -127,17 +137,27 @@ def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_Fil
     return packages, others
 
 
-def _unwrapped(entries: Sequence[Entry], archive: str) -> Iterator[_File]:
-    """Yield each file with its student; its path begins with the student's folder."""
+def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list[str]]]:
+    """Return the number of folders around all students' folders, and Gradescope's list of submitters."""
     outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
-    paths = [unwrapped(_inside(entry), outer) for entry in entries]
     submitters: dict[str, list[str]] = {}
-    listed = [entry for entry, path in zip(entries, paths, strict=True) if path == (METADATA,)]
-    for entry in listed:  # the file is not in a student's own folder
-        with suppress(GradingError):
-            submitters |= gradescope_submitters(entry.read())
-    for entry, path in zip(entries, paths, strict=True):
-        if path != (TIMES,) and (entry not in listed or not submitters):
+    for entry in entries:
+        if _is_metadata(entry, outer):
+            with suppress(GradingError):
+                submitters |= gradescope_submitters(entry.read())
+    return outer, submitters
+
+
+def _is_metadata(entry: Entry, outer: int) -> bool:
+    """Return whether Gradescope wrote the file; a file in a student's own folder is the student's."""
+    return unwrapped(_inside(entry), outer) == (METADATA,)
+
+
+def _unwrapped(entries: Sequence[Entry], outer: int, submitters: dict[str, list[str]]) -> Iterator[_File]:
+    """Yield each file with its student, without the folders around all of them."""
+    for entry in entries:
+        path = unwrapped(_inside(entry), outer)
+        if path != (TIMES,) and not (submitters and _is_metadata(entry, outer)):
             yield _File(entry, path, claims(path or ("?",), submitters))
 
 
@@ -230,10 +250,12 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
         if not chapter:
             yield from _without_chapter([each.submission for each in ranked])
             continue
-        best, others = ranked[0].submission, [each.submission.origin for each in ranked[1:]]
+        best, others = ranked[0].submission, [each.submission for each in ranked[1:]]
         if others:
-            note = f"Handed in {len(ranked)} times: {best.origin} was graded, not {_listed(others)}."
-            best = replace(best, notes=(*best.notes, note))
+            names = _listed([each.origin for each in others])
+            note = f"Handed in {len(ranked)} times: {best.origin} was graded, not {names}."
+            usable = tuple(each for each in reversed(others) if not each.problem)
+            best = replace(best, notes=(*best.notes, note), attempts=usable)
         yield best
 
 

@@ -7,13 +7,17 @@ from dataclasses import dataclass, replace
 
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.grading import clean
-from course_pkg.grading.grade import Grade
+from course_pkg.grading.grade import NO_TIME, Grade
+from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of
+from course_pkg.grading.roster.people import Person
 
 WITHOUT_SANDBOX = (
     "Run without a sandbox: this submission had access to the machine, its check and the other submissions, "
     "so "
     "its points may be wrong."
 )
+
+ABSENT = "These results are from an earlier run. In the latest run, nothing was handed in for this chapter."
 
 
 @dataclass(frozen=True)
@@ -27,9 +31,13 @@ class Column:
 
 
 class Book:
-    """Grades by student, chapter and part; the notes of a grade say if it was run without a sandbox."""
+    """Grades by student, chapter and part.
 
-    def __init__(self, grades: Sequence[Grade]) -> None:
+    The notes of a grade say if it was made without a sandbox, and if nothing was handed in for it this time.
+    """
+
+    def __init__(self, grades: Sequence[Grade], class_list: ClassList | None = None) -> None:
+        self.class_list = class_list or Lists().matched(origins_of(grades))
         marked = [_with_warning(grade) for grade in grades]
         self.grades = tuple(sorted(marked, key=lambda grade: (grade.student, grade.chapter, grade.origin)))
         self.students = tuple(sorted({grade.student for grade in self.grades}))
@@ -40,9 +48,18 @@ class Book:
         for grade in self.grades:
             self._by_student[grade.student].append(grade)
 
+    def person(self, student: str) -> Person | None:
+        """Return who a student is, or None if only the name of the folder is known."""
+        return self.class_list.people.get(student)
+
+    @property
+    def identified(self) -> list[str]:
+        """The students whom a platform can identify; others get no row in a file for a platform."""
+        return [student for student in self.students if student and student not in self.class_list.unclear]
+
     def of(self, student: str) -> list[Grade]:
         """Return the grades of a student, in the order of the chapters."""
-        return self._by_student[student]
+        return self._by_student.get(student, [])
 
     def grade(self, student: str, chapter: str) -> Grade | None:
         """Return a student's grade for a chapter, or None if nothing was handed in for it."""
@@ -85,8 +102,16 @@ def about_lateness(grade: Grade) -> str:
     """Return the message about the deadline for a student; an empty string for a submission in time."""
     if grade.late <= 0:
         return ""
-    days = f"Handed in {points(grade.late)} {'day' if grade.late == 1 else 'days'} late"
-    return f"{days}: {grade.factor:.0%} of the points count." if grade.factor < 1 else f"{days}."
+    late = f"Handed in {_duration(grade.late)} late"
+    return f"{late}: {grade.factor:.0%} of the points count." if grade.factor < 1 else f"{late}."
+
+
+def _duration(days: float) -> str:
+    """Return a time as a report shows it: "2 days", "3.5 hours", "10 minutes"; nothing is shown as 0."""
+    units = ((days, "day"), (days * 24, "hour"), (days * 24 * 60, "minute"))
+    value, unit = next((each for each in units if each[0] >= 1), units[-1])
+    shown = points(max(value, 0.01) if unit == "day" else max(1.0, round(value, 1)))
+    return f"{shown} {unit if shown == '1' else f'{unit}s'}"
 
 
 def of_points(earned: float, possible: float) -> str:
@@ -116,17 +141,29 @@ def not_handed_in(book: Book, student: str) -> str:
 
 def notes(book: Book, student: str) -> list[str]:
     """Return notes about unusual notebooks of a student that need no attention."""
-    found = (note for grade in book.of(student) for note in grade.notes)
+    known = (ABSENT, NO_TIME)  # attention() has a sentence about each
+    found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))
 
 
+def needs_look(grade: Grade) -> bool:
+    """Return whether an instructor should look at this submission."""
+    return bool(grade.problem or _about(grade) or _inconclusive(grade))
+
+
 def _about(grade: Grade) -> str:
+    if grade.absent:
+        return (
+            f"Chapter {grade.chapter}: the results are from an earlier run, nothing was handed in this time."
+        )
     undecided = [report for report in grade.reports if report.verdict is Verdict.UNDECIDED]
     if grade.problem or not grade.reports:
         return ""
     if undecided:
         why = next((report.note for report in undecided if report.note), "no reason was recorded")
         return f"{', '.join(report.check for report in undecided)} not examined: {clean.line(why, 160)}"
+    if NO_TIME in grade.notes:
+        return f"Chapter {grade.chapter}: {NO_TIME}"
     return "" if grade.earned else f"No point in chapter {grade.chapter}."
 
 
@@ -141,9 +178,10 @@ def _inconclusive(grade: Grade) -> list[str]:
 
 
 def _with_warning(grade: Grade) -> Grade:
-    if grade.sandboxed or WITHOUT_SANDBOX in grade.notes:
-        return grade
-    return replace(grade, notes=(WITHOUT_SANDBOX, *grade.notes))
+    warnings = [ABSENT] if grade.absent else []
+    warnings += [] if grade.sandboxed else [WITHOUT_SANDBOX]
+    others = [note for note in grade.notes if note not in (ABSENT, WITHOUT_SANDBOX)]
+    return replace(grade, notes=(*warnings, *others))
 
 
 def _columns(grades: Sequence[Grade]) -> list[Column]:

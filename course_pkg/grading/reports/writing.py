@@ -4,28 +4,46 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 
 from course_pkg.errors import GradingError
 from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports import formats
 from course_pkg.grading.reports.gradebook import Book
+from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
+# These reports also contain empty folders, and results for which nothing was handed in this time. A platform
+# keeps its own points for a student whom the other files leave out.
+WITH_ABSENT = ("class_page", "feedback", "records", "table")
+# A platform has one score for these reports, so they contain only the chapters of this run.
+OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
 
 
-def write_reports(grades: Sequence[Grade], out: Path) -> None:
+def write_reports(
+    grades: Sequence[Grade],
+    out: Path,
+    class_list: ClassList | None = None,
+    chapters: Collection[str] = (),
+) -> None:
     """Write every report about `grades` into the folder `out`.
+
+    `class_list` tells who the students are, and who is missing. `chapters` are those that this run graded, or
+    none for all of `grades`.
 
     Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
     such a module.
     """
-    book = Book(grades)
+    book = Book(grades, class_list)
+    present = [grade for grade in grades if not (grade.absent or grade.nothing)]
+    platforms = Book(present, class_list)
+    assignment = Book([grade for grade in present if not chapters or grade.chapter in chapters], class_list)
+    books = {**dict.fromkeys(WITH_ABSENT, book), **dict.fromkeys(OF_ASSIGNMENT, assignment)}
     try:
         out.mkdir(parents=True, exist_ok=True)
-        for write in _writers():
-            write(book, out)
+        for name, write in _writers():
+            write(books.get(name, platforms), out)
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written into {out}: {error.strerror or error}. Give another folder with "
@@ -33,6 +51,6 @@ def write_reports(grades: Sequence[Grade], out: Path) -> None:
         ) from error
 
 
-def _writers() -> list[Writer]:
+def _writers() -> list[tuple[str, Writer]]:
     names = sorted(module.name for module in pkgutil.iter_modules(formats.__path__))
-    return [importlib.import_module(f"{formats.__name__}.{name}").write for name in names]
+    return [(name, importlib.import_module(f"{formats.__name__}.{name}").write) for name in names]

@@ -1,46 +1,59 @@
-"""canvas.csv, which the gradebook of Canvas imports.
+"""canvas.csv and canvas/NN.csv, which the gradebook of Canvas imports (Grades, Import).
 
-Canvas finds a student by the ID, or by one of the SIS columns. If Canvas does not know the name of a column,
-it offers to create an assignment for this column. The second row contains the highest possible points.
+Layout, from Canvas's source: lib/gradebook_exporter.rb writes the columns Student, ID, SIS User ID, SIS Login
+ID, Section and the assignments, and the row "    Points Possible". lib/gradebook_importer.rb finds a student
+by the ID (the Canvas user id), else by SIS User ID, else by SIS Login ID, else by the name; an assignment by
+its name, with or without its number in parentheses. If it does not know the name, it offers to create the
+assignment. The row "    Points Possible" sets the points of the assignment. A grade is removed if its cell is
+empty, and stays if the student has no row. So canvas.csv has no row for a student without a grade, and
+canvas/NN.csv contains one chapter, with only those who handed it in.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from course_pkg.grading import clean
-from course_pkg.grading.intake.naming import CANVAS, number_of
 from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, name_of, points
 
 HEAD = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
+SIS = "sis user id"  # the column of a roster that was exported from Canvas
 
 
 def write(book: Book, out: Path) -> None:
-    """Write canvas.csv; a cell for a missing submission is empty, so Canvas keeps its own grade."""
+    """Write canvas.csv with all chapters, and canvas/NN.csv for each of them."""
+    _put(out / "canvas.csv", book, book.chapters)
+    folder = out / "canvas"
+    files = {folder / f"{clean.file_name(chapter)}.csv": chapter for chapter in book.chapters}
+    for path, chapter in files.items():
+        _put(path, book, [chapter])
+    for path in set(folder.glob("*.csv")) - files.keys():  # an earlier run graded other chapters
+        path.unlink()
+
+
+def _put(path: Path, book: Book, chapters: Sequence[str]) -> None:
     suffix = "" if book.sandboxed else ", run without a sandbox"
+    blank = [""] * (len(HEAD) - 1)
     rows = [
-        [*HEAD, *(f"Chapter {clean.line(chapter)}{suffix}" for chapter in book.chapters)],
-        [
-            "    Points Possible",
-            "",
-            "",
-            "",
-            "",
-            *(points(book.possible(chapter)) for chapter in book.chapters),
-        ],
+        [*HEAD, *(f"Chapter {clean.line(chapter)}{suffix}" for chapter in chapters)],
+        ["    Points Possible", *blank, *(points(book.possible(chapter)) for chapter in chapters)],
     ]
-    rows += [[*_identity(book, student), *_points(book, student)] for student in book.students if student]
-    put_table(out / "canvas.csv", rows)
+    for student in book.identified:
+        grades = [book.grade(student, chapter) for chapter in chapters]
+        if any(grades):
+            cells = ["" if grade is None else points(grade.earned) for grade in grades]
+            rows.append([*_identity(book, student), *cells])
+    put_table(path, rows)
 
 
 def _identity(book: Book, student: str) -> list[str]:
-    name, number = number_of(student, (grade.origin for grade in book.of(student)), CANVAS)
-    if number:
-        return [clean.cell(name), number, "", "", ""]
-    return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
-
-
-def _points(book: Book, student: str) -> list[str]:
-    grades = [book.grade(student, chapter) for chapter in book.chapters]
-    return ["" if grade is None else points(grade.earned) for grade in grades]
+    person = book.person(student)
+    if person is None:
+        return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
+    number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
+    # An id that is no number cannot be Canvas's own, so it comes from the student information system (SIS).
+    further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
+    return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]

@@ -9,6 +9,7 @@ from pathlib import Path
 from course_pkg.checking.report import Verdict
 from course_pkg.files import write_atomically
 from course_pkg.grading import clean
+from course_pkg.grading.reports import roster
 from course_pkg.grading.reports.gradebook import (
     WITHOUT_SANDBOX,
     Book,
@@ -40,14 +41,17 @@ def _body(book: Book) -> Iterator[str]:
     yield "<h1>Results of the class</h1>"
     yield paragraph(_summary(book), "lead")
     yield "" if book.sandboxed else banner("Not reliable", [UNSANDBOXED])
+    yield paragraph(roster.lead(book))
     if not book.grades:
         yield paragraph("Nothing was handed in, so there is nothing to show.")
+        yield from roster.section(book)
         return
     yield "<h2>Everybody</h2>"
     yield _everybody(book)
     yield "<h2>Students who need attention</h2>"
     yield _looks(book)
     yield _absent(book)
+    yield from roster.section(book)
     yield "<h2>Most frequent hints</h2>"
     yield _hints(book)
     yield "<h2>Results of each part</h2>"

@@ -1,6 +1,8 @@
 """gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores what is in
+`extra_data` and shows it to nobody: here, it is the identity of the student, under the names of
+https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 """
 
 from __future__ import annotations
@@ -12,7 +14,9 @@ from course_pkg.checking.report import Report, Verdict
 from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports.formats.gradescope_table import submission_id
 from course_pkg.grading.reports.gradebook import Book, about_lateness
+from course_pkg.grading.roster.people import Person
 from course_pkg.types.fields import Plain
 
 
@@ -21,7 +25,21 @@ def write(book: Book, out: Path) -> None:
     for student in book.students:
         grades = [grade.for_student() for grade in book.of(student)]
         path = out / "gradescope" / clean.file_name(student or "nobody") / "results.json"
-        write_atomically(path, json.dumps(_results(grades), indent=1, ensure_ascii=False) + "\n")
+        results = {**_results(grades), "extra_data": _identity(book, student)}
+        write_atomically(path, json.dumps(results, indent=1, ensure_ascii=False) + "\n")
+
+
+def _identity(book: Book, student: str) -> dict[str, Plain]:
+    person = book.person(student) or Person()
+    known = {
+        "student": clean.line(student, 120),
+        "name": person.name,
+        "sid": person.id,
+        "email": person.email,
+        "section": person.section,
+        "submission_id": submission_id(book, student),
+    }
+    return {key: value for key, value in known.items() if value}
 
 
 def _results(grades: list[Grade]) -> dict[str, Plain]:

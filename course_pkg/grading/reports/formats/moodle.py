@@ -1,8 +1,10 @@
 """moodle.csv, for Moodle's menu Grades, Import, CSV file; Moodle asks for the meaning of each column.
 
-Map the column `username` or `email` to the student (or `full name`, if the names come from a download from
-Moodle). Map each chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle
-deletes the grade of an item if only its feedback is imported.
+Map the column `username` or `email` to the student: Moodle identifies nobody by a full name or by the number
+of a participant. A roster or Moodle's worksheet provides both columns for submissions from Moodle. Map each
+chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle deletes the grade of an
+item if only its feedback is imported (https://docs.moodle.org/en/Grade_import). For the grades of one
+assignment, the copy of Moodle's worksheet is simpler (moodle_worksheet.py).
 """
 
 from __future__ import annotations
@@ -13,7 +15,6 @@ from pathlib import Path
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.intake.naming import MOODLE, number_of
 from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, points
 
@@ -25,16 +26,17 @@ def write(book: Book, out: Path) -> None:
     names = [f"Chapter {clean.line(chapter)}" for chapter in book.chapters]
     head = ["username", "email", "full name", "identifier"]
     rows = [[*head, *(text for name in names for text in (name, f"{name} feedback"))]]
-    rows += [[*_identity(book, student), *_grades(book, student)] for student in book.students if student]
+    rows += [[*_identity(book, student), *_grades(book, student)] for student in book.identified]
     put_table(out / "moodle.csv", rows)
 
 
 def _identity(book: Book, student: str) -> list[str]:
-    known, number = number_of(student, (grade.origin for grade in book.of(student)), MOODLE)
-    if number:
-        return ["", "", clean.cell(known), f"Participant {number}"]
-    name = clean.cell(name_of(student))
-    return ["", name, "", ""] if "@" in name.strip("'@") else [name, "", "", ""]
+    person = book.person(student)
+    if person is None:
+        name = clean.cell(name_of(student))
+        return ["", name, "", ""] if "@" in name.strip("'@") else [name, "", "", ""]
+    number = f"Participant {person.number}" if person.number else ""
+    return [*map(clean.cell, (person.username, person.email, person.name)), number]
 
 
 def _grades(book: Book, student: str) -> list[str]:
@@ -43,10 +45,14 @@ def _grades(book: Book, student: str) -> list[str]:
 
 
 def _cells(grade: Grade) -> tuple[str, str]:
-    """Return points and feedback; Moodle reads feedback as HTML."""
+    return points(grade.earned), clean.cell(feedback(grade), 2 * LONG)
+
+
+def feedback(grade: Grade) -> str:
+    """Return what a student learns from a grade, in one line; Moodle reads feedback as HTML."""
     sentences = [grade.problem, about_lateness(grade), *grade.notes, *map(_sentence, grade.reports)]
     words = " ".join(clean.line(text, 600) for text in sentences if text)
-    return points(grade.earned), clean.cell(escape(clean.line(words, LONG), quote=False), 2 * LONG)
+    return escape(clean.line(words, LONG), quote=False)
 
 
 def _sentence(report: Report) -> str:

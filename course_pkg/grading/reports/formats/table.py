@@ -16,11 +16,17 @@ from course_pkg.grading.reports.gradebook import (
     points,
     report_of,
 )
+from course_pkg.grading.reports.roster import MISSING, about_identity, identity_cells
+from course_pkg.grading.roster.people import FIELDS
 
 
 def write(book: Book, out: Path) -> None:
-    """Write grades.csv; the mark at its beginning tells a spreadsheet that the file is UTF-8."""
-    head = ["student"]
+    """Write grades.csv; the mark at its beginning tells a spreadsheet that the file is UTF-8.
+
+    With a roster, it contains who the students are, and a row for each student who handed in nothing.
+    """
+    listed = book.class_list.given
+    head = ["student", *(FIELDS if listed else ())]
     for chapter in book.chapters:
         head += [
             *(column.check for column in book.columns_of(chapter)),
@@ -29,18 +35,30 @@ def write(book: Book, out: Path) -> None:
         ]
     rows = [[*map(clean.cell, head), "earned", "possible", "notes"]]
     rows += [_row(book, student) for student in book.students]
+    blank = [""] * (len(rows[0]) - len(FIELDS) - 4)
+    rows += [
+        [clean.cell(person.label), *identity_cells(person), *blank, "0", points(book.total), MISSING]
+        for person in book.class_list.missing
+    ]
     put_table(out / "grades.csv", rows, "utf-8-sig")
 
 
 def _row(book: Book, student: str) -> list[str]:
     """Return a student's row; missing submissions are empty; only the totals include lateness."""
-    cells = [clean.cell(name_of(student))]
+    identity = identity_cells(book.person(student)) if book.class_list.given else []
+    cells = [clean.cell(name_of(student)), *identity]
     for chapter in book.chapters:
         grade = book.grade(student, chapter)
         reports = [report_of(grade, column.check) for column in book.columns_of(chapter)]
         cells += ["" if report is None else points(report.points) for report in reports]
         cells += [points(grade.late), points(grade.earned)] if grade else ["", ""]
     late = [about_lateness(grade) for grade in book.of(student)]
-    found = [*late, *attention(book, student), not_handed_in(book, student), *notes(book, student)]
+    found = [
+        *late,
+        *about_identity(book, student),
+        *attention(book, student),
+        not_handed_in(book, student),
+        *notes(book, student),
+    ]
     words = " | ".join(filter(None, found))
     return [*cells, points(book.earned(student)), points(book.total), clean.cell(words, 3000)]

@@ -1,0 +1,32 @@
+"""The rows of a table by the names of its columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from course_pkg.grading.tables import table_rows
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row: its values by the name of the column in small letters, and its place for messages."""
+
+    where: str  # such as "times.csv, line 3"
+    values: dict[str, str]
+
+    def get(self, *columns: str) -> str:
+        """Return the value in the first of `columns` that is not empty, or ""."""
+        return next((value for name in columns if (value := self.values.get(name, ""))), "")
+
+
+def read_rows(path: Path, what: str) -> tuple[list[str], list[Row]]:
+    """Return the names of the columns in small letters, and the rows that are not empty."""
+    lines = table_rows(path, what)
+    head = [name.strip().lower() for name in lines[0]] if lines else []
+    rows = [
+        Row(f"{path.name}, line {number}", dict(zip(head, map(str.strip, cells), strict=False)))
+        for number, cells in enumerate(lines[1:], 2)
+        if any(cell.strip() for cell in cells)
+    ]
+    return head, rows

@@ -1,0 +1,79 @@
+"""The deadlines of chapters, with a grace period and the extensions of students."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta, tzinfo
+
+from course_pkg.errors import GradingError
+from course_pkg.grading.deadlines.extensions import Extensions
+from course_pkg.grading.deadlines.moments import moment_of
+
+OPTION = re.compile(r"(?:(?P<chapter>\d{1,2})=)?(?P<time>.+)")
+DAY = 86_400.0  # s
+
+
+@dataclass(frozen=True)
+class Deadlines:
+    """The deadlines by chapter; "" holds for each chapter without a deadline of its own."""
+
+    by_chapter: Mapping[str, datetime]
+    grace: timedelta = timedelta()
+    extensions: Extensions = field(default_factory=Extensions)
+
+    def due(self, student: str, chapter: str) -> datetime | None:
+        """Return when a student had to hand in a chapter, without the grace period; None for no deadline.
+
+        A day of an extension ends at the same time of day, even if the clocks change between.
+        """
+        deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
+        if deadline is None:
+            return None
+        return deadline + timedelta(days=self.extensions.days(student))
+
+    def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
+        """Return how many days after the end of the grace period a chapter was handed in, or 0."""
+        due = self.due(student, chapter)
+        if due is None:
+            return 0.0
+        seconds = submitted.timestamp() - due.timestamp() - self.grace.total_seconds()
+        return max(0.0, seconds / DAY)
+
+
+def deadlines(
+    given: Sequence[str], grace_minutes: float, zone: tzinfo | None, extensions: Extensions
+) -> Deadlines:
+    """Return the deadlines of the options --deadline and --grace-minutes.
+
+    Each of `given` is a time, or a chapter and its time, such as 05=2026-11-01T23:59+01:00. Raises
+    GradingError if one has no time zone, is not a time, or is given twice.
+    """
+    if grace_minutes and not given:
+        raise GradingError("--grace-minutes needs a deadline. Give it with --deadline TIME.")
+    if not 0 <= grace_minutes < 100_000:
+        raise GradingError(f"--grace-minutes {grace_minutes:g} is not a number of minutes: give 0 or more.")
+    found: dict[str, datetime] = {}
+    for option in given:
+        match = OPTION.fullmatch(option.strip())
+        chapter = (match["chapter"] or "").zfill(2) if match and match["chapter"] else ""
+        written = match["time"] if match else option
+        moment = moment_of(written, zone)
+        if moment is None:
+            raise GradingError(_wrong(option, written))
+        if chapter in found:
+            raise GradingError(f"--deadline {option}: the same chapter has two deadlines. Give only one.")
+        found[chapter] = moment
+    return Deadlines(found, timedelta(minutes=grace_minutes), extensions)
+
+
+def _wrong(option: str, written: str) -> str:
+    example = "2026-11-01T23:59+01:00"
+    from_utc = moment_of(written, zone=datetime.now().astimezone().tzinfo)
+    if from_utc is not None:
+        return (
+            f"--deadline {option} has no time zone. Add its offset from UTC, such as {example}, or give "
+            f"--time-zone, such as --time-zone Europe/Berlin."
+        )
+    return f"--deadline {option} is not a time: write {example}, or 05={example} for chapter 05 alone."

@@ -1,0 +1,46 @@
+"""The extensions of students: the column `extension_days` of the roster."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from course_pkg.errors import GradingError
+from course_pkg.grading.roster.people import Person
+
+COLUMN = "extension_days"
+FOLDED = "extension days"  # the roster writes the names of further columns in this way
+
+
+@dataclass(frozen=True)
+class Extensions:
+    """The days by which the deadline of a student is later, by the name of the student in the grades."""
+
+    by_student: Mapping[str, float] = field(default_factory=dict)
+
+    def days(self, student: str) -> float:
+        """Return the additional days of a student."""
+        return self.by_student.get(student, 0.0)
+
+
+def extensions_of(people: Mapping[str, Person]) -> Extensions:
+    """Return the extensions of students, who are found in the roster; an empty cell is no extension.
+
+    Raises GradingError if a value is not a number of days.
+    """
+    return Extensions({student: days for student, person in people.items() if (days := _days(person))})
+
+
+def _days(person: Person) -> float:
+    written = person.more.get(FOLDED, "")
+    try:
+        days = float(written.replace(",", ".")) if written else 0.0
+    except ValueError:
+        days = math.nan
+    if not 0 <= days < 10_000:
+        raise GradingError(
+            f"Line {person.line} of the roster: {COLUMN} is not a number of days. Write 0 or more, or "
+            "leave it empty."
+        )
+    return days

@@ -1,0 +1,75 @@
+"""Read a point in time in the forms that platforms write it in."""
+
+from __future__ import annotations
+
+import re
+from datetime import datetime, timedelta, timezone, tzinfo
+from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
+
+from course_pkg.errors import GradingError
+
+ISO = re.compile(
+    r"(?P<day>\d{4}-\d\d-\d\d)[T ](?P<time>\d\d:\d\d(?::\d\d)?)(?:\.\d+)?"
+    r"\s*(?P<zone>Z|UTC|GMT|[+-]\d\d:?\d\d)?",
+    re.IGNORECASE,
+)
+OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
+MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+# "Sunday, 1 November 2026, 11:59 PM", or with the month first; Moodle writes both
+WRITTEN = re.compile(
+    r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
+    r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",
+    re.IGNORECASE,
+)
+
+
+def zone_of(name: str) -> tzinfo:
+    """Return the time zone "Europe/Berlin", "UTC" or "+01:00"; raise GradingError if there is none."""
+    if found := OFFSET.fullmatch(name):
+        minutes = int(found[2]) * 60 + int(found[3])
+        return timezone(timedelta(minutes=-minutes if found[1] == "-" else minutes))
+    if name.upper() in ("Z", "UTC", "GMT"):
+        return timezone.utc
+    try:
+        return ZoneInfo(name)
+    except (ZoneInfoNotFoundError, ValueError, OSError) as error:
+        raise GradingError(
+            f"{name} is not a time zone: give a name such as Europe/Berlin, or an offset such as +01:00."
+        ) from error
+
+
+def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
+    """Return the point in time that `text` names, or None if it names none.
+
+    `zone` is the zone of a text without a zone of its own. None is returned if such a text has no zone. If
+    the clock was put back, so that a time occurred twice, the first of the two is returned.
+    """
+    text = " ".join(text.split())
+    if found := ISO.fullmatch(text):
+        own = zone_of(found["zone"]) if found["zone"] else zone
+        return _made(f"{found['day']}T{found['time']}", own)
+    if found := WRITTEN.fullmatch(text):
+        month = (found["month"] or found["month2"]).lower()[:3]
+        day = int(found["day"] or found["day2"])
+        hour = int(found["hour"])
+        if found["half"]:
+            hour = hour % 12 + (12 if found["half"].lower().startswith("p") else 0)
+        if month in MONTHS:
+            number = MONTHS.index(month) + 1
+            return _made(f"{found['year']}-{number:02}-{day:02}T{hour:02}:{found['minute']}", zone)
+    return None
+
+
+def shown(moment: datetime) -> str:
+    """Return a point in time as a report shows it, with its offset: 2026-11-01 23:59 +01:00."""
+    offset = moment.strftime("%z")
+    return f"{moment:%Y-%m-%d %H:%M} {offset[:3]}:{offset[3:5]}"
+
+
+def _made(iso: str, zone: tzinfo | None) -> datetime | None:
+    if zone is None:
+        return None
+    try:
+        return datetime.fromisoformat(iso).replace(tzinfo=zone)
+    except ValueError:
+        return None

@@ -1,0 +1,210 @@
+"""When a submission was handed in: from a table, or from the files that a platform adds to its download.
+
+times.csv                    student,submitted, or with the columns chapter and file; one in the folder of the
+                             submissions, as `course collect` writes it, is used without an option
+Moodle's grading worksheet   the column "Last modified (submission)", by the number in the folder's name
+Gradescope                   `:created_at` in submission_metadata.yml
+nbgrader                     timestamp.txt in submitted/STUDENT/ASSIGNMENT, only on request
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from datetime import datetime, timezone, tzinfo
+from pathlib import Path, PurePosixPath
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.deadlines.csv_table import Row, read_rows
+from course_pkg.grading.deadlines.moments import moment_of
+from course_pkg.grading.grade import Submission
+from course_pkg.grading.intake.archive import one_file
+from course_pkg.grading.intake.naming import (
+    GRADESCOPE,
+    METADATA,
+    MOODLE,
+    gradescope_records,
+    number_of,
+)
+
+NBGRADER, GRADESCOPE_WORD = "nbgrader", "gradescope"
+TIMES = "times.csv"
+STAMP, STAMP_LIMIT = "timestamp.txt", 200  # bytes
+METADATA_LIMIT = 64 << 20  # bytes
+IDENTIFIER, MODIFIED = "identifier", "last modified (submission)"
+SUBMITTED = ("submitted", "time", "created_at")
+When = Callable[[Submission], datetime | None]
+
+
+def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
+    """Return a function that finds when a submission was handed in, or None if this is not known.
+
+    `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "" for times.csv in
+    the folder of the submissions, else Gradescope's metadata. `zone` is the zone of the times in a table that
+    contain none. Raises GradingError if the table cannot be used.
+    """
+    if not option and (source / TIMES).is_file():
+        option = str(source / TIMES)
+    if option in ("", GRADESCOPE_WORD):
+        return _Gradescope(source).find
+    if option == NBGRADER:
+        return _Nbgrader(source).find
+    path = Path(option)
+    head, rows = read_rows(path, "table of times")
+    if MODIFIED in head and IDENTIFIER in head:
+        return _worksheet(rows, zone).find
+    if "student" in head and set(SUBMITTED) & set(head):
+        return _table(rows, zone).find
+    raise GradingError(
+        f"{path.name}, line 1: the table of times needs the columns student,submitted (or "
+        "student,chapter,submitted), or those of Moodle's grading worksheet: Identifier and Last modified "
+        "(submission). Moodle names them in the language that you use it in; switch it to English."
+    )
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """A row of a table: a time for a chapter and a file; either of them may be empty, for all."""
+
+    chapter: str
+    file: str
+    moment: datetime
+
+
+@dataclass(frozen=True)
+class _Table:
+    """The rows by student. The latest of the submission's files counts, because all of them are graded."""
+
+    rows: Mapping[str, Sequence[_Entry]]
+
+    def find(self, submission: Submission) -> datetime | None:
+        rows = [
+            each for each in self.rows.get(submission.student, ()) if each.chapter in ("", submission.chapter)
+        ]
+        files = [each.moment for each in rows if each.file and _has(submission, each.file)]
+        if files:
+            return max(files)
+        general = {each.chapter: each.moment for each in rows if not each.file}
+        return general.get(submission.chapter, general.get(""))
+
+
+def _has(submission: Submission, file: str) -> bool:
+    """Return whether `file`, a path in the submissions or in the student's folder, is in the submission."""
+    if file in _paths(submission.origin, submission.student) and submission.content:
+        return True
+    folders = [path for each in submission.packages for path in _paths(each.origin, submission.student)]
+    return any(f"{file}/".startswith(f"{folder}/") for folder in folders)
+
+
+def _paths(origin: str, student: str) -> tuple[str, ...]:
+    """Return a path in the submissions as it is, and below the folder of its student."""
+    parts = origin.split("/")
+    place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
+    return (origin,) if place is None else (origin, "/".join(parts[place + 1 :]))
+
+
+@dataclass(frozen=True)
+class _Worksheet:
+    """Times by the number of Moodle's participant."""
+
+    times: Mapping[str, datetime]
+
+    def find(self, submission: Submission) -> datetime | None:
+        _, number = number_of(submission.student, [submission.origin], MOODLE)
+        return self.times.get(number)
+
+
+def _worksheet(rows: list[Row], zone: tzinfo | None) -> _Worksheet:
+    found = {}
+    for row in rows:
+        number = "".join(filter(str.isdigit, row.get(IDENTIFIER)))
+        if number and row.get(MODIFIED) not in ("", "-"):
+            found[number] = _moment(row, row.get(MODIFIED), zone)
+    return _Worksheet(found)
+
+
+def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
+    found: dict[str, list[_Entry]] = {}
+    for row in rows:
+        student, chapter = row.get("student"), row.get("chapter")
+        if not student or (chapter and not (chapter.isdecimal() and len(chapter) <= 2)):
+            raise GradingError(
+                f"{row.where}: each row needs a student, and a chapter has to be a number, such as 05."
+            )
+        moment = _moment(row, row.get(*SUBMITTED), zone)
+        entry = _Entry(chapter.zfill(2) if chapter else "", row.get("file"), moment)
+        known = found.setdefault(clean.identity(student), [])
+        if any((each.chapter, each.file) == (entry.chapter, entry.file) for each in known):
+            raise GradingError(f"{row.where}: this submission is in the table twice; keep one row.")
+        known.append(entry)
+    return _Table(found)
+
+
+def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
+    """Return the time in a row; a message quotes nothing, because any column may hold a name."""
+    moment = moment_of(written, zone)
+    if moment is not None:
+        return moment
+    if moment_of(written, timezone.utc) is not None:
+        raise GradingError(
+            f"{row.where}: the time has no time zone. Give the zone of the table, such as --time-zone "
+            "Europe/Berlin."
+        )
+    raise GradingError(
+        f"{row.where}: this is not a time; write 2026-11-01T23:59+01:00, or as Moodle does: Sunday, "
+        "1 November 2026, 11:59 PM."
+    )
+
+
+@dataclass
+class _Gradescope:
+    """Times in the metadata beside the folders submission_NNN, which no student can write."""
+
+    source: Path
+    known: dict[str, dict[str, datetime]] = field(default_factory=dict)
+
+    def find(self, submission: Submission) -> datetime | None:
+        parts = PurePosixPath(submission.origin).parts
+        place = next((index for index, part in enumerate(parts[:2]) if GRADESCOPE.fullmatch(part)), None)
+        if place is None:
+            return None
+        path = "/".join((*parts[:place], METADATA))
+        if path not in self.known:
+            self.known[path] = self._read(path)
+        return self.known[path].get(parts[place])
+
+    def _read(self, path: str) -> dict[str, datetime]:
+        content = _content(self.source, path, METADATA_LIMIT)
+        records = gradescope_records(content) if content else {}
+        written = {folder: str(record.get(":created_at", "")) for folder, record in records.items()}
+        found = {folder: moment_of(text, timezone.utc) for folder, text in written.items()}
+        return {folder: moment for folder, moment in found.items() if moment}
+
+
+@dataclass
+class _Nbgrader:
+    """Times in timestamp.txt, which `nbgrader submit` writes with the rights of the student."""
+
+    source: Path
+
+    def find(self, submission: Submission) -> datetime | None:
+        parts = PurePosixPath(submission.origin).parts
+        places = (index for index, part in enumerate(parts) if clean.identity(part) == submission.student)
+        place = next(places, None)
+        if place is None or len(parts) < place + 3:
+            return None
+        content = _content(self.source, "/".join((*parts[: place + 2], STAMP)), STAMP_LIMIT)
+        return moment_of(content.decode("utf-8", "replace"), timezone.utc)
+
+
+def _content(source: Path, path: str, limit: int) -> bytes:
+    """Return at most `limit` bytes of a file inside a folder or zip; b"" if it cannot be read."""
+    with suppress(GradingError, OSError, KeyError, ValueError, RuntimeError, zipfile.BadZipFile):
+        if source.is_dir():
+            return one_file(source / path).read()[:limit]
+        with zipfile.ZipFile(source) as archive, archive.open(path) as file:
+            return file.read(limit)
+    return b""

@@ -1,0 +1,46 @@
+"""moodle_worksheet.csv, a copy of Moodle's own grading worksheet with grades and feedback comments.
+
+Only the columns Grade and Feedback comments change, and only in the rows of students who handed in and whose
+grade is not locked. If the maximum grade of the assignment is not the number of points that were possible,
+the points are scaled, because Moodle would read 9 of 9 points as 9 of 100. The feedback then contains the
+points, too. A worksheet belongs to one assignment, so the grade is the sum of all chapters of the run.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course_pkg.files import write_atomically
+from course_pkg.grading.reports.formats.moodle import feedback
+from course_pkg.grading.reports.gradebook import Book, of_points, points
+
+NAME = "moodle_worksheet.csv"
+
+
+def write(book: Book, out: Path) -> None:
+    """Write the copy, if the instructor gave a worksheet."""
+    class_list = book.class_list
+    if class_list.worksheet is None:
+        return
+    graded = {
+        participant.place: (_grade(book, student, participant.maximum), _feedback(book, student))
+        for student, participant in class_list.participants.items()
+        if book.total and not participant.locked and book.of(student)
+    }
+    write_atomically(out / NAME, class_list.worksheet.copy(graded))
+
+
+def _grade(book: Book, student: str, maximum: float | None) -> str:
+    """Return the points for Moodle; without a maximum grade, they are not scaled."""
+    earned = book.earned(student)
+    return points(earned if maximum is None else min(maximum, earned * maximum / book.total))
+
+
+def _feedback(book: Book, student: str) -> str:
+    grades = [grade.for_student() for grade in book.of(student)]
+    several = len(grades) > 1
+    parts = [f"{of_points(book.earned(student), book.total)}."]
+    for grade in grades:
+        title = f"Chapter {grade.chapter}: " if several and grade.chapter else ""
+        parts.append(f"{title}{feedback(grade)}")
+    return "<br>".join(parts)

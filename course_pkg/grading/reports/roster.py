@@ -1,0 +1,64 @@
+"""What the reports show of the roster: who is missing, who is not on it, and who could not be identified."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from operator import attrgetter
+
+from course_pkg.grading import clean
+from course_pkg.grading.reports.gradebook import Book, name_of
+from course_pkg.grading.reports.page import paragraph, table, text
+from course_pkg.grading.roster.people import FIELDS, Person
+
+MISSING = "On the roster, but handed in nothing."
+STRANGER = "Not on the roster."
+UNLISTED = "Not in Moodle's worksheet."
+values = attrgetter(*FIELDS)
+
+
+def about_identity(book: Book, student: str) -> list[str]:
+    """Return why a student could not be found in the lists of the instructor."""
+    known = book.class_list
+    reason = known.unclear.get(student, "")
+    return [
+        *([STRANGER] if student in known.strangers else []),
+        *([UNLISTED] if student in known.unlisted else []),
+        *([f"Not identified: {reason}."] if reason else []),
+    ]
+
+
+def identity_cells(person: Person | None) -> list[str]:
+    """Return the cells with name, id, email, username and section."""
+    return [clean.cell(value) for value in values(person or Person())]
+
+
+def lead(book: Book) -> str:
+    """Return a sentence about the roster for the beginning of the class's page; nothing without a roster."""
+    known = book.class_list
+    return f"{known.found} of {len(known.roster)} students of the roster handed in." if known.roster else ""
+
+
+def section(book: Book) -> Iterator[str]:
+    """Yield the part of the class's page about the roster; nothing if the instructor gave no list."""
+    known = book.class_list
+    if not known.given:
+        return
+    yield "<h2>Roster</h2>"
+    rows = [_row(person, MISSING) for person in known.missing]
+    for student in filter(None, book.students):
+        if reasons := about_identity(book, student):
+            person = book.person(student) or Person()
+            rows.append(_row(person, " ".join(reasons), student))
+    if rows:
+        head = ["Student", "Section", "Username, email, id", "What to look at"]
+        yield table("Students who are missing or could not be identified", head, rows, 0)
+    else:
+        yield paragraph("Each submission belongs to exactly one row of the list.")
+
+
+def _row(person: Person, reason: str, student: str = "") -> Sequence[str]:
+    name = name_of(student) if student else person.label
+    page = f"feedback/{clean.file_name(student)}.html"
+    first = f'<a href="{page}">{text(name)}</a>' if student else text(name)
+    identity = ", ".join(filter(None, [person.username, person.email, person.id]))
+    return [first, text(person.section), text(identity), text(reason, 600)]

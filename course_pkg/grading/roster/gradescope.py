@@ -1,0 +1,45 @@
+"""The students of an export from Gradescope, with all that its metadata contains about them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.intake.archive import opened
+from course_pkg.grading.intake.naming import METADATA, gradescope_records, gradescope_submitters
+from course_pkg.grading.roster.people import Person
+
+
+def gradescope_people(source: Path) -> dict[str, Person]:
+    """Return the students by the names that grading gives to them; no metadata gives no students.
+
+    `source` is a folder or a zip.
+    """
+    found: dict[str, Person] = {}
+    try:
+        with opened(source) as entries:
+            for entry in entries:
+                if entry.parts[-1:] == (METADATA,) and len(entry.parts) < 3:
+                    found |= _people(entry.read())
+    except GradingError:  # grading itself reports what cannot be read
+        return found
+    return found
+
+
+def _people(content: bytes) -> dict[str, Person]:
+    """Return the persons in the metadata; `gradescope_submitters` has their names in the same order."""
+    records = gradescope_records(content)
+    return {
+        clean.identity(student): Person(
+            name=_text(record, ":name"), id=_text(record, ":sid"), email=_text(record, ":email")
+        )
+        for folder, students in gradescope_submitters(content).items()
+        for student, record in zip(students, records[folder].get(":submitters") or [], strict=False)
+        if isinstance(record, dict)
+    }
+
+
+def _text(record: dict[object, object], name: str) -> str:
+    value = record.get(name)
+    return clean.line(value, 200) if isinstance(value, str) and value not in ("~", "null") else ""

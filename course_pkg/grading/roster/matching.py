@@ -1,0 +1,102 @@
+"""Find the row of a list that belongs to a student, from all that a submission shows; nothing is guessed.
+
+Every piece of evidence (a number, an address, a name) proposes the rows that it fits. The student is found
+only if exactly one row fits all of the evidence that fits any row.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from course_pkg.grading.roster.people import IDENTITY, Person
+
+
+@dataclass(frozen=True)
+class Match:
+    """The row that belongs to a student; if there is none, `problem` says what is unclear, if anything."""
+
+    person: Person | None = None
+    problem: str = ""
+    possible: frozenset[int] = frozenset()  # the lines that it may be, if it is unclear
+
+
+class People:
+    """The rows of one list, found by each of their fields."""
+
+    def __init__(self, people: Iterable[Person], title: str) -> None:
+        self._people = tuple(people)
+        self._title = title
+        self._rows: dict[tuple[str, str], set[int]] = {}
+        for place, person in enumerate(self._people):
+            for key in _keys(person):
+                self._rows.setdefault(key, set()).add(place)
+
+    def find(self, known: Person, text: str = "") -> Match:
+        """Return the row of the person `known`.
+
+        `text` is a name that an instructor gave to a folder, so it may be any field.
+        """
+        proposals = [rows for rows in self._proposals(known, text) if rows]
+        if not proposals:
+            return Match()
+        common = set.intersection(*proposals)
+        if not common:
+            return self._unclear("its number, name or address fit different rows", set.union(*proposals))
+        if len(common) > 1:
+            return self._unclear("it fits several rows", common)
+        person = self._people[min(common)]
+        if known.number == person.number != "" and not _agree(known.name, person.name):
+            return self._unclear("its number fits a row with another name", common)
+        return Match(person)
+
+    def _proposals(self, known: Person, text: str) -> Iterator[set[int]]:
+        for key in IDENTITY:
+            yield self._fitting(key, getattr(known, key))
+        yield self._fitting("name", known.name)
+        # Moodle's number identifies a participant of one assignment. Some rosters hold it as the id.
+        yield self._fitting("number", known.number) or {
+            place
+            for place in self._fitting("id", known.number)
+            if _agree(known.name, self._people[place].name)
+        }
+        yield set[int]().union(*(self._fitting(key, text) for key in (*IDENTITY, "name")))
+
+    def _fitting(self, key: str, value: str) -> set[int]:
+        made = folded(value) if key == "name" else value.strip().casefold()
+        return self._rows.get((key, made), set()) if made else set()
+
+    def _unclear(self, problem: str, rows: set[int]) -> Match:
+        lines = sorted(self._people[place].line for place in rows)
+        *others, last = map(str, lines)
+        named = f"lines {', '.join(others)} and {last}" if others else f"line {last}"
+        return Match(problem=f"{problem} of {self._title} ({named})", possible=frozenset(lines))
+
+
+def _keys(person: Person) -> Iterator[tuple[str, str]]:
+    for key in (*IDENTITY, "number"):
+        if value := getattr(person, key).strip().casefold():
+            yield key, value
+    yield from (("name", name) for name in orders(person.name))
+
+
+def orders(name: str) -> set[str]:
+    """Return the letters of a name in each order of its parts that platforms use.
+
+    Canvas writes "doejanemaria" for Jane Maria Doe, a spreadsheet "Doe, Jane Maria".
+    """
+    parts = [part for word in re.split(r"[\s,_]+", name) if (part := folded(word))]
+    return {"".join(parts[place:] + parts[:place]) for place in range(len(parts))}
+
+
+def _agree(one: str, other: str) -> bool:
+    """Return whether two names may belong to one student; Moodle may put the group before the name."""
+    return not one or not other or any(folded(one).endswith(order) for order in orders(other))
+
+
+def folded(name: str) -> str:
+    """Return the letters and digits of a name, small and without accents."""
+    letters = unicodedata.normalize("NFKD", name.casefold())
+    return "".join(letter for letter in letters if letter.isalnum())

@@ -1,0 +1,121 @@
+"""The dask cluster of `course grade --scheduler`: wait for its workers, and notice if they are gone."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, Executor
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+from course_pkg.errors import GradingError
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+PATIENCE = 20.0  # s in which a scheduler has to answer, and in which one worker has to be connected
+INTERVAL = 1.0  # s between two looks at the workers while all tasks are under way
+AGAIN = "The finished grades are kept. Correct this problem, and type the same command again."
+
+
+class Cluster:
+    """An executor of a dask cluster, with the number of its threads.
+
+    `require` raises GradingError if the scheduler is gone, or if it has had no worker for `patience` s.
+    """
+
+    def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
+        self._client, self._scheduler, self._patience = client, scheduler, patience
+        self._seen = time.monotonic()
+        self.executor = executor
+        self.workers = max(1, sum(client.ncores().values()))
+
+    def require(self) -> None:
+        """Raise GradingError if no worker can continue the run."""
+        if self._client.status != "running":
+            raise self._lost()
+        if self._client.scheduler_info(n_workers=-1)["workers"]:
+            self._seen = time.monotonic()
+        elif time.monotonic() - self._seen > self._patience:
+            raise no_workers(self._scheduler, self._patience)
+
+    @property
+    def failures(self) -> tuple[type[BaseException], ...]:
+        """The exceptions of a task that the cluster could not run; `explained` says what each means."""
+        from distributed.scheduler import KilledWorker
+
+        return CancelledError, KilledWorker, ImportError, RuntimeError
+
+    def explained(self, error: BaseException) -> GradingError:
+        """Return what one of the `failures` means, and what to do."""
+        if isinstance(error, CancelledError):
+            return self._lost()
+        if isinstance(error, (ImportError, RuntimeError)):
+            return GradingError(
+                f"The dask workers cannot run the course ({type(error).__name__}: {error}). Start the "
+                f"scheduler and the workers with `./course run dask …`, in the same version of the course. "
+                f"{AGAIN}"
+            )
+        return GradingError(
+            "Several dask workers ended while they graded the same notebook. Their own output shows the "
+            "reason; often it is too little memory. Start fewer workers, and give each of them --nthreads 1. "
+            f"{AGAIN}"
+        )
+
+    def _lost(self) -> GradingError:
+        return GradingError(
+            f"The connection to the dask scheduler at {self._scheduler} was lost during the run. Is the "
+            f"scheduler still running, and can this machine reach it? {AGAIN}"
+        )
+
+
+def no_workers(scheduler: str, patience: float) -> GradingError:
+    """Return the error about a scheduler that has no workers."""
+    return GradingError(
+        f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be graded. "
+        f"Start workers with this command, and type the same command again: ./course run dask worker "
+        f"{scheduler} --nthreads 1 --nworkers 4"
+    )
+
+
+@contextmanager
+def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
+    """Yield the cluster at the address `scheduler`, such as tcp://192.0.2.7:8786.
+
+    Raises GradingError if dask.distributed is not installed, if no scheduler answers within `patience` s, or
+    if the scheduler has no worker within `patience` s.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise GradingError(
+            "--scheduler needs dask.distributed, which is not installed here. Type: "
+            "./course run python -m pip install distributed"
+        ) from error
+    _silence()
+    try:
+        client = Client(scheduler, timeout=patience)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise GradingError(
+            f"No dask scheduler answers at {scheduler}: {error}. Start it with: ./course run dask scheduler"
+        ) from error
+    try:
+        if not client.ncores():
+            sys.stderr.write(f"The dask scheduler has no worker yet; waiting {patience:g} s for one.\n")
+        try:
+            client.wait_for_workers(1, timeout=patience)
+        except (TimeoutError, OSError) as error:
+            raise no_workers(scheduler, patience) from error
+        yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
+    finally:
+        # A client whose scheduler is gone would otherwise wait for it.
+        with suppress(OSError, TimeoutError):
+            client.close(timeout=1)
+
+
+def _silence() -> None:
+    """Keep dask's own messages about lost connections off the terminal: the run says the same in one."""
+    for name in ("distributed.client", "distributed.comm", "distributed.core"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)

@@ -1,0 +1,71 @@
+"""The results of earlier runs: which of them stay in the reports, and for which nothing was handed in now."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from course_pkg.grading.grade import Grade, grade_from
+from course_pkg.grading.reports.records import RESULTS, record_path
+from course_pkg.grading.run.selection import Selection
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """The records of earlier runs in the folder `out`; `unreadable` of its files are not records."""
+
+    out: Path
+    grades: tuple[Grade, ...] = ()
+    unreadable: int = 0
+
+    def find(self, student: str, chapter: str) -> Grade | None:
+        """Return the earlier grade of a student for a chapter, or None."""
+        return self._by_chapter.get((student, chapter)) if chapter else None
+
+    def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
+        """Return the earlier grades that stay in the reports besides `graded`.
+
+        A selected one is marked as absent: its record exists, but nothing was handed in for it this time. If
+        everything was selected, a chapter for which no student handed in anything is another assignment, and
+        its grades are not marked.
+        """
+        chapters = {grade.chapter for grade in graded}
+        now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
+        files = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
+        kept = []
+        for grade in self.grades:
+            covered = selected.covers(grade.student, grade.chapter)
+            if (grade.student, grade.chapter) in now or (grade.student, grade.origin) in files:
+                continue
+            if grade.chapter or not covered:
+                marked = covered and (grade.chapter in chapters or not selected.everything)
+                kept.append(replace(grade, absent=True) if marked else grade)
+        return kept
+
+    def forget_files(self, graded: Sequence[Grade], selected: Selection) -> None:
+        """Remove the records of files that could not be graded earlier and that are no longer there."""
+        now = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
+        for grade in self.grades:
+            gone = (grade.student, grade.origin) not in now
+            if not grade.chapter and gone and selected.covers(grade.student, ""):
+                record_path(self.out, grade.student, "", grade.origin).unlink(missing_ok=True)
+
+    @cached_property
+    def _by_chapter(self) -> dict[tuple[str, str], Grade]:
+        return {(grade.student, grade.chapter): grade for grade in self.grades}
+
+
+def read_earlier(out: Path) -> Earlier:
+    """Return the records below `out`; a file that is not a record of this version is counted."""
+    grades, unreadable = [], 0
+    for path in sorted((out / RESULTS).glob("*/*.json")):
+        if path.name.startswith("."):
+            continue
+        try:
+            grades.append(grade_from(json.loads(path.read_text("utf-8"))))
+        except (OSError, ValueError, TypeError, KeyError, AttributeError):
+            unreadable += 1
+    return Earlier(out, tuple(grades), unreadable)

@@ -1,0 +1,115 @@
+"""What a run grades: some students, some parts, some chapters, or everything. All other results stay."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from course_pkg.checking.parts import find
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
+
+PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas put it at the end of a name
+
+
+@dataclass(frozen=True)
+class Selection:
+    """The options --student, --part and --chapters; an empty tuple selects everything."""
+
+    students: tuple[str, ...] = ()
+    chapters: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+
+    @property
+    def again(self) -> bool:
+        """Whether the selected notebooks are graded again even if nothing has changed."""
+        return bool(self.students or self.parts)
+
+    @property
+    def everything(self) -> bool:
+        """Whether nothing was selected."""
+        return not (self.students or self.chapters or self.parts)
+
+    def covers(self, student: str, chapter: str) -> bool:
+        """Return whether this run grades what a student hands in for a chapter ("" if it is unknown)."""
+        if self.students and student not in self.students:
+            return False
+        return not self.chapters or chapter in ("", *self.chapters)
+
+    def only(self, graded: Sequence[Grade]) -> Selection:
+        """Return the selection of exactly the students and chapters of `graded`."""
+        students, chapters = {each.student for each in graded}, {each.chapter for each in graded}
+        return replace(self, students=tuple(students), chapters=tuple(chapters))
+
+    def of(self, submissions: Sequence[Submission]) -> list[Submission]:
+        """Return the selected ones."""
+        return [each for each in submissions if self.covers(each.student, each.chapter)]
+
+    def parts_of(self, chapter: str) -> tuple[str, ...]:
+        """Return the selected parts of a chapter."""
+        return tuple(each for each in self.parts if each.partition(".")[0] == chapter)
+
+    def for_students(self, submissions: Sequence[Submission]) -> Selection:
+        """Return the selection with the full names of the students.
+
+        Raises GradingError if a name fits no student or several students.
+        """
+        known = sorted({each.student for each in submissions if each.student})
+        return replace(self, students=tuple(_student(name, known) for name in self.students))
+
+
+def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[str]) -> Selection:
+    """Return the selection of the options; a part selects its chapter.
+
+    Raises UnknownCheck if there is no such part, and GradingError if --chapters leaves out its chapter.
+    """
+    checks = tuple(dict.fromkeys(find(two_digits(part)).check for part in parts))
+    asked = tuple(dict.fromkeys(check.partition(".")[0] for check in checks))
+    if chapters and (outside := [check for check in checks if check.partition(".")[0] not in chapters]):
+        raise GradingError(
+            f"--part {outside[0]} is not in --chapters {','.join(chapters)}: give one of the two options."
+        )
+    return Selection(tuple(students), asked or tuple(chapters), checks)
+
+
+def two_digits(number: str) -> str:
+    """Return the number of a chapter or part with two digits for the chapter: "05" for "5"."""
+    chapter, dot, rest = number.strip().partition(".")
+    return f"{chapter.zfill(2)}{dot}{rest}"
+
+
+def merged(base: Grade, again: Grade) -> Grade:
+    """Return `base` with the reports of `again`, which has only the parts that were graded again."""
+    fresh = {report.check: report for report in again.reports}
+    reports = [fresh.pop(report.check, report) for report in base.reports]
+    reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))
+    packaged = [note for note in base.notes if note.startswith(IN_PACKAGES)]
+    return replace(
+        base,
+        reports=tuple(reports),
+        notes=(*packaged, *(note for note in again.notes if not note.startswith(IN_PACKAGES))),
+        late=again.late,
+        origin=again.origin,
+        key=again.key if base.key == again.key else "",
+        private=tuple(dict.fromkeys([*base.private, *again.private])),
+        sandboxed=base.sandboxed and again.sandboxed,
+        absent=False,
+    )
+
+
+def _student(name: str, known: Sequence[str]) -> str:
+    """Return the student whom `name` means; the number at the end of a platform's name can be left out."""
+    identity = clean.identity(name)
+    if identity in known:
+        return identity
+    wanted = identity.casefold()
+    found = [each for each in known if wanted in (each.casefold(), PLATFORM_ID.sub("", each).casefold())]
+    if len(found) == 1:
+        return found[0]
+    how = f"fits {len(found)} students" if found else "is the name of no student who handed in something"
+    raise GradingError(
+        f"--student {clean.line(name, 80)} {how}. The names are those in the column `student` of grades.csv, "
+        "which are the names of the folders."
+    )

@@ -1,0 +1,41 @@
+"""The last lines and the exit status of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports.gradebook import name_of, needs_look
+
+GRADED, NEED_A_LOOK = 0, 3
+SHOWN = 10  # names in a line
+
+
+def status_of(graded: Sequence[Grade]) -> int:
+    """Return the exit status: GRADED, or NEED_A_LOOK if a submission needs a look."""
+    return NEED_A_LOOK if any(map(needs_look, graded)) else GRADED
+
+
+def last_line(graded: Sequence[Grade]) -> str:
+    """Return, for example, "45 graded, 22 need a look"."""
+    looks = sum(map(needs_look, graded))
+    return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
+
+
+def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
+    """Return the lines about the results of earlier runs that stay in the reports."""
+    absent = [grade for grade in rest if grade.absent]
+    kept = len(rest) - len(absent)
+    lines = []
+    if absent:
+        names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent[:SHOWN]]
+        more = [f"{len(absent) - SHOWN} more"] if len(absent) > SHOWN else []
+        lines.append(
+            f"Marked in class.html and grades.csv, because this time nothing was handed in for them: "
+            f"{', '.join([*names, *more])}. The files for Moodle, Canvas and Gradescope leave them out."
+        )
+    if kept:
+        results = "1 other result" if kept == 1 else f"{kept} other results"
+        lines.append(f"{results} in {out} stayed as {'it was' if kept == 1 else 'they were'}.")
+    return lines

@@ -1,0 +1,59 @@
+"""Tables that an instructor gives as CSV, as any spreadsheet saves them."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+
+LARGEST = 1_000_000  # bytes
+SPREADSHEET = b"PK\x03\x04"  # the beginning of .xlsx and .ods
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
+    """Return the contents of the file at `path`; `what` names it in messages, such as "table of late days".
+
+    Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
+    spreadsheet.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(largest + 1)
+    except OSError as error:
+        raise GradingError(
+            f"The {what} {path.name} cannot be read: {error.strerror or error}. Correct the path, or the "
+            f"permissions of the file {path}."
+        ) from error
+    if len(content) > largest:
+        raise GradingError(f"{path.name} is too large for a {what} (the limit is {largest} bytes).")
+    if content.startswith(SPREADSHEET):
+        raise _unreadable(path, what, "it is a spreadsheet and not a CSV file")
+    return content
+
+
+def table_rows(path: Path, what: str) -> list[list[str]]:
+    """Return the rows of the CSV file at `path`; commas, semicolons or tabs may separate the columns.
+
+    Raises GradingError as `table_bytes` does, and if the contents are not CSV in UTF-8 (or in UTF-16 with a
+    byte order mark).
+    """
+    content = table_bytes(path, what)
+    try:
+        whole = content.decode("utf-16" if content.startswith(UTF_16) else "utf-8-sig")
+        return list(csv.reader(io.StringIO(whole, newline=""), delimiter=delimiter_of(whole), strict=True))
+    except (ValueError, csv.Error) as error:
+        raise _unreadable(path, what, str(error)) from error
+
+
+def delimiter_of(text: str) -> str:
+    """Return the character that separates the columns: the most frequent one in the first line."""
+    first = text.partition("\n")[0]
+    return max(",;\t", key=first.count)
+
+
+def _unreadable(path: Path, what: str, why: str) -> GradingError:
+    return GradingError(f"The {what} {path.name} cannot be read: {why}. Save it as CSV in UTF-8.")
