@@ -129,7 +129,7 @@ def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
     picture(form, "service-panel-calling")
     form.get_by_label("length").press("Escape")
     expect(form.get_by_text("Cancelled after")).to_be_visible()
-    expect(form.get_by_text("The server is not informed")).to_be_visible()
+    expect(form.get_by_text("The server does not know this")).to_be_visible()
     expect(form.get_by_role("button", name="Call")).to_be_enabled()
 
 
