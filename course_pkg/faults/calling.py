@@ -315,7 +315,7 @@ CALLING: tuple[Fault, ...] = (
         ),
         play=running(RESTARTED),
         visitor=KEEPS_CALLING,
-        diagnosis="The client keeps a connection to a server that is gone, and never opens a new one.",
+        diagnosis="The client keeps a connection to a server that has ended, and never opens a new one.",
         remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
         reason=(
             "A persistent proxy looks the service up only once, so it never calls the new server. After the "

@@ -61,7 +61,7 @@ class _Rectangle:
         self._start = start
 
     def across(self, y: float) -> tuple[float, float]:
-        """Return the x at which the row at `y` enters and leaves the rectangle; EMPTY if it does neither."""
+        """Return the x at which the row at `y` enters and leaves the rectangle, or EMPTY if there is none."""
         x, dy = self._start[0], y - self._start[1]
         left, right = -math.inf, math.inf
         for ux, uy, low, high in self._pairs:

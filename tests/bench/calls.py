@@ -258,8 +258,8 @@ class Street:
     def _judged(self, result: object, cents: int, fault: str) -> str:
         entries = [entry for entry in books(self._folder) if entry["cents"] == cents]
         if fault == "refuses":
-            told = isinstance(result, rospy.ServiceException) and "no money" in str(result)
-            return "right" if told and not entries else f"a refusal ended in {result!r}"
+            reported = isinstance(result, rospy.ServiceException) and "no money" in str(result)
+            return "right" if reported and not entries else f"a refusal ended in {result!r}"
         if len(entries) != 1:
             return f"charged {len(entries)} times, and {result!r} was returned"
         receipt = entries[0]["receipt"]

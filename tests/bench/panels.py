@@ -108,21 +108,21 @@ def share(
     nodes: list[subprocess.Popen[bytes]], ready: Callable[[GraphPanel], bool]
 ) -> tuple[float, Counter[str]]:
     """Return the share of a core in % that a visible panel uses, and the numbers of its updates."""
-    told: Counter[str] = Counter()
+    sent: Counter[str] = Counter()
     try:
         panel = GraphPanel()
         while not ready(panel):
             panel._snapshots.once()
             panel._listener.once()
             time.sleep(0.5)
-        panel.observe(lambda change: told.update([change["name"]]))
+        panel.observe(lambda change: sent.update([change["name"]]))
         panel.shown()
         time.sleep(SETTLE)
-        told.clear()
+        sent.clear()
         began, spent = time.monotonic(), time.process_time()
         time.sleep(GRAPH_WATCH)
         used = 100 * (time.process_time() - spent) / (time.monotonic() - began)
-        counts = Counter(told)
+        counts = Counter(sent)
         panel.hidden()
         return used, counts
     finally:
@@ -163,12 +163,12 @@ def graph_main() -> int:
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
         os.environ["ROS_HOSTNAME"] = "localhost"
-        updated, resting, (talking, told) = update(), idle(), busy()
+        updated, resting, (talking, sent) = update(), idle(), busy()
     print(f"update with {NODES} nodes, {TOPICS} topics: {updated:.0f} ms, bar {UPDATE_BAR:.0f} ms")
     print(f"idle: {resting:.2f} % of a core, bar {IDLE_BAR:.0f} %")
     print(f"{TOPICS} topics of {RATE} Hz: {talking:.2f} % of a core, bar {IDLE_BAR:.0f} %")
-    print(f"  sent to the page in {GRAPH_WATCH:.0f} s: {dict(told) or 'nothing'}; there should be no drawing")
-    return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or told["drawing"] > 0)
+    print(f"  sent to the page in {GRAPH_WATCH:.0f} s: {dict(sent) or 'nothing'}; there should be no drawing")
+    return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or sent["drawing"] > 0)
 
 
 # timeline: the time of the timeline panel in a browser: for the first drawing of 2,000 events, and for moving

@@ -55,18 +55,18 @@ def test_client_with_a_wrong_line(words: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sides", "told"),
+    ("sides", "message"),
     [
         (["-1", "2", "3"], "length is -1"),
         (["1", "nan", "3"], "width is nan"),
         (["1", "2", "inf"], "height is inf"),
     ],
 )
-def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], told: str) -> None:
+def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], message: str) -> None:
     """The server refuses an invalid side. The client prints the server's message, and exits with status 1."""
     done = terminal("rosrun", "course_pkg", "client", *sides)
     assert done.returncode == 1
-    assert f"service cannot process request: {told}" in done.stderr
+    assert f"service cannot process request: {message}" in done.stderr
     assert "Traceback" not in done.stderr
 
 

@@ -62,7 +62,7 @@ def test_the_mirror_image_has_the_opposite_signs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("odd", "told"),
+    ("odd", "message"),
     [
         (JointState(name=["a", "b"], position=[1.0]), "1 positions for 2 joints"),
         (JointState(name=[], position=[1.0]), "1 positions for 0 joints"),
@@ -75,9 +75,9 @@ def test_the_mirror_image_has_the_opposite_signs() -> None:
         ),
     ],
 )
-def test_an_invalid_joint_state_is_refused(odd: JointState, told: str) -> None:
+def test_an_invalid_joint_state_is_refused(odd: JointState, message: str) -> None:
     """Wrong lengths and values that are not finite numbers raise an error."""
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=message):
         mirrored(odd)
 
 
@@ -157,15 +157,15 @@ def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: P
 
 
 @pytest.mark.parametrize(
-    ("command", "told"),
+    ("command", "message"),
     [
         (("robot", "_rate:=fast"), "/robot/rate is 'fast'"),
         (("simulator", "_drawing:=0"), "/simulator/drawing is 0"),
     ],
 )
-def test_an_invalid_parameter_is_refused(command: tuple[str, ...], told: str) -> None:
+def test_an_invalid_parameter_is_refused(command: tuple[str, ...], message: str) -> None:
     """The message names the parameter and its value, and the program ends with status 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
-        assert told in process.output()
+        assert message in process.output()
         assert "Traceback" not in process.output()

@@ -97,7 +97,7 @@ def sees(frame: str) -> bool:
     """Return whether a frame shows a customer; in these tests, a frame is a text."""
     if frame == "malformed":
         raise ValueError(frame)
-    return frame == "somebody"
+    return frame == "a customer"
 
 
 @pytest.fixture
@@ -109,7 +109,7 @@ def eye() -> Eye:
 def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
     """A malformed frame does not change the result of the last valid frame."""
     seen = [eye.look()]
-    for frame in ("somebody", "malformed", "nobody", "malformed"):
+    for frame in ("a customer", "malformed", "no customer", "malformed"):
         eye.hear(frame)
         seen.append(eye.look())
     assert seen == [None, True, True, False, False]
@@ -117,7 +117,7 @@ def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
 
 def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
     """If the newest valid frame is older than FRAME_TIMEOUT, the result is None."""
-    eye.hear("somebody")
+    eye.hear("a customer")
     monkeypatch.setattr(module, "FRAME_TIMEOUT", -1.0)
     eye.hear("malformed")
     assert eye.look() is None
@@ -125,16 +125,16 @@ def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
     """If a customer is there, `await_customer` returns True even with a time limit of 0 s."""
-    eye.hear("somebody")
+    eye.hear("a customer")
     assert await_customer(eye, 0.0) is True
 
 
 def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
     """The first frame with a customer ends the wait of all threads. Other frames do not end it."""
-    eye.hear("nobody")
+    eye.hear("no customer")
     with ThreadPoolExecutor(4) as pool:
         waits = [pool.submit(await_customer, eye, 30.0) for _ in range(4)]
-        for frame in ("nobody", "malformed", "nobody", "somebody"):
+        for frame in ("no customer", "malformed", "no customer", "a customer"):
             eye.hear(frame)
         assert [wait.result(20) for wait in waits] == [True] * 4
 
@@ -145,9 +145,9 @@ def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
 
     def stream() -> None:
         while not over.wait(0.01):
-            eye.hear("nobody")
+            eye.hear("no customer")
 
-    eye.hear("nobody")
+    eye.hear("no customer")
     camera = threading.Thread(target=stream)
     camera.start()
     started = time.monotonic()
