@@ -176,7 +176,7 @@ def imports_main() -> None:
 # cpp: prints the duration of chapter 13's builds in a new workspace, and the duration of one file's
 # compilation. The files and the commands are those of the cells in the solution.
 
-SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("11_*.ipynb"))
+SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("13_*.ipynb"))
 CPP_BAR = 15.0  # s
 WRITING = re.compile(r"%%writefile (?P<more>-a )?(?P<path>src/cpp_services/\S+)\n(?P<text>.*)", re.DOTALL)
 
