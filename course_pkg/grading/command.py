@@ -31,7 +31,7 @@ from course_pkg.grading.run.changes import changes, described, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
 from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
-from course_pkg.grading.run.summary import about_rest, last_line, status_of
+from course_pkg.grading.run.summary import about_empty, about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -121,7 +121,7 @@ def _print_end(
         lines.append(
             f"{earlier.unreadable} files in {out / RESULTS} are not results of this version of the course."
         )
-    lines += about_rest(rest, out)
+    lines += [*about_empty(graded), *about_rest(rest, out)]
     count = "1 submission" if len(graded) == 1 else f"{len(graded)} submissions"
     lines += [f"{count} in {took:.0f} s. Open {out / 'class.html'} first.", last_line(graded)]
     sys.stdout.write("\n".join([*lines, ""]))
