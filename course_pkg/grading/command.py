@@ -12,6 +12,7 @@ from pathlib import Path
 from course_pkg.errors import GradingError
 from course_pkg.grading.deadlines.deadline import deadlines
 from course_pkg.grading.deadlines.extensions import extensions_of
+from course_pkg.grading.deadlines.late import LatePolicy, LateTable, late_policy, late_table
 from course_pkg.grading.deadlines.lateness import LAST, Lateness, attempts_to_grade, best_attempts
 from course_pkg.grading.deadlines.moments import zone_of
 from course_pkg.grading.deadlines.times import times_of
@@ -20,7 +21,6 @@ from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.intake.folders import require_other_folder
 from course_pkg.grading.intake.naming import NOTEBOOK
 from course_pkg.grading.intake.submissions import submissions
-from course_pkg.grading.late import LatePolicy, LateTable, late_policy, late_table
 from course_pkg.grading.marking import key_of
 from course_pkg.grading.queue import Task, grade_all, pool_of
 from course_pkg.grading.reports import write_reports
@@ -31,7 +31,7 @@ from course_pkg.grading.run.changes import changes, described, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
 from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
-from course_pkg.grading.run.summary import about_rest, last_line, status_of
+from course_pkg.grading.run.summary import about_empty, about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -121,7 +121,7 @@ def _print_end(
         lines.append(
             f"{earlier.unreadable} files in {out / RESULTS} are not results of this version of the course."
         )
-    lines += about_rest(rest, out)
+    lines += [*about_empty(graded), *about_rest(rest, out)]
     count = "1 submission" if len(graded) == 1 else f"{len(graded)} submissions"
     lines += [f"{count} in {took:.0f} s. Open {out / 'class.html'} first.", last_line(graded)]
     sys.stdout.write("\n".join([*lines, ""]))
@@ -172,7 +172,8 @@ def _dated(
     zone = zone_of(options.time_zone) if options.time_zone else None
     due = deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
-    lateness = Lateness(due, times_of(str(times), options.source, zone))
+    asked = bool(options.deadlines or options.times)  # without a deadline, a wrong times.csv does no harm
+    lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
     if table and (strangers := table.strangers(found)):
         sys.stderr.write(
             f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"

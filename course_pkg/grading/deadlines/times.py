@@ -26,12 +26,12 @@ from course_pkg.grading.intake.naming import (
     GRADESCOPE,
     METADATA,
     MOODLE,
+    TIMES,
     gradescope_records,
     number_of,
 )
 
 NBGRADER, GRADESCOPE_WORD = "nbgrader", "gradescope"
-TIMES = "times.csv"
 STAMP, STAMP_LIMIT = "timestamp.txt", 200  # bytes
 METADATA_LIMIT = 64 << 20  # bytes
 IDENTIFIER, MODIFIED = "identifier", "last modified (submission)"

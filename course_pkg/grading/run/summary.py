@@ -23,19 +23,29 @@ def last_line(graded: Sequence[Grade]) -> str:
     return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
 
 
+def about_empty(graded: Sequence[Grade]) -> list[str]:
+    """Return the line about students whose folders are empty, if there are any."""
+    names = [name_of(grade.student) for grade in graded if grade.nothing]
+    return [f"Handed in nothing, because the folder is empty: {_listed(names)}."] if names else []
+
+
 def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
     """Return the lines about the results of earlier runs that stay in the reports."""
     absent = [grade for grade in rest if grade.absent]
     kept = len(rest) - len(absent)
     lines = []
     if absent:
-        names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent[:SHOWN]]
-        more = [f"{len(absent) - SHOWN} more"] if len(absent) > SHOWN else []
+        names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent]
         lines.append(
             f"Marked in class.html and grades.csv, because this time nothing was handed in for them: "
-            f"{', '.join([*names, *more])}. The files for Moodle, Canvas and Gradescope leave them out."
+            f"{_listed(names)}. The files for Moodle, Canvas and Gradescope leave them out."
         )
     if kept:
         results = "1 other result" if kept == 1 else f"{kept} other results"
         lines.append(f"{results} in {out} stayed as {'it was' if kept == 1 else 'they were'}.")
     return lines
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return f"{', '.join(names[:SHOWN])}{more}"

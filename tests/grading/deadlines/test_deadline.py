@@ -12,11 +12,11 @@ import pytest
 from course_pkg.errors import GradingError
 from course_pkg.grading.deadlines.deadline import Deadlines, deadlines
 from course_pkg.grading.deadlines.extensions import Extensions, extensions_of
+from course_pkg.grading.deadlines.late import late_policy
 from course_pkg.grading.deadlines.lateness import Lateness, attempts_to_grade, best_attempts
 from course_pkg.grading.deadlines.moments import moment_of, zone_of
 from course_pkg.grading.grade import NO_TIME, Submission
 from course_pkg.grading.intake.submissions import submissions
-from course_pkg.grading.late import late_policy
 from course_pkg.grading.roster.class_list import read_lists
 from course_pkg.grading.roster.people import Person
 from tests.grading.grades import class_of

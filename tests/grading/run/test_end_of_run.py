@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from course_pkg.checking.report import Verdict
-from course_pkg.grading.grade import NO_TIME, Grade
+from course_pkg.grading.grade import NO_TIME, NOTHING, Grade
 from course_pkg.grading.run.changes import changes, described, write_changes
-from course_pkg.grading.run.summary import GRADED, NEED_A_LOOK, about_rest, last_line, status_of
+from course_pkg.grading.run.summary import GRADED, NEED_A_LOOK, about_empty, about_rest, last_line, status_of
 from tests.grading.grades import nasty, refused, report
 
 
@@ -88,6 +88,15 @@ def test_a_name_cannot_control_the_terminal(tmp_path: Path) -> None:
 def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: int) -> None:
     """A submission needs a look if it has a problem, an unexamined part, no time or no points."""
     assert (last_line(grades), status_of(grades)) == (line, status)
+
+
+def test_empty_folders_are_named() -> None:
+    """The students who handed in an empty folder are listed, up to ten of them."""
+    empty = [refused(f"s{number:02}", "", f"{NOTHING}: the folder is empty.") for number in range(12)]
+    (line,) = about_empty([FULL, *empty])
+    assert "s00, s01, " in line
+    assert line.endswith("s09 and 2 more.")
+    assert about_empty([FULL, refused()]) == []
 
 
 def test_results_that_stay(tmp_path: Path) -> None:

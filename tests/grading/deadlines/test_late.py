@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from course_pkg.errors import GradingError
+from course_pkg.grading.deadlines.late import late_policy, late_table
 from course_pkg.grading.grade import Submission
-from course_pkg.grading.late import late_policy, late_table
 
 
 def _table(folder: Path, content: str | bytes) -> Path:
