@@ -34,23 +34,23 @@ def _points(folder: Path) -> dict[str, str]:
 def test_a_class_over_several_runs(tmp_path: Path) -> None:
     """Each run prints what changed, keeps what it does not select, and ends with its last line."""
     for student in ("s01", "s02", "s03"):
-        hand_in(tmp_path, student, "01", {"01.1": ""})
-    hand_in(tmp_path, "s01", "01")
+        hand_in(tmp_path, student, "00", {"00.1": ""})
+    hand_in(tmp_path, "s01", "00")
     (tmp_path / "s04").mkdir()
 
-    first = _grade(tmp_path, "--chapters", "1")
+    first = _grade(tmp_path, "--chapters", "0")
     assert first.returncode == NEED_A_LOOK, first.stderr
     assert first.stdout.splitlines()[-1] == "3 graded, 1 needs a look"
     assert "changed" not in first.stdout
     before = _points(tmp_path)
     assert list(before) == ["s01", "s02", "s03", "s04"]
 
-    hand_in(tmp_path, "s02", "01")
-    hand_in(tmp_path, "s03", "01")
-    one = _grade(tmp_path, "--student", "S02", "--part", "1.1")
+    hand_in(tmp_path, "s02", "00")
+    hand_in(tmp_path, "s03", "00")
+    one = _grade(tmp_path, "--student", "S02", "--part", "0.1")
     assert one.returncode == GRADED, one.stderr
     assert one.stdout.splitlines()[0] == "Points that have changed since the last run:"
-    assert one.stdout.splitlines()[1].startswith("  s02, 01.1: 0 before, ")
+    assert one.stdout.splitlines()[1].startswith("  s02, 00.1: 0 before, ")
     assert one.stdout.splitlines()[-1] == "1 graded, 0 need a look"
     assert _points(tmp_path) == {**before, "s02": before["s01"]}
 
@@ -60,8 +60,8 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     due = ["--deadline", "2026-11-01T23:59+01:00", "--late-per-day", "50", "--times", str(times)]
     last = _grade(tmp_path, *due)
     assert last.returncode == NEED_A_LOOK, last.stderr
-    assert f"s01, chapter 01: {before['s01']} before, {float(before['s01']) / 2:g} now" in last.stdout
-    assert "nothing was handed in for them: s03 (chapter 01)" in last.stdout
+    assert f"s01, chapter 00: {before['s01']} before, {float(before['s01']) / 2:g} now" in last.stdout
+    assert "nothing was handed in for them: s03 (chapter 00)" in last.stdout
     assert _points(tmp_path)["s03"] == before["s03"]
     assert "s03" not in (tmp_path / "grades" / "moodle.csv").read_text()
 
@@ -79,7 +79,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
 )
 def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: str) -> None:
     """The message names the option, and nothing is graded."""
-    hand_in(tmp_path, "s01", "01")
+    hand_in(tmp_path, "s01", "00")
     options = vars(parse(["grade", str(tmp_path), "--out", str(tmp_path / "grades"), *words]))
     with pytest.raises(CourseError, match=re.escape(said)):
         COMMANDS["grade"].run(SimpleNamespace(**options))
@@ -87,7 +87,7 @@ def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: s
 
 def test_a_private_part_without_an_exercise(tmp_path: Path) -> None:
     """A private module without a part of its own is refused before anything is graded."""
-    hand_in(tmp_path / "in", "s01", "01")
+    hand_in(tmp_path / "in", "s01", "00")
     private = tmp_path / "private"
     private.mkdir()
     (private / "private_02.py").write_text("import math\n")
