@@ -27,10 +27,10 @@ from course_pkg.checking.parts import chapters
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
+from course_pkg.grading.nbval.validation import validated, wanted
 from course_pkg.grading.plan import Plan, plan
 from course_pkg.grading.rebuild.rebuilder import Rebuilder
 from course_pkg.grading.run.cluster import INTERVAL, Cluster, cluster_of
-from course_pkg.grading.validation import validated, wanted
 from course_pkg.sandbox.worker_client import SandboxWorker
 
 AHEAD = 2  # number of submitted tasks for each running task; this limits the memory that many tasks need

@@ -16,7 +16,7 @@ BASHRC = Path(__file__).with_name("bashrc")
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",
-    "course_pkg.grading.nbval_plugin",
+    "course_pkg.grading.nbval.plugin",
 )
 SANITIZE = Path(__file__).parents[1] / "authoring" / "nbval_sanitize.cfg"
 AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}

@@ -20,7 +20,7 @@ from pathlib import Path
 from course_pkg.authoring.cells import Cell, Notebook, check_of, code_cells
 from course_pkg.authoring.validate import SANITIZE
 from course_pkg.checking.parts import secret_paths
-from course_pkg.grading.nbval_plugin import RECORD
+from course_pkg.grading.nbval.plugin import RECORD
 from course_pkg.sandbox import confinement, namespaces
 from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
@@ -158,7 +158,7 @@ def _cover(path: Path) -> list[str]:
 
 
 def _command(notebook: Path, cell: float) -> list[str]:
-    ours = ("course_pkg.authoring.nbval_figures", "course_pkg.grading.nbval_plugin")
+    ours = ("course_pkg.authoring.nbval_figures", "course_pkg.grading.nbval.plugin")
     plugins = ("nbval.plugin", *ours, "no:cacheprovider")
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval", "--noconftest", "-c", os.devnull),

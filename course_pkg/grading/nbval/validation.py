@@ -11,8 +11,8 @@ import sys
 from dataclasses import replace
 
 from course_pkg.authoring.cells import Notebook, code_cells
-from course_pkg.grading.cell_findings import finding
 from course_pkg.grading.grade import CellOutcome, Grade, Submission
+from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
@@ -46,7 +46,7 @@ def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL)
 
     Returns an empty tuple if the notebook takes more than `timeout` s.
     """
-    command = sandbox_command([sys.executable, "-m", "course_pkg.grading.nbval_process", str(cell)])
+    command = sandbox_command([sys.executable, "-m", "course_pkg.grading.nbval.process", str(cell)])
     with subprocess.Popen(
         command, env={}, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
     ) as process:

@@ -14,7 +14,7 @@ import pytest
 
 from course_pkg.authoring.cells import Notebook
 from course_pkg.checking.parts import parts_of
-from course_pkg.grading.validation import outcomes_of
+from course_pkg.grading.nbval.validation import outcomes_of
 from course_pkg.setup import Places
 
 
@@ -84,7 +84,7 @@ def test_a_kernel_with_damaged_connections_is_ended() -> None:
 
 def plain_nbval(path: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Run pytest for a student's notebook with the course's plug-in."""
-    plugin = ["-p", "course_pkg.grading.nbval_plugin", "-p", "no:cacheprovider"]
+    plugin = ["-p", "course_pkg.grading.nbval.plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "-q", "-c", "/dev/null", "--nbval", *plugin, *words, str(path)]
     return subprocess.run(command, capture_output=True, text=True, cwd=path.parent, timeout=100, check=False)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from course_pkg.grading.cell_findings import OTHER, finding
+from course_pkg.grading.nbval.findings import OTHER, finding
 
 START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
 
