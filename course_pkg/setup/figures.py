@@ -1,6 +1,6 @@
 """Make a kernel show figures of matplotlib as SVG, with the same SVG for the same data.
 
-nbval compares the text of a figure's output, but not the SVG: see authoring/nbval_plugin.py.
+nbval compares the text of a figure's output, but not the SVG: see authoring/nbval_figures.py.
 """
 
 from __future__ import annotations
