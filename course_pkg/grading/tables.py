@@ -1,4 +1,4 @@
-"""Tables that an instructor gives as CSV, as any spreadsheet saves them."""
+"""Reads an instructor's CSV tables in the forms in which spreadsheets save them."""
 
 from __future__ import annotations
 
