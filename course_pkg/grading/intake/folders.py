@@ -46,7 +46,7 @@ def handed_in_nothing(
 
 
 def require_other_folder(source: Path, out: Path) -> None:
-    """Raise GradingError if reports in the folder `out` would be mixed with what students handed in."""
+    """Raise GradingError if reports in the folder `out` would be mixed with submissions."""
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return
     same = out.resolve() == source.resolve()
