@@ -1,8 +1,8 @@
 """The packed source of checks, for the students' edition.
 
-A check compares with expected values, and builds packages around a student's file, so its source contains
-answers. `check()` needs it on the student's computer. Packed, it cannot be read by accident or found by a
-search; it is not protected from a person who unpacks it.
+A check compares values with expected values, and adds its own files to a student's package. So its source
+contains answers, but `check()` needs this source on the student's computer. Students cannot read packed
+source by accident or find it with a search. They can still unpack it on purpose.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import base64
 import textwrap
 import zlib
 
-WIDTH = 100  # characters of a line
+WIDTH = 100  # maximum number of characters of a line
 MODULE = '''"""Packed by `course release`, because the source of a check contains answers."""
 
 from course_pkg.checking.packed import load

@@ -111,7 +111,7 @@ def grade(options: Options) -> int:
 def _print_end(
     out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
 ) -> None:
-    """Print what changed since the last run, what stayed, where the reports are, and the last line."""
+    """Print the changes since the last run, the results that stayed, and the last line."""
     lines = []
     if earlier.grades:
         found = changes(earlier.grades, graded)
@@ -153,12 +153,12 @@ def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Pat
 
 
 def _is_class(source: Path) -> bool:
-    """Return whether all students hand in here; a single notebook says nothing about the other students."""
+    """Return whether the source contains all students' submissions; a single notebook does not."""
     return not (source.is_file() and NOTEBOOK.fullmatch(source.name))
 
 
 def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Grade]) -> ClassList:
-    """Return who handed in something, in this run or an earlier one, and who did not."""
+    """Return the students who have handed in something in this or an earlier run, and the missing ones."""
     there = [each for each in handed_in if not each.nothing and not (isinstance(each, Grade) and each.absent)]
     return lists.matched(origins_of(there), source)
 
@@ -167,7 +167,8 @@ def _dated(
     options: Options, found: Sequence[Submission], lists: Lists, table: LateTable | None
 ) -> list[Submission]:
     """Return the submissions to grade, with their days late."""
-    extensions_of({str(each.line): each for each in lists.roster or ()})  # reports a wrong number early
+    # A wrong number is reported before the grading begins.
+    extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
     due = deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))

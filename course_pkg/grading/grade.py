@@ -46,7 +46,7 @@ class Submission:
     problem: str = ""
     notes: tuple[str, ...] = ()  # notes about an unusual form of the submission
     packages: tuple[Package, ...] = ()
-    attempts: tuple[Submission, ...] = field(default=(), repr=False)  # the earlier ones for this chapter
+    attempts: tuple[Submission, ...] = field(default=(), repr=False)  # the earlier attempts for this chapter
 
     @property
     def nothing(self) -> bool:
@@ -55,7 +55,7 @@ class Submission:
 
     @property
     def digest(self) -> str:
-        """A digest of everything that was handed in."""
+        """A digest of all files of the submission."""
         digest = hashlib.sha256(self.content)
         digest.update(b"\0" + self.chapter.encode() + b"\0" + self.problem.encode())
         for package in self.packages:
@@ -71,7 +71,7 @@ class CellOutcome:
     cell: str
     outcome: str  # "passed", "failed", "skipped"
     finding: str = ""  # a sentence for the student; empty for a cell that passed
-    line: str = ""  # the first line of the cell, which shows the student which cell it is
+    line: str = ""  # the first line of the cell, so that the student recognises the cell
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Grade:
     code: dict[str, str] = field(default_factory=dict)  # the student's code of each part that was examined
     private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
     handed_in: str = ""  # the digest of the submission
-    absent: bool = False  # True: the result of an earlier run, for which nothing was handed in this time
+    absent: bool = False  # whether this is a result of an earlier run without a submission in this run
 
     @property
     def nothing(self) -> bool:

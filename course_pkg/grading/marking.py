@@ -19,7 +19,7 @@ from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
 # Maximum number of runs of a part if its sandbox worker fails, because an answer cannot cause this failure.
-LONGEST_CODE = 20_000  # characters of a part's code that are kept for feedback
+LONGEST_CODE = 20_000  # maximum number of characters of a part's code in the feedback
 TRIES = 2
 
 
@@ -177,7 +177,8 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # The answer can cause this, so it counts as failed: otherwise students could choose this verdict.
+        # An answer can cause this, so the part counts as failed. Otherwise, students could choose this
+        # verdict.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

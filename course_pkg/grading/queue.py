@@ -74,9 +74,9 @@ class Pool:
 
 
 def grade_all(tasks: Iterable[Task], pool: Pool) -> Iterator[tuple[Task, Grade]]:
-    """Yield each of the `tasks` with its grade when it is ready; few more are submitted than can run.
+    """Yield each of the `tasks` with its grade when it is ready; only a few tasks wait in the queue.
 
-    Raises GradingError if the cluster is gone.
+    Raises GradingError if the cluster has ended.
     """
     todo, under_way = deque(tasks), dict[Future[dict[str, Any]], Task]()
     while todo or under_way:

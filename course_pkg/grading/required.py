@@ -1,4 +1,4 @@
-"""What grading compares submissions with: the solution and the fixtures of each chapter."""
+"""The files with which grading compares submissions: the solution and the fixtures of each chapter."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from course_pkg.authoring.notebook_store import NotebookStore
 from course_pkg.checking.parts import chapters, folder_of, notebook_of
 from course_pkg.errors import GradingError
 
-SHOWN = 3  # the most names that the message lists
+SHOWN = 3  # maximum number of names in the message
 
 
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
     """Raise GradingError if a chapter of `asked`, such as "05", lacks its solution or its fixtures.
 
-    The default is every chapter: a submission's chapter is found by a comparison with all solutions, so a
-    missing one would cost all students of that chapter their points. `root` is the checkout.
+    The default is every chapter. The chapter of a submission is found by a comparison with all solutions. So
+    without one of them, all students of this chapter would get no points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:

@@ -46,12 +46,12 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is kept under `key` for this submission, or None if there is none."""
+        """Return the grade that is stored under `key` for this submission, or None if there is none."""
         grade = self.load(key)
         return handed_in(grade, submission) if grade else None
 
     def load(self, key: str) -> Grade | None:
-        """Return the grade that is kept under `key`, which belongs to no student, or None."""
+        """Return the grade that is stored under `key`, without a student, or None."""
         try:
             return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):
@@ -72,7 +72,7 @@ class Store:
             ) from error
 
     def drop(self, key: str) -> None:
-        """Remove what is kept under `key`, so that the next run grades this notebook again."""
+        """Remove the grade that is stored under `key`, so that the next run grades this notebook again."""
         (self._folder / f"{key}.json").unlink(missing_ok=True)
 
     def forget(self) -> None:

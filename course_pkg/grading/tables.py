@@ -1,4 +1,4 @@
-"""Tables that an instructor gives as CSV, as any spreadsheet saves them."""
+"""Reads an instructor's CSV tables in the forms in which spreadsheets save them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
-    """Return the contents of the file at `path`; `what` names it in messages, such as "table of late days".
+    """Return the contents of the file at `path`; messages call it `what`, such as "table of late days".
 
     Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
     spreadsheet.
@@ -50,7 +50,7 @@ def table_rows(path: Path, what: str) -> list[list[str]]:
 
 
 def delimiter_of(text: str) -> str:
-    """Return the character that separates the columns: the most frequent one in the first line."""
+    """Return the separator of the columns, which is the most frequent of three in the first line."""
     first = text.partition("\n")[0]
     return max(",;\t", key=first.count)
 

@@ -1,4 +1,4 @@
-"""`course grade` refuses to start without the solutions that it needs."""
+"""`course grade` does not start if a solution that it needs is missing."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def test_everything_is_there(checkout: Path) -> None:
-    """A complete checkout is not refused."""
+    """With a complete checkout, grading can start."""
     require_references(root=checkout)
 
 
@@ -44,7 +44,7 @@ def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
 
 
 def test_many_missing_files_are_one_message(tmp_path: Path) -> None:
-    """The message lists three files and the number of the others."""
+    """The message lists three files and the number of all other missing files."""
     with pytest.raises(GradingError, match=r"00_start_the_graph\.ipynb.* and 31 more\. "):
         require_references(root=tmp_path)
 

@@ -51,7 +51,7 @@ def notebook() -> bytes:
 
 
 def _graded(source: Path, lists: Lists, out: Path) -> tuple[list[Grade], ClassList]:
-    """Grade what is in `source`: Jane Doe gets 7 of 9 points, all others 9; write the reports."""
+    """Grade the submissions in `source`, with 7 of 9 points for Jane Doe and 9 for all others."""
     found = submissions(source)
     right = [report(check) for check in GOALS if check.startswith("05")]
     wrong = [report("05.1", Verdict.FAILED), *right[1:]]
@@ -193,7 +193,7 @@ def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path
 
 
 def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, notebook: bytes) -> None:
-    """The folders have no names, but the worksheet has: the number alone decides."""
+    """If the folders contain no names, students are found in the worksheet by their numbers."""
     source = folder(tmp_path / "in", {f"Participant_102_assignsubmission_file_/{NAMES['05']}": notebook})
     lists = read_lists(_write(tmp_path / "roster.csv", ROSTER), _write(tmp_path / "sheet.csv", ENGLISH))
     _, found = _graded(source, lists, tmp_path / "out")
@@ -243,7 +243,7 @@ USERS = {
 
 @pytest.mark.parametrize("roster", [ROSTER, CANVAS_EXPORT], ids=["roster.csv", "exported gradebook"])
 def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
-    """Files from Canvas and folders made by hand reach the right users; nobody loses a grade."""
+    """With files from Canvas or folders made by hand, each user gets the right grade."""
     source = folder(
         tmp_path / "in",
         {
@@ -273,14 +273,14 @@ def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
 
 
 def test_canvas_forgets_chapters_of_an_earlier_run(tmp_path: Path) -> None:
-    """A file of a chapter that is no longer graded would be imported by mistake."""
+    """Files of earlier runs are removed, because they could be imported by mistake."""
     write_reports([Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06")], tmp_path)
     write_reports([Grade("s01", "06", (report("06.1"),))], tmp_path)
     assert [path.name for path in (tmp_path / "canvas").iterdir()] == ["06.csv"]
 
 
 def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) -> None:
-    """Canvas would take the first student of that name."""
+    """Students with the same name get no row, because Canvas would use the first of them."""
     twice = "name,id\nSam Smith,21\nSam Smith,22\nJane Doe,17\n"
     lists = read_lists(_write(tmp_path / "roster.csv", twice), None)
     grades = [Grade(name, "05", (report("05.1"),), origin=f"{name}/05.ipynb") for name in ("Sam Smith", "17")]
@@ -293,7 +293,7 @@ def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) ->
 
 
 def test_an_id_that_is_no_number(tmp_path: Path) -> None:
-    """It cannot be a Canvas user id, so it goes into the column SIS User ID."""
+    """An id that cannot be a Canvas user id is written into the column SIS User ID."""
     lists = read_lists(_write(tmp_path / "roster.csv", "name,id\nJane Doe,S17\n"), None)
     grades = [Grade("Jane Doe", "05", (report("05.1"),), origin="Jane Doe/05.ipynb")]
     write_reports(grades, tmp_path / "out", lists.matched(origins_of(grades)))
@@ -301,7 +301,7 @@ def test_an_id_that_is_no_number(tmp_path: Path) -> None:
 
 
 def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
-    """Markup, formulas and control characters in a roster stay text; the page is complete."""
+    """Markup, formulas and control characters in a roster are shown as text, and the page is complete."""
     cells = ["<script>alert(1)</script>", "=cmd()", "\x1b[31mred\u202e", "@sum"]
     path = tmp_path / "roster.csv"
     with path.open("w", newline="") as file:
@@ -319,7 +319,7 @@ def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("with_roster", [False, True])
 def test_gradescope(tmp_path: Path, notebook: bytes, with_roster: bool) -> None:
-    """An export with a group comes back as results.json and as a table, with who the students are."""
+    """For an export with a group, results.json and a table are written with the students' identities."""
     source = folder(
         tmp_path / "in",
         {

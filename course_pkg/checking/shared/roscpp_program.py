@@ -17,15 +17,15 @@ STARTS = re.compile(
 NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
 # Instructions that enter the kernel without a function of a library, on x86 and ARM.
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
-LINES = 2000  # limit for the output of readelf; a program of a student has about 400 symbols
+LINES = 2000  # maximum number of lines of readelf's output; a student's program has about 400 symbols
 
 
 def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
     """Assert that the file `program` in `folder` is a compiled program of roscpp that works by itself.
 
-    A program in another language could otherwise answer instead: C++ code can start it (exec(3)), and a
-    CMakeLists.txt can write a script in place of the program. Raises ToolMissing without binutils, which a
-    compiler brings along. A report shows these assertions only if they fail.
+    Otherwise, a program in another language could respond instead: C++ code can start such a program
+    (exec(3)), and a CMakeLists.txt can write a script in place of the program. Raises ToolMissing if binutils
+    is missing; it is usually installed with a compiler. A report shows these assertions only if they fail.
     """
     path = shlex.quote(program)
     seen = folder.command(

@@ -1,1 +1,1 @@
-"""Deadlines: when a submission was handed in, when it was due, how late it is, and which attempt counts."""
+"""Deadlines: the times of submissions, how late they are, and the choice of the attempt that counts."""

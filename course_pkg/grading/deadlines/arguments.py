@@ -1,4 +1,4 @@
-"""The command-line arguments about deadlines; it imports only the standard library."""
+"""The command-line arguments about deadlines. This module imports only the standard library."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def add_deadline_arguments(parser: ArgumentParser) -> None:
-    """Add the options that decide how late a submission is, what this costs, and which attempt counts."""
+    """Add the options for deadlines, for the deduction of points, and for the attempt that counts."""
     group = parser.add_argument_group("deadlines")
     group.add_argument(
         "--deadline",
@@ -63,6 +63,8 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         "--attempts",
         choices=("last", "best"),
         default="last",
-        help="which one counts if a student has handed in a chapter several times: the last one (default), "
-        "or the one with the most points after lateness is taken off",
+        help=(
+            "the attempt that counts if a student has handed in a chapter several times: the last attempt "
+            "(default), or the attempt with the most points after the deduction for lateness"
+        ),
     )

@@ -10,7 +10,7 @@ from course_pkg.grading.tables import table_rows
 
 @dataclass(frozen=True)
 class Row:
-    """A row: its values by the name of the column in small letters, and its place for messages."""
+    """The values of a row by the names of the columns in small letters, and its place for messages."""
 
     where: str  # such as "times.csv, line 3"
     values: dict[str, str]

@@ -17,16 +17,16 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines by chapter; "" holds for each chapter without a deadline of its own."""
+    """The deadlines by chapter; the key "" is for each chapter without its own deadline."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
     extensions: Extensions = field(default_factory=Extensions)
 
     def due(self, student: str, chapter: str) -> datetime | None:
-        """Return when a student had to hand in a chapter, without the grace period; None for no deadline.
+        """Return a student's deadline for a chapter, without the grace period, or None if there is none.
 
-        A day of an extension ends at the same time of day, even if the clocks change between.
+        With an extension, the deadline is at the same time of day, even if the clocks change in between.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:
@@ -48,7 +48,7 @@ def deadlines(
     """Return the deadlines of the options --deadline and --grace-minutes.
 
     Each of `given` is a time, or a chapter and its time, such as 05=2026-11-01T23:59+01:00. Raises
-    GradingError if one has no time zone, is not a time, or is given twice.
+    GradingError if a deadline has no time zone, is not a time, or is given twice.
     """
     if grace_minutes and not given:
         raise GradingError("--grace-minutes needs a deadline. Give it with --deadline TIME.")

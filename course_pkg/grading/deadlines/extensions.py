@@ -10,12 +10,12 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.roster.people import Person
 
 COLUMN = "extension_days"
-FOLDED = "extension days"  # the roster writes the names of further columns in this way
+FOLDED = "extension days"  # the form in which the roster stores the name of this column
 
 
 @dataclass(frozen=True)
 class Extensions:
-    """The days by which the deadline of a student is later, by the name of the student in the grades."""
+    """The additional days of each student, by the student's name in the grades."""
 
     by_student: Mapping[str, float] = field(default_factory=dict)
 
@@ -25,7 +25,7 @@ class Extensions:
 
 
 def extensions_of(people: Mapping[str, Person]) -> Extensions:
-    """Return the extensions of students, who are found in the roster; an empty cell is no extension.
+    """Return the extensions of the students in the roster; an empty cell means no extension.
 
     Raises GradingError if a value is not a number of days.
     """

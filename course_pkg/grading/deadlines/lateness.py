@@ -1,4 +1,4 @@
-"""How late each submission is, and which of several attempts counts."""
+"""Computes how late each submission is, and chooses the attempt that counts."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run, and a function that finds when a submission was handed in."""
+    """The deadlines of a run, and a function that returns the time of a submission."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
@@ -24,7 +24,7 @@ class Lateness:
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
         """Return the submissions with their days late.
 
-        Raises GradingError if there is a deadline and the time of no submission is known.
+        Raises GradingError if there is a deadline, but no submission has a known time.
         """
         found = [self._dated(each) for each in submissions]
         due = [each for each in found if self._due(each) is not None]
@@ -59,10 +59,10 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return the attempts that are graded: all of them if the best one counts, else the last ones.
+    """Return the attempts that are graded: all attempts if the best counts, or else the last attempts.
 
-    The last attempt is the one with the latest time, if the times of all are known and differ. Otherwise it
-    is the one with the highest number, or the newest file.
+    If the times of all attempts are known and different, the last attempt has the latest time. Otherwise, it
+    has the highest number or the newest file.
     """
     chosen = []
     for each in submissions:
@@ -77,7 +77,7 @@ def attempts_to_grade(
 
 
 def best_attempts(grades: Sequence[Grade]) -> list[Grade]:
-    """Return one grade for each student and chapter: the one with the most points, else the later one."""
+    """Return one grade for each student and chapter: the grade with the most points, or the later of two."""
     by_chapter: dict[tuple[str, str, str], list[Grade]] = {}
     for grade in grades:
         by_chapter.setdefault((grade.student, grade.chapter, grade.chapter or grade.origin), []).append(grade)
@@ -95,7 +95,7 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 
 
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
-    """Return the last of a student's attempts, of which `given` has the one with the highest rank last."""
+    """Return the last of a student's attempts; `given` contains the attempts in the order of their rank."""
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]
     if len(set(stamps)) < len(given):

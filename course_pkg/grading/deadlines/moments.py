@@ -1,4 +1,4 @@
-"""Read a point in time in the forms that platforms write it in."""
+"""Read points in time in the formats of the platforms."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ISO = re.compile(
 )
 OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-# "Sunday, 1 November 2026, 11:59 PM", or with the month first; Moodle writes both
+# "Sunday, 1 November 2026, 11:59 PM", or with the month first. Moodle writes both forms.
 WRITTEN = re.compile(
     r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
     r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",
@@ -24,7 +24,7 @@ WRITTEN = re.compile(
 
 
 def zone_of(name: str) -> tzinfo:
-    """Return the time zone "Europe/Berlin", "UTC" or "+01:00"; raise GradingError if there is none."""
+    """Return a time zone such as "Europe/Berlin" or "+01:00"; raise GradingError for an unknown name."""
     if found := OFFSET.fullmatch(name):
         minutes = int(found[2]) * 60 + int(found[3])
         return timezone(timedelta(minutes=-minutes if found[1] == "-" else minutes))
@@ -39,10 +39,10 @@ def zone_of(name: str) -> tzinfo:
 
 
 def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
-    """Return the point in time that `text` names, or None if it names none.
+    """Return the point in time in `text`, or None if `text` is not a point in time.
 
-    `zone` is the zone of a text without a zone of its own. None is returned if such a text has no zone. If
-    the clock was put back, so that a time occurred twice, the first of the two is returned.
+    `zone` is the time zone of a text that contains no zone. If there is no zone at all, the result is None.
+    If a time occurred twice, because the clock was put back, the result is the first of the two times.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):

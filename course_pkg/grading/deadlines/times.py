@@ -1,4 +1,4 @@
-"""When a submission was handed in: from a table, or from the files that a platform adds to its download.
+"""Finds the time of a submission in a table, or in the files that a platform adds to its download.
 
 times.csv                    student,submitted, or with the columns chapter and file; one in the folder of the
                              submissions, as `course collect` writes it, is used without an option
@@ -40,11 +40,11 @@ When = Callable[[Submission], datetime | None]
 
 
 def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
-    """Return a function that finds when a submission was handed in, or None if this is not known.
+    """Return a function that returns the time of a submission, or None if the time is not known.
 
-    `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "" for times.csv in
-    the folder of the submissions, else Gradescope's metadata. `zone` is the zone of the times in a table that
-    contain none. Raises GradingError if the table cannot be used.
+    `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "". With "", the times
+    come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` is the time
+    zone of times that contain no zone. Raises GradingError if the table cannot be used.
     """
     if not option and (source / TIMES).is_file():
         option = str(source / TIMES)
@@ -67,7 +67,7 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
 
 @dataclass(frozen=True)
 class _Entry:
-    """A row of a table: a time for a chapter and a file; either of them may be empty, for all."""
+    """A row of a table: a time for a chapter and a file. An empty chapter or file means all of them."""
 
     chapter: str
     file: str
@@ -76,7 +76,7 @@ class _Entry:
 
 @dataclass(frozen=True)
 class _Table:
-    """The rows by student. The latest of the submission's files counts, because all of them are graded."""
+    """The rows by student. The latest file of a submission counts, because all its files are graded."""
 
     rows: Mapping[str, Sequence[_Entry]]
 
@@ -100,7 +100,7 @@ def _has(submission: Submission, file: str) -> bool:
 
 
 def _paths(origin: str, student: str) -> tuple[str, ...]:
-    """Return a path in the submissions as it is, and below the folder of its student."""
+    """Return a path in the submissions unchanged, and relative to the folder of its student."""
     parts = origin.split("/")
     place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
     return (origin,) if place is None else (origin, "/".join(parts[place + 1 :]))
@@ -108,7 +108,7 @@ def _paths(origin: str, student: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Worksheet:
-    """Times by the number of Moodle's participant."""
+    """The times of submissions by Moodle's participant numbers."""
 
     times: Mapping[str, datetime]
 
@@ -144,7 +144,7 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
 
 
 def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
-    """Return the time in a row; a message quotes nothing, because any column may hold a name."""
+    """Return the time in a row; a message quotes no cell, because each cell may be a name."""
     moment = moment_of(written, zone)
     if moment is not None:
         return moment
@@ -161,7 +161,7 @@ def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
 
 @dataclass
 class _Gradescope:
-    """Times in the metadata beside the folders submission_NNN, which no student can write."""
+    """The times in Gradescope's metadata, which students cannot change."""
 
     source: Path
     known: dict[str, dict[str, datetime]] = field(default_factory=dict)
@@ -186,7 +186,7 @@ class _Gradescope:
 
 @dataclass
 class _Nbgrader:
-    """Times in timestamp.txt, which `nbgrader submit` writes with the rights of the student."""
+    """The times in timestamp.txt; `nbgrader submit` writes this file, and the student can change it."""
 
     source: Path
 

@@ -1,4 +1,4 @@
-"""Folders without a submission: those of students who handed in nothing, and those with reports."""
+"""Folders without a submission: empty folders of students, and folders with reports."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-DEPTH = 3  # folders: two that a platform adds, and the folder of the student
+DEPTH = 3  # nested folders: two folders that a platform adds, and the folder of the student
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
 
@@ -25,7 +25,7 @@ def handed_in_nothing(
     """Return a submission with a problem for each student whose folder contains no file.
 
     `source` is a folder or a zip, `files` are the paths in it, and `outer` is the number of folders around
-    all students' folders. The folders `reports`, paths inside of `source`, belong to no student.
+    all students' folders. `reports` are the paths of folders in `source` that belong to no student.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}
@@ -46,7 +46,7 @@ def handed_in_nothing(
 
 
 def require_other_folder(source: Path, out: Path) -> None:
-    """Raise GradingError if reports in the folder `out` would be mixed with what students handed in."""
+    """Raise GradingError if reports in the folder `out` would be mixed with submissions."""
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return
     same = out.resolve() == source.resolve()
@@ -59,7 +59,7 @@ def require_other_folder(source: Path, out: Path) -> None:
 def report_folders(source: Path, out: Path | None) -> list[str]:
     """Return the folders inside of `source` that contain reports: `out`, and those of other runs.
 
-    They are paths with / between the names. A message on stderr names those of other runs.
+    The paths have / between the names. A message on stderr contains the folders of other runs.
     """
     own = _path_inside(source, out)
     others = []
@@ -108,7 +108,7 @@ def _folders(source: Path) -> Iterator[tuple[str, ...]]:
 def _below(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     try:
         inside = [item for item in os.scandir(folder) if item.is_dir(follow_symlinks=False)]
-    except OSError:  # the list of files has a message about it
+    except OSError:  # the list of files contains a message about this error
         return
     for item in inside:
         if not is_litter((item.name,)):

@@ -27,7 +27,7 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
-TIMES = "times.csv"  # `course collect` writes it beside the students' folders
+TIMES = "times.csv"  # `course collect` writes it next to the students' folders
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
 # Some systems add .txt or .json.
@@ -119,7 +119,7 @@ def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
 
 
 def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
-    """Return what the metadata of an export says about each folder.
+    """Return the metadata of an export for each folder.
 
     Raises GradingError if the metadata cannot be read.
 

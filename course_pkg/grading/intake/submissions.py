@@ -58,13 +58,13 @@ class _Found:
 def submissions(
     source: Path, chapters: Sequence[str] = (), root: Path | None = None, without: Path | None = None
 ) -> list[Submission]:
-    """Return what was handed in for `chapters`, or for all of them, in the order of students and chapters.
+    """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, what a platform offers for download (see
-    naming.py), or one notebook; `root` is the checkout with the solutions. Nothing in the folder `without`
-    was handed in, and nothing in a folder with the reports of an earlier run. A file that cannot be used
-    becomes a submission with a `problem`, and so does a student's folder without any file; GradingError is
-    raised only when `source` can be neither listed nor opened.
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
+    or one notebook. `root` is the checkout with the solutions. The folder `without`, and folders with reports
+    of earlier runs, contain no submissions. A file that cannot be used becomes a submission with a `problem`,
+    and so does a student's folder without any file; GradingError is raised only when `source` can be neither
+    listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
@@ -149,12 +149,12 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 
 
 def _is_metadata(entry: Entry, outer: int) -> bool:
-    """Return whether Gradescope wrote the file; a file in a student's own folder is the student's."""
+    """Return whether Gradescope wrote the file, and not a student: it is not in a student's own folder."""
     return unwrapped(_inside(entry), outer) == (METADATA,)
 
 
 def _unwrapped(entries: Sequence[Entry], outer: int, submitters: dict[str, list[str]]) -> Iterator[_File]:
-    """Yield each file with its student, without the folders around all of them."""
+    """Yield each file with its student; its path begins with the student's folder."""
     for entry in entries:
         path = unwrapped(_inside(entry), outer)
         if path != (TIMES,) and not (submitters and _is_metadata(entry, outer)):

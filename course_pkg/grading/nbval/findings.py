@@ -8,7 +8,7 @@ COLOUR = re.compile(r"\x1b\[[\d;]*m")
 RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILINE)
 OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
 LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
-SENTENCES = (  # a text that nbval 0.11 or pytest writes, and what it means
+SENTENCES = (  # a text that nbval 0.11 or pytest writes, and its meaning for a student
     ("Missing output fields", "The cell showed no output, or less output than with the right answers."),
     ("Unexpected output fields", "The cell showed more output than with the right answers."),
     (

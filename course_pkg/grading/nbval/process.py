@@ -26,7 +26,7 @@ from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
 from course_pkg.waiting import Deadline, at_this_load
 
-SILENCE = 15.0  # s beyond the time limit of a cell: nbval waits for its output, and ends the kernel
+SILENCE = 15.0  # s after the time limit of a cell, in which nbval waits for output and ends the kernel
 TOGETHER = 2 * confinement.TOGETHER  # memory limit in bytes for pytest and all nodes of a chapter
 KERNEL = "sandboxed"
 OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was its name in the first edition
@@ -60,7 +60,7 @@ def main() -> None:
 
 
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
-    """Run `command`; kill it, and all below it, if it uses too much memory or `record` stops growing.
+    """Run `command`; kill its processes if they use too much memory, or if `record` stops growing.
 
     Returns whether `record` did not grow for `silence` s. nbval itself has no limit for a kernel whose
     connections are damaged.

@@ -18,7 +18,7 @@ from course_pkg.sandbox.bubblewrap import sandbox_command
 
 CELL = 40  # s on an idle machine; with this limit, a cell that blocks the kernel costs less than 60 s
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
-LINE = 100  # characters of a cell's first line
+LINE = 100  # maximum number of characters of a cell's first line
 OUTPUT = 8 << 20  # bytes of the output
 
 

@@ -49,12 +49,12 @@ class Book:
             self._by_student[grade.student].append(grade)
 
     def person(self, student: str) -> Person | None:
-        """Return who a student is, or None if only the name of the folder is known."""
+        """Return the identity of a student, or None if only the name of the folder is known."""
         return self.class_list.people.get(student)
 
     @property
     def identified(self) -> list[str]:
-        """The students whom a platform can identify; others get no row in a file for a platform."""
+        """The students whom a platform can identify; other students get no row in a file for a platform."""
         return [student for student in self.students if student and student not in self.class_list.unclear]
 
     def of(self, student: str) -> list[Grade]:
@@ -107,7 +107,7 @@ def about_lateness(grade: Grade) -> str:
 
 
 def _duration(days: float) -> str:
-    """Return a time as a report shows it: "2 days", "3.5 hours", "10 minutes"; nothing is shown as 0."""
+    """Return a time as a report shows it: "2 days", "3.5 hours", "10 minutes"; a time is never shown as 0."""
     units = ((days, "day"), (days * 24, "hour"), (days * 24 * 60, "minute"))
     value, unit = next((each for each in units if each[0] >= 1), units[-1])
     shown = points(max(value, 0.01) if unit == "day" else max(1.0, round(value, 1)))
@@ -141,7 +141,7 @@ def not_handed_in(book: Book, student: str) -> str:
 
 def notes(book: Book, student: str) -> list[str]:
     """Return notes about unusual notebooks of a student that need no attention."""
-    known = (ABSENT, NO_TIME)  # attention() has a sentence about each
+    known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))
 

@@ -1,4 +1,4 @@
-"""What the reports show of the roster: who is missing, who is not on it, and who could not be identified."""
+"""The part of the reports about the roster: students who are missing, unknown or not identified."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ values = attrgetter(*FIELDS)
 
 
 def about_identity(book: Book, student: str) -> list[str]:
-    """Return why a student could not be found in the lists of the instructor."""
+    """Return the reasons why a student was not found in the instructor's lists."""
     known = book.class_list
     reason = known.unclear.get(student, "")
     return [
@@ -33,13 +33,13 @@ def identity_cells(person: Person | None) -> list[str]:
 
 
 def lead(book: Book) -> str:
-    """Return a sentence about the roster for the beginning of the class's page; nothing without a roster."""
+    """Return a sentence about the roster for the top of the class's page, or "" without a roster."""
     known = book.class_list
     return f"{known.found} of {len(known.roster)} students of the roster handed in." if known.roster else ""
 
 
 def section(book: Book) -> Iterator[str]:
-    """Yield the part of the class's page about the roster; nothing if the instructor gave no list."""
+    """Yield the part of the class's page about the roster, if the instructor has given a list."""
     known = book.class_list
     if not known.given:
         return

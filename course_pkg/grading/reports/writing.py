@@ -14,8 +14,8 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# These reports also contain empty folders, and results for which nothing was handed in this time. A platform
-# keeps its own points for a student whom the other files leave out.
+# These reports also contain empty folders, and earlier results without a new submission. The other files
+# leave such students out, so that a platform keeps its own points.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
 # A platform has one score for these reports, so they contain only the chapters of this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
@@ -29,8 +29,8 @@ def write_reports(
 ) -> None:
     """Write every report about `grades` into the folder `out`.
 
-    `class_list` tells who the students are, and who is missing. `chapters` are those that this run graded, or
-    none for all of `grades`.
+    `class_list` contains the students' identities and the missing students. `chapters` are the chapters of
+    this run; an empty list means all chapters of `grades`.
 
     Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
     such a module.

@@ -1,1 +1,1 @@
-"""The class list of an instructor, Moodle's grading worksheet, and which submission belongs to which row."""
+"""The class list of an instructor, Moodle's grading worksheet, and the search for a student's row."""

@@ -14,20 +14,20 @@ from course_pkg.grading.roster.people import Person, labels, read_roster
 from course_pkg.grading.roster.worksheet import Participant, Worksheet, read_worksheet
 
 ROSTER, WORKSHEET = "the roster", "Moodle's worksheet"
-SHOWN = 10  # the most names in one sentence
-Origins = Mapping[str, Sequence[str]]  # the paths of what a student handed in, by student
+SHOWN = 10  # maximum number of names in one sentence
+Origins = Mapping[str, Sequence[str]]  # the paths of the files that each student handed in
 
 
 @dataclass(frozen=True)
 class ClassList:
-    """What is known about the students of the submissions; empty without a roster and a worksheet."""
+    """The identities of the students of the submissions; empty without a roster and a worksheet."""
 
     people: Mapping[str, Person] = field(default_factory=dict)  # by student
     roster: tuple[Person, ...] | None = None
-    found: int = 0  # students of the roster who handed in
-    missing: tuple[Person, ...] = ()  # on the roster, but handed in nothing
+    found: int = 0  # number of students of the roster who have handed in a submission
+    missing: tuple[Person, ...] = ()  # students of the roster who have handed in nothing
     strangers: tuple[str, ...] = ()  # students who are not on the roster
-    unclear: Mapping[str, str] = field(default_factory=dict)  # why a student was not found, by student
+    unclear: Mapping[str, str] = field(default_factory=dict)  # for each student who was not found, the reason
     worksheet: Worksheet | None = None
     participants: Mapping[str, Participant] = field(default_factory=dict)  # of the worksheet, by student
     unlisted: tuple[str, ...] = ()  # students who are not in the worksheet
@@ -38,7 +38,7 @@ class ClassList:
         return self.roster is not None or self.worksheet is not None
 
     def summary(self) -> Iterator[str]:
-        """Yield sentences for the terminal: who is missing, who is not on a list, and what is unclear."""
+        """Yield sentences for the terminal about students who are missing, not on a list, or unclear."""
         if self.roster is not None:
             yield f"Roster: {self.found} of {len(self.roster)} students handed in."
             yield from _counted("handed in nothing", "handed in nothing", list(labels(self.missing)))
@@ -76,7 +76,7 @@ class Lists:
     worksheet: Worksheet | None = None
 
     def matched(self, origins: Origins, source: Path | None = None) -> ClassList:
-        """Return who the students of the submissions are.
+        """Return the identities of the students of the submissions.
 
         `source` is the folder or the zip of all submissions, in which Gradescope's metadata may be.
         """
@@ -127,14 +127,14 @@ class _Search:
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        self.lines: set[int] = set()  # that belong, or may belong, to a student
+        self.lines: set[int] = set()  # the lines that belong, or may belong, to a student
 
     def decided(self, student: str) -> bool:
-        """Return whether the row of a student was found, or is known to be unclear."""
+        """Return whether the search for a student has ended: the row was found, or it is unclear."""
         return student in self.found or student in self.unclear
 
     def search(self, student: str, known: Person | None, text: str) -> None:
-        """Search the row of a student from what is known, and from the name of the folder."""
+        """Search the row of a student with the known fields, and with the name of the folder."""
         match = self._people.find(known or Person(), text)
         if match.person:
             self.found[student] = match.person
@@ -144,7 +144,7 @@ class _Search:
             self.lines |= match.possible
 
     def refuse_shared(self) -> None:
-        """Take back a row that several students fit: only the instructor knows whose it is."""
+        """Remove a row that fits several students, because only the instructor can decide whose row it is."""
         by_line: dict[int, list[str]] = {}
         for student, person in self.found.items():
             by_line.setdefault(person.line, []).append(student)
@@ -160,7 +160,7 @@ class _Search:
 
 
 def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
-    """Return the paths of what each student handed in, inside the folder or the zip of all submissions."""
+    """Return the paths of each student's files inside the folder or the zip of all submissions."""
     origins: dict[str, list[str]] = {}
     for each in handed_in:
         origins.setdefault(each.student, []).append(each.origin)
@@ -168,7 +168,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 
 
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
-    """Return what the platforms tell about the students, from the names of their files and folders.
+    """Return the data about students in the names of files and folders that platforms choose.
 
     `nameless` is the word that Moodle writes in place of a name if submissions are anonymous.
     """

@@ -1,7 +1,7 @@
-"""A CSV file in which single cells can be changed, while all other bytes stay as they are.
+"""A CSV file in which single cells can be changed without a change of any other byte.
 
-The csv module returns the values of cells, not how they were written: quotes, line ends and the byte order
-mark would be lost. Format: RFC 4180, with any one character as the separator.
+The csv module returns only the values of cells, so quotes, line endings and the byte order mark would be
+lost. The format is RFC 4180, with any character as the separator.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ BREAK = r"\r\n|\n|\r"
 
 @dataclass
 class Record:
-    """One record; `cells` are as written, `end` is the line break after them, `line` is where it begins."""
+    """One record: `cells` as in the file, the line break `end` after them, and its line number."""
 
     cells: list[str]
     end: str
@@ -42,8 +42,8 @@ class Record:
 def records(text: str, separator: str) -> Iterator[Record]:
     """Yield the records of a CSV file.
 
-    PHP, in which Moodle is written, does not double a quote after a backslash. So a quote ends a cell only
-    before a separator or a line break.
+    Moodle is written in PHP, which does not double a quote after a backslash. So a quote ends a cell only if
+    a separator or a line break follows.
     """
     ends = rf"{re.escape(separator)}|{BREAK}|\Z"
     cell = re.compile(
@@ -64,5 +64,5 @@ def records(text: str, separator: str) -> Iterator[Record]:
 
 
 def text_of(found: list[Record], separator: str) -> str:
-    """Return the text of the records; if no cell was changed, it is the text that was read."""
+    """Return the text of the records; if no cell was changed, this is the original text."""
     return "".join(separator.join(record.cells) + record.end for record in found)

@@ -1,4 +1,4 @@
-"""The students of an export from Gradescope, with all that its metadata contains about them."""
+"""The students of an export from Gradescope, with all data about them in its metadata."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.grading.roster.people import Person
 
 
 def gradescope_people(source: Path) -> dict[str, Person]:
-    """Return the students by the names that grading gives to them; no metadata gives no students.
+    """Return the students by their names in the grades; the result is empty without metadata.
 
     `source` is a folder or a zip.
     """
@@ -22,7 +22,7 @@ def gradescope_people(source: Path) -> dict[str, Person]:
             for entry in entries:
                 if entry.parts[-1:] == (METADATA,) and len(entry.parts) < 3:
                     found |= _people(entry.read())
-    except GradingError:  # grading itself reports what cannot be read
+    except GradingError:  # grading itself reports files that cannot be read
         return found
     return found
 

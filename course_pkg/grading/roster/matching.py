@@ -1,7 +1,7 @@
-"""Find the row of a list that belongs to a student, from all that a submission shows; nothing is guessed.
+"""Find the row of a list that belongs to a student, from the data in a submission, without guesses.
 
-Every piece of evidence (a number, an address, a name) proposes the rows that it fits. The student is found
-only if exactly one row fits all of the evidence that fits any row.
+Each known field (a number, an address, a name) proposes the rows that it fits. A field that fits no row is
+ignored. The student is found only if exactly one row fits all other fields.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from course_pkg.grading.roster.people import IDENTITY, Person
 
 @dataclass(frozen=True)
 class Match:
-    """The row that belongs to a student; if there is none, `problem` says what is unclear, if anything."""
+    """The row that belongs to a student. If it is unclear, `problem` contains the reason."""
 
     person: Person | None = None
     problem: str = ""
-    possible: frozenset[int] = frozenset()  # the lines that it may be, if it is unclear
+    possible: frozenset[int] = frozenset()  # the lines of the possible rows, if it is unclear
 
 
 class People:
@@ -56,7 +56,7 @@ class People:
         for key in IDENTITY:
             yield self._fitting(key, getattr(known, key))
         yield self._fitting("name", known.name)
-        # Moodle's number identifies a participant of one assignment. Some rosters hold it as the id.
+        # Moodle's number identifies a participant of one assignment. Some rosters contain it as the id.
         yield self._fitting("number", known.number) or {
             place
             for place in self._fitting("id", known.number)

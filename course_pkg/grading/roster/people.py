@@ -21,7 +21,7 @@ from course_pkg.grading.tables import table_rows
 
 WHAT = "roster"
 FIRST, LAST = "first name", "last name"
-IDENTITY = ("id", "email", "username")  # no two students may share one of these
+IDENTITY = ("id", "email", "username")  # each value of these fields may belong to only one student
 FIELDS = ("name", *IDENTITY, "section")
 ALIASES = {
     "name": ("name", "full name", "student", "student name"),
@@ -38,15 +38,15 @@ NO_STUDENTS = ("Points Possible", "Student, Test")
 
 @dataclass(frozen=True)
 class Person:
-    """A student, as a roster or a platform knows them; a field that is not known is empty."""
+    """The data about a student in a roster or on a platform; an unknown field is empty."""
 
     name: str = ""
     id: str = ""  # for Canvas, the Canvas user id; for Gradescope, the student number (SID)
     email: str = ""
     username: str = ""
     section: str = ""
-    number: str = ""  # by which Moodle identifies a participant of one assignment, such as "12345"
-    line: int = 0  # of the file; 0 if the person comes from no file
+    number: str = ""  # the number of a participant of one assignment in Moodle, such as "12345"
+    line: int = 0  # the line in the file; 0 if the person is not from a file
     more: Mapping[str, str] = field(default_factory=dict)  # further columns, by their names in small letters
 
     @property
@@ -56,7 +56,7 @@ class Person:
         return next(filter(None, known), f"line {self.line}")
 
     def completed(self, other: Person) -> Person:
-        """Return this person; a field that is empty here is taken from `other`."""
+        """Return this person, with the fields of `other` in place of empty fields."""
         gaps = {key: getattr(other, key) for key in (*FIELDS, "number") if not getattr(self, key)}
         return replace(self, **gaps)
 
@@ -65,8 +65,8 @@ def read_roster(path: Path) -> tuple[Person, ...]:
     """Return the students in the CSV file at `path`, in its order.
 
     Raises GradingError if the file cannot be read, names none of the columns, names a column twice, or has a
-    row that identifies nobody or the same student as another row. A message quotes no cell, because any cell
-    may hold a name.
+    row that identifies no student, or the same student as another row. A message quotes no cell, because each
+    cell may be a name.
     """
     lines = table_rows(path, WHAT)
     head = [_plain(name) for name in lines[0]] if lines else []
@@ -120,7 +120,7 @@ def _person(
 
 
 def _refuse_twice(file: str, people: Sequence[Person]) -> None:
-    """Refuse an id, email or username of two students; two students may have the same name."""
+    """Raise GradingError if two students have the same id, email or username; names may be the same."""
     for key in IDENTITY:
         seen: dict[str, int] = {}
         for person in people:

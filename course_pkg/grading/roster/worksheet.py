@@ -30,7 +30,7 @@ from course_pkg.grading.roster.people import Person
 from course_pkg.grading.tables import delimiter_of, table_bytes
 
 WHAT = "grading worksheet"
-LARGEST = 50_000_000  # bytes: the column "Online text" contains whole submissions
+LARGEST = 50_000_000  # maximum bytes; the column "Online text" contains whole submissions
 IDENTIFIER, GRADE, MAXIMUM, SCALE = "Identifier", "Grade", "Maximum grade", "Scale"
 OPEN, FEEDBACK = "Grade can be changed", "Feedback comments"
 NAME, EMAIL, USERNAME, ID = "Full name", "Email address", "Username", "ID number"
@@ -77,14 +77,14 @@ AGAIN = "Download the grading worksheet again from Moodle, and do not open it in
 class Participant:
     """A row of the worksheet."""
 
-    place: int  # among the records of the file
+    place: int  # index in the records of the file
     person: Person
-    locked: bool  # Moodle ignores a grade for it
+    locked: bool  # whether Moodle ignores a new grade for this participant
     maximum: float | None  # points; None if the worksheet does not contain it
 
 
 class Worksheet:
-    """A worksheet as it was read; the changes go into a copy."""
+    """A worksheet that was read from a file; changes are made in a copy."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -111,14 +111,14 @@ class Worksheet:
 
     @property
     def about_points(self) -> str:
-        """What happens to the points, as the end of a sentence."""
+        """The end of a sentence that says whether the points are scaled."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})
         return f"; the points are scaled to Moodle's maximum grade of {' or '.join(maxima)}" if maxima else ""
 
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
-        """Return the file with the grade and the feedback (HTML) of some participants, by their place.
+        """Return a copy of the file with the grades and feedback (HTML) of some participants, by their place.
 
         All other bytes of the file are unchanged. A grade is a number such as "7.5"; it gets a decimal comma
         if the maximum grade of its row has one.
@@ -182,7 +182,7 @@ def read_worksheet(path: Path) -> Worksheet:
     except UnicodeDecodeError as error:
         raise GradingError(f"The {WHAT} {path.name} is not in UTF-8, as Moodle writes it. {AGAIN}") from error
     separator = delimiter_of(text)
-    # the byte order mark stays where it is: before the name of the first column
+    # The byte order mark stays in its place, before the name of the first column.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

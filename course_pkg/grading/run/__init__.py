@@ -1,1 +1,1 @@
-"""One run of `course grade`: what it selects, where it runs, which results stay, and what it prints."""
+"""One run of `course grade`: its selection, its cluster, the results that stay, and its output."""

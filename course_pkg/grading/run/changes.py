@@ -1,4 +1,4 @@
-"""What changed since the last run: the points of each part before and after."""
+"""The changes since the last run: the points of each part before and after."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import name_of, points
 
 FILE = "changes.csv"
-SHOWN = 40  # lines; changes.csv contains all of them
+SHOWN = 40  # maximum number of printed lines; changes.csv contains all changes
 
 
 @dataclass(frozen=True)
 class Change:
-    """Points that are not what they were in the last run; `part` is "total" if only lateness changed them."""
+    """Points that differ from the last run; `part` is "total" if only the lateness has changed."""
 
     student: str
     chapter: str
@@ -63,7 +63,7 @@ def write_changes(found: Sequence[Change], out: Path) -> None:
 
 
 def described(found: Sequence[Change], out: Path) -> list[str]:
-    """Return the lines that a run prints about `found`."""
+    """Return the lines that a run prints about the changes `found`."""
     if not found:
         return ["No points have changed since the last run."]
     lines = ["Points that have changed since the last run:", *(f"  {each}" for each in found[:SHOWN])]

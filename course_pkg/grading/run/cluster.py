@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`: wait for its workers, and notice if they are gone."""
+"""The dask cluster of `course grade --scheduler`: waits for its workers, and notices if they have ended."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from course_pkg.errors import GradingError
 if TYPE_CHECKING:
     from distributed import Client
 
-PATIENCE = 20.0  # s in which a scheduler has to answer, and in which one worker has to be connected
-INTERVAL = 1.0  # s between two looks at the workers while all tasks are under way
+PATIENCE = 20.0  # s in which a scheduler has to respond, and a worker has to connect
+INTERVAL = 1.0  # s between two polls of the workers after all tasks were submitted
 AGAIN = "The finished grades are kept. Correct this problem, and type the same command again."
 
 
 class Cluster:
     """An executor of a dask cluster, with the number of its threads.
 
-    `require` raises GradingError if the scheduler is gone, or if it has had no worker for `patience` s.
+    `require` raises GradingError if the scheduler has ended, or if it has had no worker for `patience` s.
     """
 
     def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
@@ -43,13 +43,13 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions of a task that the cluster could not run; `explained` says what each means."""
+        """The exceptions of a task that the cluster could not run; `explained` returns their meaning."""
         from distributed.scheduler import KilledWorker
 
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return what one of the `failures` means, and what to do."""
+        """Return an error that says what one of the `failures` means, and what to do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -110,12 +110,12 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # A client whose scheduler is gone would otherwise wait for it.
+        # Otherwise, a client would wait for a scheduler that has ended.
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 
 
 def _silence() -> None:
-    """Keep dask's own messages about lost connections off the terminal: the run says the same in one."""
+    """Hide dask's own messages about lost connections, because the run prints one message about them."""
     for name in ("distributed.client", "distributed.comm", "distributed.core"):
         logging.getLogger(name).setLevel(logging.CRITICAL)

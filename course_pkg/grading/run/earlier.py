@@ -1,4 +1,4 @@
-"""The results of earlier runs: which of them stay in the reports, and for which nothing was handed in now."""
+"""The results of earlier runs, which stay in the reports unless this run replaces them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The files in an instructor's private folder (--private): which are used, misnamed or empty."""
+"""The test of an instructor's private folder (--private) for misnamed, empty and unused files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ EXPECTED = f"private_NN.py, such as private_05.py, or {POINTS}"
 def require_names(folder: Path, chapters: Sequence[str]) -> None:
     """Raise GradingError if a file in `folder` is misnamed or empty, or if no file in it can be used.
 
-    A message on stderr names the files that are not used. `chapters` are those that have checks.
+    A message on stderr names the files that are not used. `chapters` are the chapters that have checks.
     """
     try:
         files = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__")))

@@ -1,4 +1,4 @@
-"""How the selected notebooks are graded again: which parts run, and what the other parts keep."""
+"""Grades selected notebooks or parts again; all other parts keep their results."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.grading.store import Store
 
 @dataclass(frozen=True)
 class Regrade:
-    """The selection of a run, and the results to which it adds."""
+    """The selection of a run, and the earlier results that it completes."""
 
     selected: Selection
     earlier: Earlier
@@ -21,7 +21,7 @@ class Regrade:
 
     @property
     def again(self) -> bool:
-        """Whether kept grades of the selected notebooks are not used."""
+        """Whether the selected notebooks are graded without the use of stored grades."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
@@ -39,7 +39,7 @@ class Regrade:
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
-        """Keep a new grade, which belongs to no student yet, for later runs.
+        """Store a new grade, which does not contain a student yet, for later runs.
 
         `alike` are the submissions with this grade. If only `parts` were graded, they replace those of the
         kept grade. A grade that was kept with other options, or by another version of the checks, is removed,

@@ -1,4 +1,4 @@
-"""What a run grades: some students, some parts, some chapters, or everything. All other results stay."""
+"""The selection of a run: some students, parts or chapters, or everything. All other results stay."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas put it at the end of a name
+PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add this number to the end of a name
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Selection:
 
     @property
     def everything(self) -> bool:
-        """Whether nothing was selected."""
+        """Whether no option was given, so that the run grades everything."""
         return not (self.students or self.chapters or self.parts)
 
     def covers(self, student: str, chapter: str) -> bool:
@@ -44,7 +44,7 @@ class Selection:
         return replace(self, students=tuple(students), chapters=tuple(chapters))
 
     def of(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the selected ones."""
+        """Return the selected submissions."""
         return [each for each in submissions if self.covers(each.student, each.chapter)]
 
     def parts_of(self, chapter: str) -> tuple[str, ...]:
@@ -81,7 +81,7 @@ def two_digits(number: str) -> str:
 
 
 def merged(base: Grade, again: Grade) -> Grade:
-    """Return `base` with the reports of `again`, which has only the parts that were graded again."""
+    """Return `base` with the reports of `again`, which contains only the parts that were graded again."""
     fresh = {report.check: report for report in again.reports}
     reports = [fresh.pop(report.check, report) for report in base.reports]
     reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))

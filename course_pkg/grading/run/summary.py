@@ -9,7 +9,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import name_of, needs_look
 
 GRADED, NEED_A_LOOK = 0, 3
-SHOWN = 10  # names in a line
+SHOWN = 10  # maximum number of names in a line
 
 
 def status_of(graded: Sequence[Grade]) -> int:

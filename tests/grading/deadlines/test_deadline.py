@@ -1,4 +1,4 @@
-"""Deadlines, grace periods, extensions, and which attempt counts."""
+"""Deadlines, grace periods, extensions, and the choice of the attempt that counts."""
 
 from __future__ import annotations
 
@@ -47,18 +47,18 @@ def _deadlines(*given: str, grace: float = 0.0, extensions: Extensions | None = 
     ],
 )
 def test_days_late(submitted: str, grace: float, days: float) -> None:
-    """Zones do not matter, and late days are counted from the end of the grace period."""
+    """Times in different zones are compared correctly; late days begin at the end of the grace period."""
     assert _deadlines(grace=grace).days_late("s01", "05", _at(submitted)) == pytest.approx(days)
 
 
 def test_one_second_late_costs_a_day() -> None:
-    """A day that has begun is a day."""
+    """Each day that has begun counts as a whole day."""
     late = _deadlines().days_late("s01", "05", _at("2026-11-01T23:59:01+01:00"))
     assert late_policy(None, 10, None, [DUE]).factor(late) == pytest.approx(0.9)
 
 
 def test_a_deadline_for_a_chapter() -> None:
-    """A chapter's own deadline replaces the general one."""
+    """A chapter's own deadline replaces the general deadline."""
     both = _deadlines(DUE, "6=2026-11-08T23:59+01:00")
     assert both.days_late("s01", "05", _at("2026-11-02T23:59+01:00")) == pytest.approx(1.0)
     assert both.days_late("s01", "06", _at("2026-11-02T23:59+01:00")) == 0.0
@@ -86,13 +86,13 @@ def test_an_extension_ends_at_the_same_time_of_day() -> None:
     ],
 )
 def test_a_deadline_that_makes_no_sense(given: list[str], grace: float, said: str) -> None:
-    """The message contains a right example."""
+    """The error message contains a correct example."""
     with pytest.raises(GradingError, match=said):
         deadlines(given, grace, None, Extensions())
 
 
 def test_extensions_of_a_roster(tmp_path: Path) -> None:
-    """The column extension_days of a student who is found in the roster; an empty cell is no extension."""
+    """A student's deadline is later by the column extension_days; an empty cell means no extension."""
     path = tmp_path / "roster.csv"
     path.write_text("name;id;username;extension_days\nA One;17;aone;1,5\nA Two;18;atwo;\n", "utf-8")
     students = {name: [f"{name}/{FILE}"] for name in ("aone", "A Two", "other")}
@@ -119,7 +119,7 @@ def _submission(student: str, origin: str = "") -> Submission:
 
 
 def test_the_note_says_when() -> None:
-    """A late submission has both times and the extension in its note; another one has no note."""
+    """The note of a late submission contains both times and the extension; other submissions have no note."""
     due = _deadlines(extensions=Extensions({"s01": 1.0}))
     lateness = _lateness({"s01": "2026-11-03T23:59+01:00", "s02": "2026-11-01T10:00Z"}, due=due)
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
@@ -132,7 +132,7 @@ def test_the_note_says_when() -> None:
 
 
 def test_a_time_that_is_not_known() -> None:
-    """Such a submission counts as in time, with a note; if no time is known, the run does not start."""
+    """A submission without a time counts as in time, with a note; if all times are missing, the run ends."""
     known, unknown = _lateness({"s01": DUE}).applied([_submission("s01"), _submission("s02")])
     assert (known.notes, unknown.notes, unknown.late) == ((), (NO_TIME,), 0.0)
     with pytest.raises(GradingError, match="--deadline needs the times"):
@@ -140,13 +140,13 @@ def test_a_time_that_is_not_known() -> None:
 
 
 def test_without_a_deadline_nothing_is_late() -> None:
-    """No time is needed, and no note is made."""
+    """Without a deadline, no times are needed, and submissions get no notes."""
     given = [_submission("s01")]
     assert Lateness(_deadlines("06=" + DUE), lambda _: None).applied(given) == given
 
 
 def test_the_last_attempt_by_time(tmp_path: Path) -> None:
-    """Times decide if they are known; else the newest file does. The note names the other attempt."""
+    """The last attempt is found by its time, or else by the newest file; a note names the other attempt."""
     content = raw(handed_out())
     source = folder(tmp_path, {f"s01/a/{FILE}": content, f"s01/b/{FILE}": content})
     (given,) = submissions(source)
@@ -160,7 +160,7 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
 
 
 def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
-    """All attempts are graded; the one with the most points counts, and a note says so."""
+    """All attempts are graded, and the attempt with the most points counts, with a note."""
     content = raw(handed_out())
     names = [f"s01/{FILE.replace('.ipynb', f'{end}.ipynb')}" for end in ("", "-1", "-2")]
     (given,) = submissions(folder(tmp_path, dict.fromkeys(names, content)))

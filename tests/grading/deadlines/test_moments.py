@@ -1,4 +1,4 @@
-"""Points in time as platforms write them."""
+"""Points in time in the formats of the platforms."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        ("2026-10-25 02:30", "2026-10-25T00:30"),  # it occurs twice; the first one counts
+        ("2026-10-25 02:30", "2026-10-25T00:30"),  # it occurs twice; the first time is used
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """A time without a zone of its own is in the given zone."""
+    """A time that contains no zone is in the given zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)
@@ -42,18 +42,18 @@ def test_the_forms(written: str, utc: str) -> None:
     "written", ["", "-", "tomorrow", "2026-11-01", "2026-13-01 10:00", "1 Foo 2026, 10:00"]
 )
 def test_no_time(written: str) -> None:
-    """A text that names no time is None."""
+    """The result for a text that is not a time is None."""
     assert moment_of(written, BERLIN) is None
 
 
 def test_a_time_without_any_zone() -> None:
-    """No zone is guessed."""
+    """A time without a zone is None if no zone is given."""
     assert moment_of("2026-11-01 23:59", None) is None
     assert moment_of("2026-11-01 23:59 Z", None) is not None
 
 
 def test_zones() -> None:
-    """A zone is a name or an offset."""
+    """A time zone may be a name or an offset."""
     assert zone_of("-05:30").utcoffset(None) == zone_of("UTC-0530").utcoffset(None)
     for wrong in ("Mars/Base", "../etc/passwd", "+1"):
         with pytest.raises(GradingError, match=r"Europe/Berlin"):
@@ -61,7 +61,7 @@ def test_zones() -> None:
 
 
 def test_a_report_shows_the_offset() -> None:
-    """The reader of a report need not know the zone."""
+    """The text of a time contains its offset from UTC."""
     moment = moment_of("2026-11-01 23:59", BERLIN)
     assert moment is not None
     assert shown(moment) == "2026-11-01 23:59 +01:00"

@@ -1,4 +1,4 @@
-"""When something was handed in, from files in the layouts of Moodle, Gradescope and nbgrader."""
+"""The times of submissions in files of Moodle, Gradescope and nbgrader."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_the_worksheet_of_moodle(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("pack", [False, True])
 def test_gradescope(tmp_path: Path, pack: bool) -> None:
-    """All members of a group have the time of their folder; it is read without an option."""
+    """Gradescope's metadata are read without an option; all members of a group have the same time."""
     files = {
         f"assignment_9_export/submission_456/{FILE}": NOTEBOOK,
         f"assignment_9_export/submission_457/{FILE}": NOTEBOOK,
@@ -86,7 +86,7 @@ def test_gradescope(tmp_path: Path, pack: bool) -> None:
 
 @pytest.mark.parametrize("outer", ["", "submitted/"])
 def test_nbgrader(tmp_path: Path, outer: str) -> None:
-    """The file is read on request only, and only in the folder of the assignment."""
+    """timestamp.txt is read only with --times nbgrader, and only in the folder of the assignment."""
     files = {
         f"{outer}s01/ps1/{FILE}": NOTEBOOK,
         f"{outer}s01/ps1/timestamp.txt": b"2026-11-01 22:59:30.123456 UTC",
@@ -101,7 +101,7 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """A row for a file is nearer than one for a chapter, which is nearer than one for a student."""
+    """A row for a file is used before a row for a chapter, and this before a row for a student."""
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"
     table.write_text(
@@ -115,7 +115,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """times.csv beside the students' folders is read; the latest file of a submission counts."""
+    """times.csv next to the students' folders is read; the latest file of a submission counts."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )

@@ -1,4 +1,4 @@
-"""Students who handed in nothing, and the folder of the reports among the submissions."""
+"""Empty folders of students, and folders with reports among the submissions."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def _with_folders(root: Path, files: dict[str, bytes], *names: str) -> Path:
 
 
 def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
-    """A folder without any file, at any depth, or with a system's file only, is a student's."""
+    """A folder without files, or with only a system's files, is a student who has handed in nothing."""
     files = {f"s01/{FILE}": NOTEBOOK, "s02/.DS_Store": b"x"}
     found = _found(_with_folders(tmp_path, files, "s03", "s04/chapter 05/more"))
     assert found == {"s01": "", **dict.fromkeys(("s02", "s03", "s04"), "The student handed in nothing:")}
 
 
 def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
-    """Folders around all students' folders are not listed."""
+    """A folder around all students' folders is not listed as an empty folder."""
     found = _found(_with_folders(tmp_path, {f"submitted/s01/ps1/{FILE}": NOTEBOOK}, "submitted/s02/ps1"))
     assert list(found) == ["s01", "s02"]
 
@@ -53,7 +53,7 @@ def test_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
-    """The link is one file, not a folder without files."""
+    """A link to a folder counts as a file, and not as an empty folder."""
     source = _with_folders(tmp_path / "in", {f"s01/{FILE}": NOTEBOOK})
     (tmp_path / "empty").mkdir()
     (source / "s02").symlink_to(tmp_path / "empty")
@@ -69,7 +69,7 @@ def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
 
 
 def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A folder in which an earlier run wrote its reports is no student either, and is named."""
+    """A folder with the reports of an earlier run is not a student's folder, and a message names it."""
     reports = dict.fromkeys(("old/.grading/secret", "old/class.html", "old/grades.csv"), b"x")
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, **reports})
     assert list(_found(source, tmp_path / "new")) == ["s01"]
@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder with other files than those of an earlier run is refused."""
+    """A folder for the reports that contains files of submissions is refused."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):

@@ -1,4 +1,4 @@
-"""Sentences about what nbval wrote."""
+"""The sentences for students about nbval's messages."""
 
 from __future__ import annotations
 

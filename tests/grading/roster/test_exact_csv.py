@@ -1,4 +1,4 @@
-"""A cell is changed, and every other byte of the file stays."""
+"""If a cell is changed, all other bytes of the file stay the same."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ FILES = [
 
 @pytest.mark.parametrize("text", FILES)
 def test_unchanged_is_unchanged(text: str) -> None:
-    """What was read is written again, byte for byte."""
+    """A file that is read and written again has the same bytes."""
     assert text_of(list(records(text, ",")), ",") == text
 
 
 def test_it_reads_as_the_csv_module_does() -> None:
-    """For files that follow RFC 4180, the values are those of Python's reader."""
-    draw = random.Random(4)  # noqa: S311 -- the same files each time
+    """For files that follow RFC 4180, the values are the same as from Python's csv module."""
+    draw = random.Random(4)  # noqa: S311 -- the files are the same each time
     for _ in range(300):
         rows = [
             ["".join(draw.choices('ab,;"\r\n \u00fc', k=draw.randrange(6))) for _ in range(3)] for _ in "ab"
@@ -44,13 +44,13 @@ def test_it_reads_as_the_csv_module_does() -> None:
 
 
 def test_quotes_of_php() -> None:
-    """PHP does not double a quote after a backslash, and the cell still ends at its last quote."""
+    """A cell with a quote after a backslash, as PHP writes it, ends at its last quote."""
     [_, row] = records(FILES[-1], ",")
     assert [row.value(0), row.value(1)] == ['a \\"PHP\\" quote, 1', "2"]
 
 
 def test_lines_are_counted_in_the_file() -> None:
-    """A record knows the line where it begins."""
+    """A record contains the number of the line where it begins."""
     assert [each.line for each in records('a\n"1\n2"\nb\n', ",")] == [1, 2, 4]
 
 
@@ -65,7 +65,7 @@ def test_lines_are_counted_in_the_file() -> None:
     ],
 )
 def test_how_a_cell_is_written(before: str, value: str, after: str) -> None:
-    """A cell keeps its quotes, and gets them if its value needs them."""
+    """A changed cell has quotes if the old cell had quotes, or if the new value needs them."""
     record = Record([before, "x"], "\n", 1)
     record.put(0, value, ",")
     assert record.cells == [after, "x"]

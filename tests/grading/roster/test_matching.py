@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """A folder may have any field as its name; a platform's folder has a name and a number."""
+    """The name of a folder may be any field of the roster, or the name and number from a platform."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -45,7 +45,7 @@ def test_who_is_found(student: str, origin: str) -> None:
 
 @pytest.mark.parametrize("name", ["Max Ernst Müller", "muller, max ernst", "Mu\u0308ller Max Ernst"])
 def test_names_in_any_order_and_with_any_accents(name: str) -> None:
-    """The parts of a name may be rotated, and accents may be missing or written separately."""
+    """The parts of a name may have another order, and accents may be missing or written separately."""
     assert _matched({name: [f"{name}/05.ipynb"]}).people[name].username == "mmueller"
 
 
@@ -58,21 +58,21 @@ def test_two_students_with_one_name() -> None:
 
 
 def test_a_number_decides_between_two_students_with_one_name() -> None:
-    """The Canvas user id is in the file's name."""
+    """A student is found by the Canvas user id in the name of the file."""
     found = _matched({"leeann_20": ["leeann_20_99_05.ipynb"]})
     assert found.people["leeann_20"].username == "alee2"
     assert found.unclear == {}
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """A number of one student with the name of another is reported."""
+    """A number with the name of another student is reported as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
 
 
 def test_a_number_of_moodle_is_no_id() -> None:
-    """Moodle counts the participants of one assignment, so its number may be the id of someone else."""
+    """A participant number of Moodle is not used as an id, because it may be another student's id."""
     found = _matched({"Jo New_18": ["Jo New_18_assignsubmission_file_/05.ipynb"]})
     assert (found.strangers, found.unclear) == (("Jo New_18",), {})
 
@@ -84,7 +84,7 @@ def test_a_roster_with_the_numbers_of_moodle() -> None:
 
 
 def test_two_folders_of_one_student() -> None:
-    """Two folders that fit one row are both unclear: only one can be right."""
+    """Two folders that fit the same row are both unclear, because only one can be right."""
     found = _matched({"jdoe": ["jdoe/05.ipynb"], "Jane Doe": ["Jane Doe/05.ipynb"]})
     assert found.unclear == {
         "jdoe": "it fits the same row of the roster (line 2) as Jane Doe",
@@ -100,7 +100,7 @@ def test_strangers_and_a_file_of_nobody() -> None:
 
 
 def test_the_summary() -> None:
-    """The sentences name who is missing, who is not on the roster, and what is unclear."""
+    """The sentences contain missing students, students who are not on the roster, and unclear students."""
     origins = {name: [f"{name}/05.ipynb"] for name in ("jdoe", "mmueller", "Ann Lee", "s99")}
     assert list(_matched(origins).summary()) == [
         "Roster: 2 of 4 students handed in.",
@@ -116,7 +116,7 @@ def test_the_summary() -> None:
 
 
 def test_without_lists() -> None:
-    """Without a roster, the platforms' own names and numbers are known, and nothing is reported."""
+    """Without a roster, students have the names and numbers of the platforms, and nothing is reported."""
     found = Lists().matched({"doejane_17": ["doejane_17_99_05.ipynb"], "s01": ["s01/05.ipynb"]})
     assert found.people == {"doejane_17": Person("doejane", "17")}
     assert list(found.summary()) == []

@@ -1,4 +1,4 @@
-"""A roster is read as spreadsheets and platforms save it; a bad one gives one message without a name."""
+"""Rosters of spreadsheets and platforms are read; an invalid roster leads to a message without names."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | by
     ],
 )
 def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) -> None:
-    """One column that identifies a student is enough; further columns are kept; short rows are filled."""
+    """One column that identifies students is enough; further columns are stored; short rows are filled."""
     assert read_roster(_file(tmp_path, content)) == (person,)
 
 
 def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
-    """The row with the possible points and Canvas's test student are no students."""
+    """In Canvas's export, the row with the possible points and the test student are left out."""
     content = (
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 1 (99)\n    Points Possible,,,,,9.0\n"
         '"Doe, Jane",17,S4,jdoe,ROS 2026,\n"Student, Test",18,,f00,ROS 2026,\n'
@@ -85,7 +85,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """One message says what is wrong, where, and what to do; it contains no cell."""
+    """The error message contains the mistake, its place and a remedy, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)

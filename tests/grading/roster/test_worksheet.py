@@ -1,4 +1,4 @@
-"""Moodle's worksheet: only Grade and Feedback comments change; a file that Moodle would refuse is refused."""
+"""In a copy of Moodle's worksheet, only grades and feedback change; an invalid worksheet is refused."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _read(folder: Path, content: str | bytes) -> Worksheet:
 
 @pytest.mark.parametrize("content", [ENGLISH, GERMAN, FRENCH, SPANISH, ANONYMOUS], ids=IDS)
 def test_an_unchanged_copy(tmp_path: Path, content: str) -> None:
-    """Without a grade, the copy is the file itself, byte for byte."""
+    """Without grades, the copy has the same bytes as the file."""
     assert _read(tmp_path, content).copy({}) == content.encode()
 
 
@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """One message says what is wrong, where, and what to do; it contains no cell."""
+    """The error message contains the mistake, its place and a remedy, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

@@ -1,4 +1,4 @@
-"""A dask scheduler without workers, and one that ends during the run."""
+"""A dask scheduler without workers, and a dask scheduler that ends during the run."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_a_scheduler_without_workers(scheduler: tuple[subprocess.Popen[bytes], s
 
 
 def test_workers_that_end_during_the_run(scheduler: tuple[subprocess.Popen[bytes], str]) -> None:
-    """A run does not wait for ever for workers that are gone."""
+    """If all workers have ended, the run ends after a time limit."""
     _, address = scheduler
     with distributed.Client(address, timeout=20) as client:
         cluster = Cluster(client, client.get_executor(), address, 0.0)

@@ -1,4 +1,4 @@
-"""What a run prints at its end: the changed points, the results that stay, the last line, the exit status."""
+"""The end of a run: the changed points, the results that stay, the last line and the exit status."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ def test_lateness_alone() -> None:
 
 
 def test_a_new_student_is_no_change() -> None:
-    """Only a submission with an earlier result can have changed."""
+    """A submission without an earlier result is not a change."""
     assert changes([FULL], [replace(LESS, student="s02")]) == []
 
 
 def test_many_changes_are_in_the_file(tmp_path: Path) -> None:
-    """The terminal shows 40 of them; changes.csv has all, without formulas."""
+    """The terminal shows 40 changes; changes.csv contains all changes, without formulas."""
     before = [replace(LESS, student=f"=s{number:03}") for number in range(60)]
     after = [replace(FULL, student=f"=s{number:03}") for number in range(60)]
     found = changes(before, after)
@@ -86,7 +86,7 @@ def test_a_name_cannot_control_the_terminal(tmp_path: Path) -> None:
     ],
 )
 def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: int) -> None:
-    """A submission needs a look if it has a problem, an unexamined part, no time or no points."""
+    """A problem, an unexamined part, a missing time or no points means that a submission needs a look."""
     assert (last_line(grades), status_of(grades)) == (line, status)
 
 
@@ -100,7 +100,7 @@ def test_empty_folders_are_named() -> None:
 
 
 def test_results_that_stay(tmp_path: Path) -> None:
-    """The lines name those for which nothing was handed in, and count the others."""
+    """The lines contain the names of students without a new submission, and the number of other results."""
     marked, kept = about_rest([replace(FULL, absent=True), replace(FULL, student="s02")], tmp_path)
     assert "s01 (chapter 05)" in marked
     assert kept == f"1 other result in {tmp_path} stayed as it was."

@@ -1,4 +1,4 @@
-"""The options --student, --part and --chapters: what is graded again, and what stays."""
+"""The options --student, --part and --chapters select the results that are graded again."""
 
 from __future__ import annotations
 
@@ -51,13 +51,13 @@ def test_a_student_in_any_case(name: str) -> None:
 
 
 def test_a_student_without_the_number_of_the_platform() -> None:
-    """The name is enough if it is unique."""
+    """The number of a platform can be left out if the name is unique."""
     assert _chosen(selection(["a two"], (), ())) == [("A Two_19", "")]
 
 
 @pytest.mark.parametrize(("name", "said"), [("A One", "fits 2 students"), ("s99", "of no student")])
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
-    """The message says where the names are, and shows no other student's name."""
+    """The message says where the names are listed, and contains no other student's name."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:
         selection([name], (), ()).for_students(SUBMISSIONS)
     assert "s01" not in str(caught.value)
@@ -74,7 +74,7 @@ def test_a_part_selects_its_chapter() -> None:
     ("chapters", "part", "said"), [((), "05.99", "05.99"), (("06",), "05.1", "--part 05.1 is not in")]
 )
 def test_a_part_that_cannot_be_selected(chapters: tuple[str, ...], part: str, said: str) -> None:
-    """An unknown part, and a part that --chapters leaves out, are errors."""
+    """An unknown part is an error, and also a part of a chapter that --chapters leaves out."""
     with pytest.raises(CourseError, match=said):
         selection((), chapters, [part])
 
@@ -109,7 +109,7 @@ def test_parts_of_two_versions_have_no_key() -> None:
 
 
 def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
-    """A notebook that is new, or that has changed, is graded as a whole."""
+    """All parts of a new or changed notebook are graded."""
     submission = SUBMISSIONS[0]
     known = _grade(Verdict.PASSED, handed_in=submission.digest)
     selected = selection((), (), ["05.2"])
@@ -120,7 +120,7 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 
 
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
-    """A result outside of the selection stays; inside of it, a result without a submission is marked."""
+    """A result that is not selected stays; a selected result without a submission is marked."""
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.student == "s01" and grade.chapter == "05"]
@@ -167,7 +167,7 @@ def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
 
 
 def test_marked_results_are_in_no_file_for_a_platform(tmp_path: Path) -> None:
-    """class.html, grades.csv and the student's page mark them; Canvas and Moodle keep their own points."""
+    """The reports mark absent results; the files for Canvas and Moodle leave them out."""
     present, absent = class_of(2)
     write_reports([present, replace(absent, absent=True)], tmp_path)
     for name in ("class.html", "grades.csv", "feedback/s02.html"):
@@ -181,7 +181,7 @@ def test_marked_results_are_in_no_file_for_a_platform(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_no_result_is_counted(tmp_path: Path) -> None:
-    """A damaged record, or one of another version, does not stop the run."""
+    """A damaged record, or a record of another version, does not stop the run."""
     write_reports(class_of(1), tmp_path)
     (tmp_path / "results" / "s01" / "06.json").write_text("{}")
     assert (len(read_earlier(tmp_path).grades), read_earlier(tmp_path).unreadable) == (1, 1)

@@ -94,7 +94,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Ask for new names, so that an answer that only counts its calls fails."""
+    """Call the function with new names, so that an answer that only counts its calls fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):

@@ -173,7 +173,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     deadline=30.0,
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late one. The first may be 0."""
+    """Set values without a subscriber, with a subscriber, and before a late subscriber; one may be 0."""
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)

@@ -32,7 +32,8 @@ class Pair:
 def who_talks_to_whom(context: CheckContext) -> None:
     """Try differences that change the MD5 sum, and differences that do not."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
-    for pair in (*_pairs(context), *again):  # in a drawn order, an answer that only counts its calls fails
+    # The order is random, so that an answer that only counts its calls fails.
+    for pair in (*_pairs(context), *again):
         for server, client in context.random.shuffled(
             [(pair.server, pair.client), (pair.client, pair.server)]
         ):

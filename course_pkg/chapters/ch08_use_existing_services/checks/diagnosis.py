@@ -101,7 +101,7 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Provide services for all results but "ok"; return the results by name, that of "ok" first.
+    """Provide services for all results except "ok"; return the results by name; the first is "ok".
 
     The names are random, so that they do not show the results.
     """

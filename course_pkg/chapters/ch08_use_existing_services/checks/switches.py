@@ -134,7 +134,7 @@ def move_and_verify(context: CheckContext) -> None:
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)
-    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # not in a known order
+    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # the order is random
         _move(context, case, context.random.choice([True, False]))
 
 

@@ -85,7 +85,7 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix the cases, all with one limit, so that an answer that looks only at its limit or counts fails."""
+    """Mix the cases with one limit, so that an answer that depends on the limit or on a count fails."""
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses
     acts += [Refuse(f"no {context.random.integer(100, 999)}") for _ in range(failures)]

@@ -68,7 +68,7 @@ def speed_parameter(context: CheckContext) -> None:
             actual="a parameter that the function has set",
             hints="The function has set the parameter. Only read the parameter, and return the default.",
         )
-        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # not in a known order
+        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # the order is random
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)

@@ -30,7 +30,8 @@ def write(book: Book, out: Path) -> None:
     files = {folder / f"{clean.file_name(chapter)}.csv": chapter for chapter in book.chapters}
     for path, chapter in files.items():
         _put(path, book, [chapter])
-    for path in set(folder.glob("*.csv")) - files.keys():  # an earlier run graded other chapters
+    # Files of an earlier run, which graded other chapters.
+    for path in set(folder.glob("*.csv")) - files.keys():
         path.unlink()
 
 
@@ -54,6 +55,7 @@ def _identity(book: Book, student: str) -> list[str]:
     if person is None:
         return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
     number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
-    # An id that is no number cannot be Canvas's own, so it comes from the student information system (SIS).
+    # An id that is not a number cannot be a Canvas user id, so it is from the student information system
+    # (SIS).
     further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
     return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]

@@ -13,7 +13,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
-CODE = 20_000  # characters of a student's code that are shown
+CODE = 20_000  # maximum number of characters of a student's code
 CELLS = 20  # maximum number of listed cells of nbval's run
 
 
@@ -50,7 +50,7 @@ def _chapter(grade: Grade) -> Iterator[str]:
 
 
 def _part(report: Report, code: str) -> str:
-    """Return a part: the student's code, what is right, what to change, and the note."""
+    """Return a part: the student's code, the assertions that hold and that fail, and the note."""
     kind, sign = KINDS[report.verdict]
     score = of_points(report.points, report.possible) if report.possible else ""
     head = f"<h3>{text(report.check)} <span>{sign} {report.verdict.value}</span></h3>"

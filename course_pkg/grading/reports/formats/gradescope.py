@@ -1,7 +1,7 @@
 """gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores what is in
-`extra_data` and shows it to nobody: here, it is the identity of the student, under the names of
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores the data in
+`extra_data`, but does not show them. Here, they are the identity of the student, under the names of
 https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 """
 

@@ -1,4 +1,4 @@
-"""gradescope.csv, in the layout in which Gradescope itself offers the grades of an assignment.
+"""gradescope.csv, in the layout of the file that Gradescope offers as a download of grades.
 
 Gradescope (Review Grades, Download Grades) writes Name, SID, Email, Sections, Total Score, Max Points,
 Status, Submission ID, and a column for each question, such as "1: Title (2.0 pts)". Programs that read grades
@@ -20,7 +20,7 @@ HEAD = ["Name", "SID", "Email", "Sections", "Total Score", "Max Points", "Status
 
 
 def write(book: Book, out: Path) -> None:
-    """Write a row for each student; those on the roster who handed in nothing have the status Missing."""
+    """Write a row for each student; students of the roster without a submission have the status Missing."""
     suffix = "" if book.sandboxed else ", run without a sandbox"
     parts = [
         clean.cell(f"{column.check}: {clean.line(column.goal)} ({points(column.possible)} pts){suffix}", 400)
@@ -44,7 +44,7 @@ def _row(book: Book, student: str) -> list[str]:
 
 
 def submission_id(book: Book, student: str) -> str:
-    """Return the number of a submission in Gradescope, or an empty text if it does not come from there."""
+    """Return the number of a submission from Gradescope, or an empty string for any other submission."""
     for grade in book.of(student):
         for part in grade.origin.split("/"):
             if GRADESCOPE.fullmatch(part):

@@ -1,7 +1,7 @@
 """moodle.csv, for Moodle's menu Grades, Import, CSV file; Moodle asks for the meaning of each column.
 
-Map the column `username` or `email` to the student: Moodle identifies nobody by a full name or by the number
-of a participant. A roster or Moodle's worksheet provides both columns for submissions from Moodle. Map each
+Map the column `username` or `email` to the student: Moodle cannot identify a student by a full name or by a
+participant number. A roster or Moodle's worksheet provides both columns for submissions from Moodle. Map each
 chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle deletes the grade of an
 item if only its feedback is imported (https://docs.moodle.org/en/Grade_import). For the grades of one
 assignment, the copy of Moodle's worksheet is simpler (moodle_worksheet.py).
@@ -49,7 +49,7 @@ def _cells(grade: Grade) -> tuple[str, str]:
 
 
 def feedback(grade: Grade) -> str:
-    """Return what a student learns from a grade, in one line; Moodle reads feedback as HTML."""
+    """Return the feedback for a student about a grade, in one line; Moodle reads feedback as HTML."""
     sentences = [grade.problem, about_lateness(grade), *grade.notes, *map(_sentence, grade.reports)]
     words = " ".join(clean.line(text, 600) for text in sentences if text)
     return escape(clean.line(words, LONG), quote=False)

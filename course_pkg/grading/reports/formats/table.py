@@ -23,7 +23,7 @@ from course_pkg.grading.roster.people import FIELDS
 def write(book: Book, out: Path) -> None:
     """Write grades.csv; the mark at its beginning tells a spreadsheet that the file is UTF-8.
 
-    With a roster, it contains who the students are, and a row for each student who handed in nothing.
+    With a roster, it contains the students' identities, and a row for each student without a submission.
     """
     listed = book.class_list.given
     head = ["student", *(FIELDS if listed else ())]
