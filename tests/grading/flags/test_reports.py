@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from course_pkg.errors import GradingError
-from course_pkg.grading.flags.finding import kind_names, title_of, wanted_kinds
+from course_pkg.grading.flags.finding import kind_names, title_of, wanted_kinds, with_flags
 from course_pkg.grading.grade import Flag, grade_from
 from course_pkg.grading.reports import read_grades, write_reports
+from tests.grading.flags.classes import solutions, submission
 from tests.grading.grades import NASTY, class_of
 
 WORDS = "Something that only the instructor reads."
@@ -94,3 +95,19 @@ def test_the_option() -> None:
     assert wanted_kinds(("none",)) == []
     with pytest.raises(GradingError, match=r"--flags does not know colour\. Give some of copies,files,"):
         wanted_kinds(("colour",))
+
+
+def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
+    """A grade without a submission in this run is not searched again."""
+    flag = Flag("files", "05.1", WORDS)
+    grade = replace(class_of(1)[0], flags=(flag,))
+    assert with_flags([grade], [], ["files"]) == [grade]
+    again = submission(grade.student, {}, origin=grade.origin)
+    assert with_flags([grade], [again], ["files"])[0].flags == ()
+
+
+def test_an_attempt_that_does_not_count() -> None:
+    """Several attempts of a student are no copies of each other."""
+    grade = class_of(1)[0]
+    attempts = [submission(grade.student, solutions("05"), origin=place) for place in (grade.origin, "other")]
+    assert with_flags([grade], attempts, ["copies"])[0].flags == ()
