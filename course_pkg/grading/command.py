@@ -17,6 +17,7 @@ from course_pkg.grading.deadlines.lateness import LAST, Lateness, attempts_to_gr
 from course_pkg.grading.deadlines.moments import zone_of
 from course_pkg.grading.deadlines.times import times_of
 from course_pkg.grading.extras import Extras, read_extras
+from course_pkg.grading.flags.finding import wanted_kinds, with_flags
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.intake.folders import require_other_folder
 from course_pkg.grading.intake.naming import NOTEBOOK
@@ -31,7 +32,7 @@ from course_pkg.grading.run.changes import changes, described, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
 from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
-from course_pkg.grading.run.summary import about_empty, about_rest, last_line, status_of
+from course_pkg.grading.run.summary import about_empty, about_flags, about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
 from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
@@ -65,6 +66,7 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
+    flags: tuple[str, ...] = ()  # the kinds of flags; all of them if it is empty
 
 
 def grade(options: Options) -> int:
@@ -78,6 +80,7 @@ def grade(options: Options) -> int:
     table = late_table(options.late) if options.late else None
     lists = read_lists(options.roster, options.moodle_worksheet)
     require_other_folder(options.source, options.out)
+    kinds = wanted_kinds(options.flags)
     extras = read_extras(options.private)
     selected = selection(options.students, options.chapters, options.parts)
     everyone = _dated(options, _handed_in(options, selected), lists, table)
@@ -101,9 +104,10 @@ def grade(options: Options) -> int:
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
     class_list = _class_list(lists, options.source, [*everyone, *rest])
     chapters = {each.chapter for each in graded}
-    _report(_in_order([*graded, *rest]), options.out, class_list, chapters)
+    reported = with_flags([*graded, *rest], everyone, kinds)
+    _report(_in_order(reported), options.out, class_list, chapters)
     earlier.forget_files(graded, selected)
-    sys.stdout.writelines(f"{sentence}\n" for sentence in class_list.summary())
+    sys.stdout.writelines(f"{sentence}\n" for sentence in [*class_list.summary(), *about_flags(reported)])
     _print_end(options.out, earlier, graded, rest, time.monotonic() - began)
     return status_of(graded)
 

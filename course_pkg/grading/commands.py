@@ -39,7 +39,7 @@ def _chapters(text: str) -> tuple[str, ...]:
     return tuple(part.strip().zfill(2) for part in text.split(",") if part.strip())
 
 
-def _parts(text: str) -> tuple[str, ...]:
+def _names(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
@@ -66,7 +66,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--part",
         dest="parts",
-        type=_parts,
+        type=_names,
         action="extend",
         default=[],
         metavar="05.2,05.3",
@@ -91,6 +91,14 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         default="missing",
         help="students whose notebooks nbval runs for feedback: those with missing points "
         "(default), all, none",
+    )
+    parser.add_argument(
+        "--flags",
+        type=_names,
+        default=(),
+        metavar="KINDS",
+        help="the kinds of flags to look for, such as copies,files, or none (default: all kinds); "
+        "a flag asks you to look at an answer, and changes no points",
     )
     again = parser.add_mutually_exclusive_group()
     again.add_argument(

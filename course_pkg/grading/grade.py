@@ -75,6 +75,21 @@ class CellOutcome:
 
 
 @dataclass(frozen=True)
+class Flag:
+    """A reason for the instructor to look at a student's work; it changes no points.
+
+    Students never see it.
+    """
+
+    kind: str  # a module in flags/kinds, such as "copies"
+    where: str  # the part, such as "05.1", or the path of a file
+    words: str  # a sentence
+    line: int = 0  # of the cell or file; 0 if the flag is about all of it
+    evidence: str = ""  # this line
+    others: tuple[str, ...] = ()  # the students whose work is similar
+
+
+@dataclass(frozen=True)
 class Grade:
     """The grade of one submission: a report for each part of the reference, in its order."""
 
@@ -92,6 +107,7 @@ class Grade:
     code: dict[str, str] = field(default_factory=dict)  # the student's code of each part that was examined
     private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
     handed_in: str = ""  # the digest of the submission
+    flags: tuple[Flag, ...] = ()  # for the instructor only
     absent: bool = False  # whether this is a result of an earlier run without a submission in this run
 
     @property
@@ -110,7 +126,7 @@ class Grade:
         return sum(report.possible for report in self.reports)
 
     def for_student(self) -> Grade:
-        """Return the grade without the data that show how a private part is examined."""
+        """Return the grade without flags, and without the data that show how a private part is examined."""
         shown = (
             replace(report, goal="A further check.", assertions=(), note="", printed="")
             if report.check in self.private
@@ -118,7 +134,7 @@ class Grade:
             for report in self.reports
         )
         code = {check: text for check, text in self.code.items() if check not in self.private}
-        return replace(self, reports=tuple(shown), code=code)
+        return replace(self, reports=tuple(shown), code=code, flags=())
 
     def as_dict(self) -> dict[str, Any]:
         """Return the grade as plain data."""
@@ -133,5 +149,6 @@ def grade_from(data: dict[str, Any]) -> Grade:
         "cells": tuple(CellOutcome(**each) for each in data["cells"]),
         "notes": tuple(data["notes"]),
         "private": tuple(data["private"]),
+        "flags": tuple(Flag(**{**each, "others": tuple(each["others"])}) for each in data.get("flags", ())),
     }
     return Grade(**known)

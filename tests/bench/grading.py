@@ -1,6 +1,6 @@
-"""Grading: its speed, the effect of a kill, the grades of the solutions, and answers of other authors.
+"""Grading: its speed, the effect of a kill, the grades of the solutions, other authors' answers, and copies.
 
-usage: ./course run python tests/bench/grading.py speed|kill|reference|answers [OPTION …]
+usage: ./course run python tests/bench/grading.py speed|kill|reference|answers|copies [OPTION …]
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from commands import run_command
+from copying import copies_main
 
 from course_pkg.authoring.cells import check_of, code_cells, exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
@@ -367,5 +368,11 @@ def _job_of(answer: dict[str, str], source: str, deadlines: dict[str, float]) ->
 
 
 if __name__ == "__main__":
-    commands = {"speed": speed_main, "kill": kill_main, "reference": reference_main, "answers": answers_main}
+    commands = {
+        "speed": speed_main,
+        "kill": kill_main,
+        "reference": reference_main,
+        "answers": answers_main,
+        "copies": copies_main,
+    }
     run_command(commands)

@@ -45,7 +45,7 @@ def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
 
 
 def _read(source: str) -> _Cell:
-    tree = _tree(source)
+    tree = tree_of(source)
     names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
     loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
     own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
@@ -54,7 +54,7 @@ def _read(source: str) -> _Cell:
     return _Cell(gives, frozenset(loaded - own - arguments) - gives)
 
 
-def _tree(source: str) -> ast.Module:
+def tree_of(source: str) -> ast.Module:
     """Return the tree of a cell, as IPython reads it; an empty tree if the cell is not Python."""
     from IPython.core.inputtransformer2 import TransformerManager
 

@@ -29,6 +29,13 @@ def about_empty(graded: Sequence[Grade]) -> list[str]:
     return [f"Handed in nothing, because the folder is empty: {_listed(names)}."] if names else []
 
 
+def about_flags(grades: Sequence[Grade]) -> list[str]:
+    """Return the line about the students with flags, if there are any."""
+    count = len({grade.student for grade in grades if grade.flags})
+    students = "1 student has" if count == 1 else f"{count} students have"
+    return [f"{students} flags, which change no points. See Flags in class.html."] if count else []
+
+
 def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
     """Return the lines about the results of earlier runs that stay in the reports."""
     absent = [grade for grade in rest if grade.absent]

@@ -10,6 +10,7 @@ from course_pkg.checking.report import Verdict
 from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.reports import roster
+from course_pkg.grading.reports.flags import flag_sections
 from course_pkg.grading.reports.gradebook import (
     WITHOUT_SANDBOX,
     Book,
@@ -52,6 +53,7 @@ def _body(book: Book) -> Iterator[str]:
     yield _looks(book)
     yield _absent(book)
     yield from roster.section(book)
+    yield from flag_sections(book)
     yield "<h2>Most frequent hints</h2>"
     yield _hints(book)
     yield "<h2>Results of each part</h2>"

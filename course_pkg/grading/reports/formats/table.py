@@ -6,6 +6,7 @@ from pathlib import Path
 
 from course_pkg.grading import clean
 from course_pkg.grading.reports.files import put_table
+from course_pkg.grading.reports.flags import flag_words
 from course_pkg.grading.reports.gradebook import (
     Book,
     about_lateness,
@@ -33,11 +34,11 @@ def write(book: Book, out: Path) -> None:
             f"{chapter} days late",
             f"{chapter} total",
         ]
-    rows = [[*map(clean.cell, head), "earned", "possible", "notes"]]
+    rows = [[*map(clean.cell, head), "earned", "possible", "notes", "flags"]]
     rows += [_row(book, student) for student in book.students]
-    blank = [""] * (len(rows[0]) - len(FIELDS) - 4)
+    blank = [""] * (len(rows[0]) - len(FIELDS) - 5)
     rows += [
-        [clean.cell(person.label), *identity_cells(person), *blank, "0", points(book.total), MISSING]
+        [clean.cell(person.label), *identity_cells(person), *blank, "0", points(book.total), MISSING, ""]
         for person in book.class_list.missing
     ]
     put_table(out / "grades.csv", rows, "utf-8-sig")
@@ -61,4 +62,5 @@ def _row(book: Book, student: str) -> list[str]:
         *notes(book, student),
     ]
     words = " | ".join(filter(None, found))
-    return [*cells, points(book.earned(student)), points(book.total), clean.cell(words, 3000)]
+    totals = [points(book.earned(student)), points(book.total)]
+    return [*cells, *totals, clean.cell(words, 3000), clean.cell(flag_words(book, student), 3000)]

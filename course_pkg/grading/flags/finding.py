@@ -1,0 +1,72 @@
+"""Find the flags of a class, by all kinds or by those that the instructor names."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from types import ModuleType
+
+from course_pkg.errors import GradingError
+from course_pkg.grading.flags import kinds
+from course_pkg.grading.flags.work import Found, Group, group_of
+from course_pkg.grading.grade import Flag, Grade, Submission
+from course_pkg.grading.plan import plan
+
+Find = Callable[[Group], Iterator[Found]]
+Key = tuple[str, str, str]  # student, chapter, origin
+NONE = "none"
+
+
+def kind_names() -> list[str]:
+    """Return the names of all kinds, which are the names of the modules in `kinds`."""
+    return sorted(module.name for module in pkgutil.iter_modules(kinds.__path__))
+
+
+def title_of(kind: str) -> str:
+    """Return the heading of a kind in a report; its name if there is no such kind (any more)."""
+    return str(_module(kind).TITLE) if kind in kind_names() else kind
+
+
+def wanted_kinds(names: Sequence[str]) -> list[str]:
+    """Return the kinds that the option --flags names: all of them if it is empty, or none for "none".
+
+    Raises GradingError if there is no kind of such a name.
+    """
+    known = kind_names()
+    if list(names) == [NONE]:
+        return []
+    if unknown := [name for name in names if name not in known]:
+        raise GradingError(
+            f"--flags does not know {', '.join(unknown)}. Give some of {','.join(known)}; none looks for no "
+            "flags."
+        )
+    return [name for name in known if not names or name in names]
+
+
+def with_flags(
+    grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
+) -> list[Grade]:
+    """Return the grades with the flags of these kinds, found in the submissions that were graded.
+
+    A submission that does not count, such as an earlier attempt, is left out. A grade without a submission,
+    such as the result of an earlier run, keeps its flags.
+    """
+    graded = {_key(grade) for grade in grades}
+    counting = [each for each in submissions if each.chapter and _key(each) in graded]
+    flags: dict[Key, list[Flag]] = {_key(each): [] for each in counting}
+    for chapter in sorted({each.chapter for each in counting}) if names else ():
+        group = group_of(chapter, [each for each in counting if each.chapter == chapter], plan(chapter))
+        for name in names:
+            for work, flag in _module(name).find(group):
+                flags[work.student, chapter, work.origin].append(flag)
+    return [replace(grade, flags=tuple(flags.get(_key(grade), grade.flags))) for grade in grades]
+
+
+def _key(each: Grade | Submission) -> Key:
+    return each.student, each.chapter, each.origin
+
+
+def _module(kind: str) -> ModuleType:
+    return importlib.import_module(f"{kinds.__name__}.{kind}")

@@ -1,0 +1,57 @@
+"""The course's own solution, handed in as an answer."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from contextlib import suppress
+
+from course_pkg.grading.flags.fingerprints import Fingerprint, fingerprint
+from course_pkg.grading.flags.kinds.copies import blank_fingerprints
+from course_pkg.grading.flags.similarity import NOTHING, SAME, STATEMENTS, Similarity
+from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
+from course_pkg.grading.flags.work import Answer, Found, Group
+from course_pkg.grading.grade import Flag
+
+TITLE = "The course's own solution"
+EXACT = "It is the solution of the course."
+CHANGED = "It is the solution of the course, except for names, comments, texts or the order."
+
+
+def find(group: Group) -> Iterator[Found]:
+    """Yield a flag for each answer that is the course's solution.
+
+    The solution of a short exercise is what many students write. So exact answers count together: they need
+    ten statements that are not in the handed-out cells. A changed answer needs as many by itself.
+    """
+    blanks = blank_fingerprints(group)
+    own = {name: fingerprint(answer) for name, answer in group.solution.items()}
+    written = {name: _written(each, blanks.get(name, NOTHING)) for name, each in own.items()}
+    students = [{answer.name: fingerprint(answer) for answer in work.answers} for work in group.works]
+    exercises = Similarity([*students, own], blanks).exercises
+    plain = {name: _plain(answer) for name, answer in group.solution.items()}
+    for work, answers in zip(group.works, students, strict=True):
+        known = [answer for answer in work.answers if answer.name in own]
+        exact = [answer for answer in known if _plain(answer) == plain[answer.name]]
+        if sum(written[answer.name] for answer in exact) >= STATEMENTS:
+            yield from ((work, Flag("solution", answer.where, EXACT)) for answer in exact)
+        for answer in known:
+            name = answer.name
+            if answer in exact or written[name] < STATEMENTS:
+                continue
+            if exercises[name].likeness_of(answers[name], own[name]) >= SAME:
+                yield work, Flag("solution", answer.where, CHANGED)
+
+
+def _written(answer: Fingerprint, given: Fingerprint) -> int:
+    """Return how many statements are not in the handed-out cell."""
+    forms = {form for form, _ in given.lines}
+    return sum(form not in forms for form, _ in answer.lines)
+
+
+def _plain(answer: Answer) -> str:
+    """Return the program without layout and comments; only without layout if it is not Python."""
+    with suppress(*UNREADABLE):
+        if is_python(answer):
+            return ast.dump(tree(answer))
+    return " ".join(answer.source.split())

@@ -1,0 +1,68 @@
+"""What a program does that may deserve a look, and what the course itself does in its notebooks.
+
+An observation is identified by its key, such as "os.environ". What the course does, its students may do, so
+these observations are left out.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from course_pkg.grading.flags.syntax import UNREADABLE, aliases, imports, is_python, line_of, tree
+from course_pkg.grading.flags.work import Answer, Found, Group
+from course_pkg.grading.grade import Flag
+
+SHOWN = 5  # the most flags of one kind for one answer
+
+
+@dataclass(frozen=True)
+class Observation:
+    """One thing that a program does."""
+
+    key: str
+    line: int
+    words: str  # a sentence for the instructor
+
+
+@dataclass(frozen=True)
+class Program:
+    """A tree, and what the names in it stand for."""
+
+    module: ast.Module
+    names: Mapping[str, str]
+
+
+Observe = Callable[[Program], Iterable[Observation]]
+
+
+def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) -> Iterator[Found]:
+    """Yield a flag for each observation in an answer that the course's own code does not cause.
+
+    This code is the solution of the same exercise and all cells that are no exercises; `whole_notebook` adds
+    the solutions of the chapter's other exercises.
+    """
+    shown = [tree(Answer("00", source)) for source in group.shown]
+    given = imports(shown)
+    taught = {seen.key for module in shown for seen in observe(Program(module, aliases(module, given)))}
+    own = {
+        name: {each.key for each in _seen(answer, given, observe)} for name, answer in group.solution.items()
+    }
+    if whole_notebook:
+        taught = taught.union(*own.values())
+    for work, answer in group.answers():
+        if is_python(answer):
+            known = taught | own.get(answer.name, set())
+            new = {each.key: each for each in _seen(answer, given, observe) if each.key not in known}
+            for each in sorted(new.values(), key=lambda every: every.line)[:SHOWN]:
+                yield work, Flag(kind, answer.where, each.words, each.line, line_of(answer, each.line))
+
+
+def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Observation]:
+    """Return the observations in an answer; one that runs in the notebook can use what its cells import."""
+    try:
+        module = tree(answer)
+        return list(observe(Program(module, aliases(module, {} if answer.path else given))))
+    except UNREADABLE:
+        return [Observation("unreadable", 0, "It could not be read as a program, so it was not searched.")]

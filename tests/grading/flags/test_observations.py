@@ -1,0 +1,155 @@
+"""Answers that look into other code, change modules or read files are flagged; ordinary answers are not."""
+
+from __future__ import annotations
+
+import pytest
+
+from course_pkg.checking.parts import chapters
+from course_pkg.grading.flags.finding import kind_names
+from course_pkg.grading.grade import Package, Submission
+from course_pkg.sandbox.job import work_file
+from tests.checking.example_answers import every_answer
+from tests.grading.flags.classes import flags_of, solutions, submission
+
+SEARCHED = ("files", "internals", "patches")
+ANSWER = """{line}
+
+
+def handle_geometry(request):
+    return geometryResponse(area=1.0, volume=2.0)
+
+
+geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+"""
+
+
+LINES = [
+    ("import inspect", "internals"),
+    ("import course_pkg.checking.runner", "internals"),
+    ("from course_pkg import grading", "internals"),
+    ("from course_pkg.checking import parts as p", "internals"),
+    ("import sys; frame = sys._getframe(1)", "internals"),
+    ("from sys import _getframe; frame = _getframe(1)", "internals"),
+    ("import sys as s; modules = s.modules", "internals"),
+    ("import os; print(os.environ)", "internals"),
+    ("found = handle.__globals__", "internals"),
+    ("found = getattr(rospy.spin, '__code__')", "internals"),
+    ("runner = __import__('course_pkg.checking.runner')", "internals"),
+    ("get_ipython().events.register('pre_run_cell', print)", "internals"),
+    ("eval('1')", "internals"),
+    ("rospy.Service = print", "patches"),
+    ("rospy.Service.__init__ = print", "patches"),
+    ("import threading; threading.Lock = print", "patches"),
+    ("from threading import Lock as L; L.acquire = print", "patches"),
+    ("import time as t; setattr(t, 'sleep', print)", "patches"),
+    ("clock = rospy.Time; clock.now = print", "patches"),
+    ("import builtins; del builtins.print", "patches"),
+    ("rospy.__dict__['spin'] = print", "patches"),
+    ("vars(rospy)['spin'] = print", "patches"),
+    ("rospy.__dict__.update(spin=print)", "patches"),
+    ("rospy = print", "patches"),
+    ("geometryResponse.area = 1.0", "patches"),
+    ("open('notes.txt')", "files"),
+    ("import os; os.listdir('..')", "files"),
+    ("from pathlib import Path; Path('x').read_text()", "files"),
+    ("from pathlib import Path; where = Path('x'); where.open()", "files"),
+    ("import subprocess; subprocess.run(['ls'])", "files"),
+    ("name = '../solutions/05_write_a_server.ipynb'", "files"),
+    ("name = '/proc/1/environ'", "files"),
+    ("!cat secret", "files"),
+    ("%run other.py", "files"),
+]
+ORDINARY = [
+    "import threading; lock = threading.Lock()",
+    "import math, time",
+    "from course_pkg.srv import AddTwoInts",
+    "from course_pkg import check, predict",
+    "response = geometryResponse(); response.area = 1.0",
+    "class Box: pass\nbox = Box(); box.side = 1.0; Box.count = 0",
+    "def words():\n    '''See the solutions/ folder and open() /proc.'''",
+    "# open('/proc/1/environ')",
+    "name = 'course_pkg/geometry'",
+    "rospy.loginfo('%s', type(rospy).__name__)",
+]
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[str, set[str]]:
+    """The kinds of flags of an answer to 05.1 that begins with a line, by this line; each has one student."""
+    lines = [*(line for line, _ in LINES), *ORDINARY]
+    handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
+    flags = flags_of(SEARCHED, *handed_in)
+    return {line: {flag.kind for flag in flags.get(line, ())} for line in lines}
+
+
+@pytest.mark.parametrize(("line", "kind"), LINES)
+def test_a_line_and_its_kind(found: dict[str, set[str]], line: str, kind: str) -> None:
+    """The kind that the line belongs to has a flag."""
+    assert kind in found[line]
+
+
+@pytest.mark.parametrize("line", ORDINARY)
+def test_an_ordinary_line(found: dict[str, set[str]], line: str) -> None:
+    """It has no flag."""
+    assert found[line] == set()
+
+
+def test_a_flag_shows_the_line() -> None:
+    """It has the part, the number of the line, and the line itself."""
+    answer = ANSWER.format(line="\nimport inspect  # why?")
+    (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": answer}))["s01"]
+    assert (flag.where, flag.line, flag.evidence) == ("05.1", 2, "import inspect  # why?")
+    assert flag.words == "It imports inspect."
+
+
+def test_the_solutions_have_no_flags() -> None:
+    """Neither the solution of a chapter nor the handed-out notebook is flagged by a search."""
+    for chapter in chapters():
+        handed_in = submission("s01", solutions(chapter), chapter), submission("s02", {}, chapter)
+        assert flags_of(SEARCHED, *handed_in) == {}, chapter
+
+
+def test_right_example_answers() -> None:
+    """Of all right example answers, only one is flagged: it runs the command `rosservice find`."""
+    students: dict[tuple[str, int], dict[str, str]] = {}  # by the chapter; each has one answer to a part
+    for answer in every_answer():
+        if answer.right:
+            chapter = answer.check.partition(".")[0]
+            number = next(n for n in range(99) if answer.check not in students.get((chapter, n), {}))
+            students.setdefault((chapter, number), {})[answer.check] = answer.source
+    flagged = []
+    for chapter in chapters():
+        ours = [(number, answers) for (other, number), answers in students.items() if other == chapter]
+        handed_in = [submission(f"s{number}", answers, chapter) for number, answers in ours]
+        flags = [flag for each in flags_of(SEARCHED, *handed_in).values() for flag in each]
+        flagged += [(flag.where, flag.words) for flag in flags]
+    assert flagged == [("08.1", "It calls subprocess.run(), which can run other programs.")]
+
+
+def test_a_program_in_a_package() -> None:
+    """The Python files of a package are searched, too; a line of a file is the evidence."""
+    script = work_file("scripts/spawn_turtle.py", b"#!/usr/bin/env python3\nimport ctypes\n", executable=True)
+    packages = (Package("my_turtles", (script,), "s01/my_turtles"),)
+    handed_in = Submission("s01", "09", b"", "s01/my_turtles", problem="No notebook.", packages=packages)
+    (flag,) = flags_of(SEARCHED, handed_in)["s01"]
+    assert (flag.where, flag.line) == ("my_turtles/scripts/spawn_turtle.py", 2)
+
+
+def test_programs_that_are_hard_to_read() -> None:
+    """Deep nesting, long chains and text that is not Python stop no run."""
+    sources = [
+        "x = " + "(" * 90 + ")" * 90,
+        "x = " + "-" * 5000 + "1",
+        "x" + ".x" * 5000,
+        "x = 0x" + "f" * 9000,
+        "x = x\n" * 3000,
+        "(",
+        "x = '\udc80'",
+    ]
+    flags_of(kind_names(), *(submission(f"s{n}", {"05.1": source}) for n, source in enumerate(sources)))
+
+
+def test_a_program_that_is_too_long() -> None:
+    """An instructor learns that it was not searched."""
+    (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
+    assert flag.words == "It is too long, so its code was not searched."
