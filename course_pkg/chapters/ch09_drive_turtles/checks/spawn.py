@@ -23,6 +23,7 @@ PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # s that a program waits for a service
+WITHOUT_A_WAIT = 0.5  # s in which a program that does not wait ends
 LATE = 2.5  # additional s that the program may need to start and to end
 EARLY = 3.0  # s; a program that gives up earlier uses another limit than 5 s
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
@@ -62,20 +63,33 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
     copy = program.prepare(context, program)
     alone, early, served, real = (World(context, copy, program) for _ in range(4))
     with real.simulator(), alone.run() as running_alone, early.run() as running_early:
-        began = _prints_the_name(context, served)
-        _waits_for_the_service(context, early, running_early)
+        began, early_end = _served_late(context, early, running_early)
+        _prints_the_name(context, served)
+        _waits_for_the_service(context, early_end)
         _gives_up(context, alone, running_alone, began)
         _spawns_in_the_simulator(context, real)
         _is_refused(context, served)
 
 
-def _prints_the_name(context: CheckContext, world: World) -> float:
-    """Respond with another name; return the time of the request, in s of time.monotonic()."""
+def _served_late(context: CheckContext, world: World, running: Running) -> tuple[float, Finished]:
+    """Start a server while the program waits.
+
+    Returns when the program began, in s of time.monotonic(), and how it ended.
+    """
+    began = world.begins(running)
+    wait_until(lambda: running.status is not None, WITHOUT_A_WAIT, 0.05)
+    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
+    done = world.ends(running, LIMIT)
+    server.leave()
+    return began, done
+
+
+def _prints_the_name(context: CheckContext, world: World) -> None:
+    """Respond with another name."""
     given = context.random.word()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
     with world.run() as running:
         wait_until(lambda: bool(server.requests) or running.status is not None, STARTING, 0.05)
-        began = time.monotonic()
         done = world.ends(running, 3.0)
     requests = server.requests
     server.leave()
@@ -121,7 +135,6 @@ def _prints_the_name(context: CheckContext, world: World) -> float:
             "The turtle was spawned, so the exit status has to be 0. Use another status only after a failure."
         ),
     )
-    return began
 
 
 def _why_no_call(done: Finished) -> str:
@@ -132,11 +145,7 @@ def _why_no_call(done: Finished) -> str:
     return why_it_ended(done)
 
 
-def _waits_for_the_service(context: CheckContext, world: World, running: Running) -> None:
-    """Start a server while the program waits."""
-    server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
-    done = world.ends(running, LIMIT)
-    server.leave()
+def _waits_for_the_service(context: CheckContext, done: Finished) -> None:
     context.require(
         "if /spawn starts after the program, the program waits for it",
         holds=done.status == 0,

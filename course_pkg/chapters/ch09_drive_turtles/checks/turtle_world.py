@@ -69,6 +69,13 @@ class World:
         wanted = self.name(relative)
         return bool(wait_until(lambda: self._context.look().service(wanted), within, POLL))
 
+    def begins(self, running: Running) -> float:
+        """Wait until the student's node is on the graph or has ended; return the time of time.monotonic()."""
+        wait_until(
+            lambda: bool(self._own_services(loggers=True)) or running.status is not None, STARTING, POLL
+        )
+        return time.monotonic()
+
     def ends(self, running: Running, within: float) -> Finished:
         """Wait at most `within` s for the end of the student's program; return how it ended."""
         wait_until(lambda: running.status is not None, within, POLL)
