@@ -28,7 +28,7 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process i
 
 
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
-    """Return the report on part `check_id`, such as "05.1", which a separate node examines.
+    """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
     The names that the check needs are looked up in `namespace`, or in the notebook if no namespace is given.
     Errors are in the report and are not raised. Only an interrupt is raised, after the check runner has

@@ -245,8 +245,8 @@ class CheckContext:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
         The names that it defines can be arguments of the student's function: `context.run("close",
-        Its("service"))`. The student's code can change what these objects record, so a record belongs into
-        an object of `place`. Raises CheckError if the code fails.
+        Its("service"))`. The student's code can modify these objects, so keep each record in an object of
+        `place` instead. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:

@@ -91,8 +91,7 @@ class Finished:
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # s
-        # For a command that was still running: the times in s for which it used a processor, and for which it
-        # waited for a processor.
+        # For a command that was still running: its CPU time, and the time that it waited for a CPU, in s.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
         self.queued = queued if isinstance(queued, float) else math.inf  # infinity if the time is not known

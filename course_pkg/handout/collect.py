@@ -62,7 +62,10 @@ class Wanted:
         )
 
     def chapters_of(self, file: WorkFile) -> list[str]:
-        """Return the chapter of a notebook, or all chapters that ask for the package of a file."""
+        """Return the chapter of a notebook.
+
+        For a file of a package, return all chapters that require this package.
+        """
         return sorted(self._asking[file.asked]) if file.package else [self.notebooks[file.path]]
 
 

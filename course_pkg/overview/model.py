@@ -145,7 +145,10 @@ class Progress:
         return max(begun, key=lambda each: each.latest, default=None)
 
     def only(self, number: str) -> Progress:
-        """Return the progress in the chapter `number`, such as "05"; without chapters if it is unknown."""
+        """Return the progress in only the chapter `number`, such as "05".
+
+        If this chapter is unknown, the result contains no chapters.
+        """
         chapters = tuple(each for each in self.chapters if each.number == number)
         return Progress(chapters, self.paths, self.problems)
 

@@ -78,8 +78,8 @@ def require_sandbox() -> None:
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
     """Return the command that runs `command` in a sandbox; start it with an empty environment.
 
-    The sandbox shows the course (without solutions and tests), ROS, and the paths `readable`. All of them are
-    read-only.
+    Inside the sandbox, only the course (without solutions and tests), ROS, and the paths in `readable` are
+    visible. All of them are read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []

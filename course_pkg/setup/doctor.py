@@ -111,7 +111,8 @@ def _answering(uri: str, host: str, port: int) -> Finding:
     try:
         socket.create_connection((host, port), timeout=2).close()
     except OSError as error:
-        return Finding("ROS_MASTER_URI", f"{uri}: {error}", "Start that master, or unset the variable.")
+        remedy = "Start the master at this address, or unset ROS_MASTER_URI."
+        return Finding("ROS_MASTER_URI", f"{uri}: {error}", remedy)
     return Finding("ROS_MASTER_URI", f"{uri} answers")
 
 

@@ -31,8 +31,8 @@ class Counter:
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
         """Plan a visit of `stay` s for each element of `after`, and return the new visits.
 
-        `after` contains delays in s from the time `now`. Future visits of earlier calls are removed. Raises
-        FieldError for impossible times; then nothing changes.
+        `after` contains delays in s from the time `now`. Visits that earlier calls have planned for the
+        future are removed. Raises FieldError for impossible times; then nothing changes.
         """
         if len(after) > MOST:
             raise FieldError(

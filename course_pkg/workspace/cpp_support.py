@@ -14,9 +14,9 @@ WARNINGS = ("-Werror=return-type",)  # otherwise, a handler without a return sta
 def missing_for_cpp() -> str:
     """Return a sentence about a missing tool for C++ programs and its installation, or an empty string."""
     if not _compiler_here():
-        return _advice(f"There is no C++ compiler here ({compiler()}).", "g++", "compilers")
+        return _advice(f"No C++ compiler is installed ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):
-        return _advice("The headers of roscpp are not here.", "libroscpp-dev", "ros-noetic-roscpp")
+        return _advice("The headers of roscpp are not installed.", "libroscpp-dev", "ros-noetic-roscpp")
     return ""
 
 

@@ -208,7 +208,7 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
     """Kill the process whose command line contains `pattern`, or the command itself if `pattern` is empty.
 
     Then end the command. Returns the time in s until all processes have ended and the port is free, and the
-    number of processes and ports that are left after TIMEOUT.
+    numbers of processes and of ports that remain after TIMEOUT.
     """
     with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
         assert urlsplit(address).port == port

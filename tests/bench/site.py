@@ -134,9 +134,9 @@ def first_panels(site: Path) -> None:
 
 
 # axe: the accessibility of a whole site with every rule of axe-core. Arguments: `[SITE]`. SITE is the folder
-# of a site; the default is the last site that `./course site` wrote. Each page is checked wide and narrow,
-# light and dark, with and without the open search. The test suite leaves out combinations with the same
-# result.
+# of a site; the default is the last site that `./course site` wrote. Each page is checked in a wide and a
+# narrow window, in the light and dark themes, and with the search open and closed. The test suite leaves out
+# combinations with the same result.
 
 
 def axe_main() -> None:

@@ -14,7 +14,7 @@ from playwright.sync_api import BrowserContext, Error, Locator, Page, expect
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
-# JupyterLab's own files in a stack; the course's scripts are at blob: addresses.
+# JupyterLab's own files in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
 READY = 60_000  # ms; a browser, a server and a kernel start on a machine that may be busy
 HOST = (HERE / "host.html").read_text()

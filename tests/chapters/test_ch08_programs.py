@@ -155,7 +155,7 @@ def move(to_open: bool) -> tuple[bool, str]:
 
 
 def trigger(name: str) -> tuple[bool, str]:
-    """Return success and message of one call of a Trigger of the switch."""
+    """Call the switch's Trigger service once, and return the `success` and `message` of the response."""
     response = BoundedProxy(f"/switch/{name}", Trigger)()
     return response.success, response.message
 

@@ -85,7 +85,7 @@ def test_every_report_is_there(undisturbed: Path) -> None:
 
 
 def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path) -> None:
-    """The same command again reads all grades from the previous run."""
+    """A second run of the same command reads all grades from the first run."""
     before = points(undisturbed)
     done = grade(submissions, undisturbed)
     assert "4 of 4 notebooks are graded from an earlier run" in done.stderr

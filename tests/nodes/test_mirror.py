@@ -52,7 +52,10 @@ def test_a_joint_state_has_matching_positions_and_velocities() -> None:
 
 
 def test_the_mirror_image_has_the_opposite_signs() -> None:
-    """Time and names stay. The received message does not change, because other callbacks use it, too."""
+    """The time and the names do not change.
+
+    The received message does not change either, because other callbacks use it, too.
+    """
     message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
     message.header.stamp.secs = 7
     shown = mirrored(message)

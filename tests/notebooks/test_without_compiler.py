@@ -30,5 +30,5 @@ def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPa
     assert len(checks) == 4
     for check, words in checks.items():
         assert words.startswith(f"{check} not attempted"), words
-        assert "There is no C++ compiler here" in words
+        assert "No C++ compiler is installed" in words
         assert "apt-get install --no-install-recommends g++" in " ".join(words.split())

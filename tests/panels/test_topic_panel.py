@@ -88,7 +88,7 @@ def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> 
 
 
 def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) -> None:
-    """A panel that is shown again has another node, with the same type and plot."""
+    """When a panel is shown again, it has a new node, but keeps its type and plot."""
     click(panel, "publish", "2.5")
     first = panel.connections["own"]
     panel.hidden()

@@ -195,7 +195,10 @@ def test_long_values_are_shortened() -> None:
 
 
 def test_too_many_pieces_are_folded() -> None:
-    """Of a message with hundreds of fields, the first ones are shown, and the rest is one piece."""
+    """If a message has hundreds of fields, only the first fields are shown separately.
+
+    All others are combined into one piece.
+    """
     kind = compile_message("x/Wide", "\n".join(f"int32 f{number}" for number in range(400)))
     data = sized(body(kind, {}))
     pieces = request_pieces(data, kind)

@@ -74,7 +74,10 @@ def test_the_set_up_waits_for_another_package_manager(
 
 
 def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the timeout, or at once after another failure, the tool's own error message is shown."""
+    """The tool's own error message is shown after the timeout.
+
+    After any other failure, it is shown at once.
+    """
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):

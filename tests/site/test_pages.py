@@ -185,7 +185,7 @@ def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """The search works with the keyboard only: its key, a word, the down key, Enter."""
+    """The search works with the keyboard only: press its key, type a word, press Down and Enter."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")

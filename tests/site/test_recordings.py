@@ -48,7 +48,7 @@ class Noted:
         self.done.append("shown")
 
     def hidden(self) -> None:
-        """Store that the panel stops."""
+        """Record that the panel is no longer shown."""
         self.done.append("hidden")
 
 

@@ -145,7 +145,7 @@ def test_threads_may_compile_at_once() -> None:
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
 def test_value_that_is_not_a_type_is_refused(given: object) -> None:
-    """A number, or one half of a service, is not accepted as a service type."""
+    """A number, or the request or response class of a service, is not accepted as a service type."""
     with pytest.raises(UnknownType):
         service_type(given)
     with pytest.raises(UnknownType):

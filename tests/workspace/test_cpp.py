@@ -21,7 +21,7 @@ def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.Monke
     """The message names the compiler that CMake would use, and the command that installs it."""
     monkeypatch.setenv("CXX", "/nowhere/c++")
     words = missing_for_cpp()
-    assert words.startswith("There is no C++ compiler here (/nowhere/c++).")
+    assert words.startswith("No C++ compiler is installed (/nowhere/c++).")
     assert "apt-get install --no-install-recommends g++" in words
     assert "conda install compilers" in words
 

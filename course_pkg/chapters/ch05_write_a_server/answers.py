@@ -230,7 +230,7 @@ replace("{value}, and a side cannot be negative", "negative")
 replace('"{side} is {value}, and a side cannot be negative"', '"a negative side in {request}"')
 # %% 05.3 wrong: only the values of all sides | hint: The message names no side
 replace("{side} is {value}, and a side cannot be negative", "{request.length}, {request.width}, {request.height}")
-# %% 05.3 wrong: names the last negative side | hint: names another side
+# %% 05.3 wrong: names the last negative side | hint: contains the name of another side
 replace('("length", "width", "height")', '("height", "width", "length")')
 # %% 05.3 wrong: refuses a box without length | hint: not zero itself
 replace("value < 0", "value < 0 or not request.length")

@@ -218,6 +218,16 @@ def ask(uri, service, length, width, height):
 # %% 11.3 wrong: uses a ServiceProxy | hint: Do not use a proxy
 replace('host, port … ", answer)', """response = rospy.ServiceProxy(service, geometry)(length, width, height)
     return response.area, response.volume""")
+# %% 11.3 wrong: a proxy in another function | hint: Do not use a proxy
+replace('host, port … ", answer)', """return by_proxy(uri, service, length, width, height)
+
+
+def by_proxy(uri, service, *sides):
+    proxy = getattr(rospy, "Service" + "Proxy")(service, geometry)
+    proxy._get_service_uri = lambda request: uri
+    response = proxy(*sides)
+    return response.area, response.volume""")
+
 # %% 11.3 wrong: no length in front of the request | hint: The request has to start with its length, 12, in 4 bytes
 replace('theirs = read_header … ", answer)', """receive(sock, size)
         sock.sendall(struct.pack("<3f", length, width, height))

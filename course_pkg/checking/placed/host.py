@@ -1,4 +1,4 @@
-"""The check runner's end of the proxies: it executes the calls that the student's kernel makes.
+"""The check runner's side of the proxies: it executes the calls that the student's kernel makes.
 
 Each thread of the kernel has its own connection, and each connection has its own thread here. So many calls
 can wait in the check runner at the same time, and `threading.get_ident()` is different for each thread of the

@@ -32,7 +32,9 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
         "bash", "-c", f"readelf --dynamic --dyn-syms --wide {path} | head -n {LINES}", worded="readelf"
     )
     if "readelf" in seen.err and "not found" in seen.err:
-        raise ToolMissing("The program readelf is not here. On Debian and Ubuntu: apt-get install binutils.")
+        raise ToolMissing(
+            "The program readelf is not installed. On Debian and Ubuntu: apt-get install binutils."
+        )
     if "roscpp" not in {name.removeprefix("lib") for name in NEEDED.findall(seen.out)}:
         context.fail(
             "the program is a compiled C++ program that uses roscpp",

@@ -28,7 +28,7 @@ class Observation:
 
 @dataclass(frozen=True)
 class Program:
-    """A tree, and what the names in it stand for."""
+    """A syntax tree, and the definitions that its names refer to."""
 
     module: ast.Module
     names: Mapping[str, str]

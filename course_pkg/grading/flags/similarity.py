@@ -111,12 +111,12 @@ class Exercise:
         }
 
     def likeness_of(self, one: Fingerprint, other: Fingerprint) -> float:
-        """Return the likeness of two answers, which need not be those of students."""
+        """Return the similarity of two answers; they may also be answers that no student wrote."""
         total = self._bits(one.code) + self._bits(other.code)
         return 2 * self._bits(one.code & other.code) / total if total else 0.0
 
     def surprise(self, likeness: float) -> float:
-        """Return log2(1 / p), where p is the share of all pairs that are at least as much alike."""
+        """Return log2(1 / p), where p is the fraction of all pairs whose similarity is at least this high."""
         as_much = len(self._ranked) - bisect_left(self._ranked, likeness - 1e-9)
         everybody = len(self._answers) * (len(self._answers) - 1) / 2
         return math.log2(everybody / max(1, as_much))

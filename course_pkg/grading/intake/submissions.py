@@ -38,7 +38,9 @@ from course_pkg.grading.intake.packages import (
 from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
-LATE = "Canvas marks it as late. It does not say by how much: a table of late days or of times can."
+LATE = (
+    "Canvas marks this submission as late. It does not say by how much: a table of late days or of times can."
+)
 SHOWN = 3  # maximum number of file names in a sentence
 
 

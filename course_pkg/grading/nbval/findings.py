@@ -20,7 +20,7 @@ SENTENCES = (  # a text that nbval 0.11 or pytest writes, and its meaning for a 
     ("waiting for output", "The kernel ended, or it sent no output, while the cell ran."),
     ("previous cell timed out", "An earlier cell took too long, so this cell was not compared."),
 )
-OTHER = "The cell did not give the same result as with the right answers."
+OTHER = "The result of the cell differs from the result with the right answers."
 
 
 def finding(words: str) -> str:

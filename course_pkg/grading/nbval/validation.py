@@ -66,5 +66,5 @@ def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL)
 
 
 def _first_line(source: str) -> str:
-    """Return the first line of a cell that is not empty."""
+    """Return the first non-empty line of a cell."""
     return next((line for line in source.splitlines() if line.strip()), "")[:LINE]

@@ -36,7 +36,10 @@ class Defused:
 
 
 def defuse(source: str, first_line: str = "") -> Defused:
-    """Return the safe source of an answer; `first_line` is the magic of the reference, or an empty string."""
+    """Return a safe version of an answer's source.
+
+    `first_line` is the cell magic (%%…) of the reference cell, or an empty string.
+    """
     kept, notes = _readable(source)
     kept, about_magic = _with_magic(kept, first_line) if first_line else _without_magic(kept)
     kept, about_markers = _without_markers(kept)

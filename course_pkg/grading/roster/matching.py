@@ -83,7 +83,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the letters of a name in each order of its parts that platforms use.
+    """Return the letters of a name, once for each order of first and last names that platforms use.
 
     Canvas writes "doejanemaria" for Jane Maria Doe, a spreadsheet "Doe, Jane Maria".
     """

@@ -34,8 +34,8 @@ class ChoiceRecord:
     """The choices for one table of cases. `chosen` and `first` map the text of a case to an option.
 
     `compared` is the time (ISO 8601 in UTC) at which the reasons were first shown, or "" if they were never
-    shown. `first` are the choices at that time, and only these count: `fit` of them were the expected
-    options. `shown` says whether the reasons are shown now.
+    shown. `first` are the choices at that time, and only these count: `fit` is the number of these choices
+    that were the expected option. `shown` says whether the reasons are shown now.
     """
 
     key: str

@@ -74,7 +74,7 @@ class ServicePanel(Panel):
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call once for each of `inputs`, and keep the outcomes for a page without a kernel."""
+        """Call the service once for each of `inputs`, and keep the outcomes for a page without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:

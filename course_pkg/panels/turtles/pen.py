@@ -52,7 +52,7 @@ class Pen:
     colour: Colour | None = USUAL
     sure: bool = False
     _moved: bool = False  # whether it moved since the paper or the pen was new
-    _still: int = 0  # observations at rest in a row
+    _still: int = 0  # number of consecutive observations at rest
     _going: int = 0  # moving observations in a row
     _last: Observation | None = None
 

@@ -97,7 +97,8 @@ class Node:
         full = rospy.resolve_name(topic)
         if full in self._subscriptions:
             self._subscriptions.pop(full).stop()
-        with self._cells.paused():  # The next subscribe() ends it; a second run of its cell does not.
+        # The next subscribe() ends the pause; running the cell of this subscription again does not.
+        with self._cells.paused():
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
 

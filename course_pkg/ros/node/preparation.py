@@ -42,7 +42,7 @@ LONGEST = 65536  # bytes; a node does not wait for a longer header
 BACKLOG = 128  # connections; rospy's 5 are too few: in a burst, some clients wait 1 s for TCP's next attempt
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
-HASTENED = "hastened_by_course"  # an attribute of a registration manager that the shutdown already wakes
+HASTENED = "hastened_by_course"  # marks a registration manager that the shutdown has already woken up
 
 Serve = Callable[[socket.socket, Any], None]
 

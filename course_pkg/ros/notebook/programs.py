@@ -1,4 +1,4 @@
-"""`%rosrun` and `%roslaunch`: programs that a cell starts with the commands of a terminal."""
+"""`%rosrun` and `%roslaunch`: start programs from a cell, with the same commands as in a terminal."""
 
 from __future__ import annotations
 

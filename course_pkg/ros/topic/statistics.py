@@ -32,7 +32,10 @@ class RateStatistics:
             self._times.append(at)
 
     def figures(self, now: float) -> Figures:
-        """Return the figures of the last 3 s, or of the last 5 events; empty if the event has stopped."""
+        """Return the statistics of the last 3 s, or of the last 5 events.
+
+        The result is empty if no more events arrive.
+        """
         times = self._latest(now)
         if len(times) < 2:
             return {}

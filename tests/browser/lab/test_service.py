@@ -93,7 +93,10 @@ def test_fill_call_read(form: Locator) -> None:
 
 
 def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
-    """A wrong field gets the focus and a note with the allowed values, which disappears with the mistake."""
+    """A wrong field gets the focus and a note with the allowed values.
+
+    The note disappears when the field is corrected.
+    """
     fill(form, length="1.2", width="five")
     form.get_by_role("button", name="Call").click()
     width = form.get_by_label("width")

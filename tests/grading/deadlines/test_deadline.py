@@ -132,7 +132,10 @@ def test_the_note_says_when() -> None:
 
 
 def test_a_time_that_is_not_known() -> None:
-    """A submission without a time counts as in time, with a note; if all times are missing, the run ends."""
+    """A submission without a time counts as on time, and gets a note.
+
+    If all times are missing, grading stops with an error.
+    """
     known, unknown = _lateness({"s01": DUE}).applied([_submission("s01"), _submission("s02")])
     assert (known.notes, unknown.notes, unknown.late) == ((), (NO_TIME,), 0.0)
     with pytest.raises(GradingError, match="--deadline needs the times"):

@@ -303,7 +303,10 @@ def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: st
 
 
 def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
-    """All unusable files of a student are one additional submission, whose problem contains their names."""
+    """All unusable files of a student are reported as one additional submission.
+
+    Its error message lists their names.
+    """
     others = {f"s01/photo_{number}.png": b"x" for number in range(9)}
     found = submissions(folder(tmp_path, {f"s01/{FIVE}": five, **others}))
     assert [each.chapter for each in found] == ["", "05"]

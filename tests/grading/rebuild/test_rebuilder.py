@@ -302,7 +302,7 @@ def test_markers_and_magics_are_removed() -> None:
 
 
 def test_checks_and_given_cells_do_not_change() -> None:
-    """Changes of the checks and of the given cells are ignored."""
+    """Changes to the checks and to the given cells are ignored."""
 
     def change(cells: Cells) -> None:
         for cell in cells:

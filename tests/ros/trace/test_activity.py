@@ -90,7 +90,7 @@ def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None
 
 
 def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
-    """A publisher without subscribers has no traffic, and its node is not silent."""
+    """A publisher without subscribers has no traffic, but its node is not listed as silent."""
     kernel.run(SPEAK + "\nfor number in range(3): speaker.publish('x')")
     seen = ActivityPoller().poll(look())
     assert [each for each in seen.traffic if each.topic == "/words"] == []

@@ -15,7 +15,7 @@ NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at th
 SOON = 4.0  # s for a message to arrive on a busy machine
 AT_ONCE = 0.3  # s that the fastest of several calls may take
 TOO_SOON = (
-    "A subscriber that connects within 2 s would miss the 0. If there is no subscriber, wait for "
+    "A subscriber that connects within 2 s would not receive the 0. If there is no subscriber, wait for "
     "the full 2 s."
 )
 TOO_EARLY = (

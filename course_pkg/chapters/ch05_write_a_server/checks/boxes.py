@@ -164,5 +164,8 @@ def _unclear(named: list[str], side: str, reason: str) -> str:
     if not named:
         return "The message names no side. Write the name of the negative side and its value."
     if named != [side]:
-        return "The message names another side. Name the first negative side, in the order of the fields."
+        return (
+            "The message contains the name of another side. Name the first negative side, in the "
+            "order of the fields."
+        )
     return "The message does not contain the value of the side. Write the value after the name."

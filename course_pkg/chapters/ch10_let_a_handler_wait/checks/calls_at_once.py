@@ -128,7 +128,7 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Offer a service that responds after all clients have called; try two numbers of clients."""
+    """Offer a service that responds after all clients have called; use two different numbers of clients."""
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:

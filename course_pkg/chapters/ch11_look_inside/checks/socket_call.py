@@ -21,6 +21,31 @@ from course_pkg.waiting import wait_until
 # A float32 stores this fraction exactly, but a result that is rounded to a few decimals is different.
 BINARY = 65 / 512
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
+NO_PROXY = "Do not use a proxy: connect a socket to the address, and send the bytes yourself."
+WITHOUT_ROS = """
+import subprocess
+
+from rospy.impl.tcpros_base import TCPROSTransport
+from rospy.impl.tcpros_service import ServiceProxy
+
+
+def refuse(*_, **__):
+    raise RuntimeError("only a socket may connect to the service")
+
+
+FUNCTIONS = (TCPROSTransport.connect, ServiceProxy.call, subprocess.Popen.__init__)
+CODE = [each.__code__ for each in FUNCTIONS]
+
+
+def begin():
+    for each in FUNCTIONS:
+        each.__code__ = refuse.__code__
+
+
+def end():
+    for each, code in zip(FUNCTIONS, CODE):
+        each.__code__ = code
+"""  # a client of ROS, or a program such as rosservice, cannot call the service during the check
 AS_BYTES = matches(r"\bb['\"]")
 NO_HEADER = "The header has to start with its length, in 4 bytes. Use pack_header."
 NO_LENGTH = "The request has to start with its length, 12, in 4 bytes. The three numbers follow."
@@ -74,19 +99,24 @@ IN_ORDER = (
     deadline=40.0,
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Send a response in one piece, and byte by byte; refuse the connection, and refuse the request."""
+    """Send a response in one piece or byte by byte, or refuse the connection or the request."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
         expected="a socket",
         actual="a call with a client of ROS",
-        hints="Do not use a proxy: connect a socket to the address, and send the bytes yourself.",
+        hints=NO_PROXY,
     )
-    for slowly in (False, True):
-        _answers(context, slowly=slowly)
-    reason = f"no {context.random.word()} today"
-    _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
-    _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)
+    context.prepare(WITHOUT_ROS)
+    context.run("begin", worded="ask()")
+    try:
+        for slowly in (False, True):
+            _answers(context, slowly=slowly)
+        reason = f"no {context.random.word()} today"
+        _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
+        _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)
+    finally:
+        context.run("end", worded="ask()")
 
 
 def _names(source: str) -> set[str]:
@@ -170,10 +200,14 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
         holds=bool(server.conversations),
         expected="a connection",
         actual=result.error or "none",
-        hints=(
-            "Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT. "
-            "Convert the port into a number."
-        ),
+        hints=[
+            (lambda _: "only a socket may connect" in result.error, NO_PROXY),
+            (
+                ANYTHING,
+                "Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT. "
+                "Convert the port into a number.",
+            ),
+        ],
     )
     conversation = server.conversations[0]
     wait_until(lambda: conversation.over, TIMEOUT + LINGER + 1.0)

@@ -124,5 +124,5 @@ def _method(function: ast.Attribute, node: ast.Call, program: Program) -> Iterat
         yield Observation(f"shell {command}", node.lineno, "It runs a command of the shell or of IPython.")
     elif function.attr in METHODS or (owner in PATHS and function.attr in PATH_METHODS):
         yield Observation(
-            function.attr, node.lineno, f"It calls {function.attr}(), which is a method of paths."
+            function.attr, node.lineno, f"It calls {function.attr}(), which is a method of pathlib.Path."
         )

@@ -21,8 +21,9 @@ CHANGED = "It is the solution of the course, except for names, comments, texts o
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is the course's solution.
 
-    The solution of a short exercise is what many students write. So exact answers count together: they need
-    ten statements that are not in the handed-out cells. A changed answer needs as many by itself.
+    The solution of a short exercise is what many students write. So identical short answers are not evidence:
+    they are reported only if together they have at least ten statements that are not in the handed-out cells.
+    A changed answer needs as many by itself.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
