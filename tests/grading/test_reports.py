@@ -265,7 +265,7 @@ def test_students_who_need_attention() -> None:
     assert attention(book, "s01") == []
     assert attention(book, "s02")[0].startswith("05.4 not examined: The kernel ended")
     assert attention(book, "s03")[0].startswith("05_write_a_server.ipynb was not graded")
-    assert "No point in chapter 05." in attention(book, "s05")
+    assert "No points in chapter 05." in attention(book, "s05")
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:

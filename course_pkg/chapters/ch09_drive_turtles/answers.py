@@ -369,7 +369,7 @@ replace('name="improved_pubvel_toggle"', 'name="driver"')
 replace('if="$(arg addturtle)"', 'if="false"')
 # %% 09.6 wrong: true by default | hint: Without an argument, the node must not start
 replace('default="false"', 'default="true"')
-# %% 09.6 wrong: no condition | hint: The node is started with addturtle:=false, too
+# %% 09.6 wrong: no condition | hint: The node is also started with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
 # %% 09.6 wrong: a program name without .py | hint: The attributes pkg and type are the two words that follow rosrun
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')

@@ -253,7 +253,7 @@ replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n       
 replace("min(pause, max(end - time.monotonic(), 0))", "pause")
 # %% 12.3 wrong: as many tries as the deadline has seconds | hint: pay() ended before the deadline
 replace("while (rest := end - time.monotonic()) > 0:", "for _ in range(int(deadline)):\n        rest = max(end - time.monotonic(), 0)")
-# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for a server without
+# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for it without a time limit
 replace("        try:", "        rospy.wait_for_service(till)\n        try:")
 # %% 12.3 wrong: tries once | hint: One failed try ended pay()
 replace("end, pause … pause *= 2\n", """try:

@@ -302,7 +302,7 @@ replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
 replace('default="false"', 'default="true"')
 # %% 14.6 wrong: no default | hint: The argument has no default value
 replace(' default="false"', '')
-# %% 14.6 wrong: no condition | hint: The node is started with addturtle:=false, too
+# %% 14.6 wrong: no condition | hint: The node is also started with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
 
 # %% 14.7 right: a MultiThreadedSpinner

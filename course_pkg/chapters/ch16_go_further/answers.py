@@ -328,7 +328,7 @@ replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
 # %% 16.4 wrong: the charge stays | hint: The charge did not change
 replace("            self.charge -= 1\n", "")
-# %% 16.4 wrong: one percent for all | hint: The charge changed only once for the whole delivery
+# %% 16.4 wrong: one percent for all | hint: The battery charge changed only once for the whole delivery
 replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
 # %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted

@@ -55,7 +55,8 @@ class Publisher:
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):
             hint = (
-                hint_for(hints, "no subscriber") or f"Make a rospy.Subscriber for it, of type {self._type}."
+                hint_for(hints, "no subscriber")
+                or f"Create a rospy.Subscriber for this topic, of type {self._type}."
             )
             self._results.fails(assertion, expected="a subscriber", actual="no subscriber", hint=hint)
         self._results.passes(assertion)

@@ -12,9 +12,8 @@ from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of
 from course_pkg.grading.roster.people import Person
 
 WITHOUT_SANDBOX = (
-    "Run without a sandbox: this submission had access to the machine, its check and the other submissions, "
-    "so "
-    "its points may be wrong."
+    "This submission was run without a sandbox: it had access to the machine, its check and the other "
+    "submissions, so its points may be wrong."
 )
 
 ABSENT = "These results are from an earlier run. In the latest run, nothing was handed in for this chapter."
@@ -164,7 +163,7 @@ def _about(grade: Grade) -> str:
         return f"{', '.join(report.check for report in undecided)} not examined: {clean.line(why, 160)}"
     if NO_TIME in grade.notes:
         return f"Chapter {grade.chapter}: {NO_TIME}"
-    return "" if grade.earned else f"No point in chapter {grade.chapter}."
+    return "" if grade.earned else f"No points in chapter {grade.chapter}."
 
 
 def _inconclusive(grade: Grade) -> list[str]:

@@ -173,7 +173,7 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
         "no subscriber",
-        "Make a rospy.Subscriber for it, of type std_msgs/UInt32.",
+        "Create a rospy.Subscriber for this topic, of type std_msgs/UInt32.",
     ]
     student.run("subscription = node.subscribe('/few', UInt32)")
     check.run("p.listened()")

@@ -145,7 +145,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
             ),
             (
                 ANYTHING,
-                "The node is started with addturtle:=false, too. Add a condition to its <node> "
+                "The node is also started with addturtle:=false. Add a condition to its <node> "
                 'tag, with the attribute "if".',
             ),
         ],

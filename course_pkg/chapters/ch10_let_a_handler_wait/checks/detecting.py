@@ -69,7 +69,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "The handler ended without a return line. Return a response if no customer came, too.",
+        "The handler ended without a return line. Also return a response if no customer came.",
     ),
     (
         matches("'NoneType' object has no attribute"),

@@ -13,7 +13,7 @@ AT_END = 0.9  # s until the deadline. It is in the fourth pause, which would end
 ENDED = 1.3  # s; upper limit for the duration of the fastest of these payments
 AT_WORK = 0.5  # s; lower limit for the time in which a client tries
 GONE = (
-    "The till has no server, but pay() waits for a server without a limit. Use the "
+    "The till has no server, but pay() waits for it without a time limit. Use the "
     "remaining time as the limit of each wait."
 )
 STOPPED = (

@@ -167,7 +167,10 @@ def _delivers(
         actual=battery.arrivals[-1].fields["data"],
         hints=[
             (100.0, "The charge did not change. Subtract 1 from the charge after each delivered parcel."),
-            (99.0, "The charge changed only once for the whole delivery. Subtract 1 for each parcel."),
+            (
+                99.0,
+                "The battery charge changed only once for the whole delivery. Subtract 1 for each parcel.",
+            ),
         ],
     )
 
