@@ -163,7 +163,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
     """Mix refusals with failures, so that an answer that only counts its calls fails."""
-    refusals, failures = (context.random.integer(1, 3) for _ in range(2))
+    refusals, failures = (context.random.integer(1, 2) for _ in range(2))
     for refuses in context.random.shuffled([True] * refusals + [False] * failures):
         if refuses:
             _refused(context, name, till)
