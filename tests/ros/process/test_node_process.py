@@ -59,9 +59,11 @@ def test_waiting_ends_when_the_node_ends() -> None:
         assert error.value.returncode == 1
 
 
-def test_waiting_has_a_limit() -> None:
+def test_waiting_has_a_limit(master: PrivateMaster) -> None:
     """If the service never appears, wait_for_service() raises NodeFailed at the timeout."""
     with NodeProcess.rosrun("course_pkg", "pulse") as process:
+        # A node that is stopped while it registers can leave a registration for the tests below.
+        assert eventually(lambda: "/pulse" in MasterClient(master.uri).system_state().publishers)
         with pytest.raises(NodeFailed, match=r"after 0\.2 s"):
             process.wait_for_service("/never", timeout=0.2)
         assert process.running
