@@ -106,9 +106,10 @@ class NodeProcess:
         """End the process, with SIGKILL after `grace` s, and remove its registrations from the master."""
         if not self.running:
             return
-        registered = registered_at(self._process.listening_ports()) if unregister else []
+        ports = self._process.listening_ports() if unregister else frozenset()
         self._process.end(grace)
-        if registered:  # A node that was killed could not unregister itself.
+        # A node that was killed, or that ended while it registered, could not unregister itself.
+        if registered := registered_at(ports):
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)
 

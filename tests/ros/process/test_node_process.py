@@ -59,11 +59,9 @@ def test_waiting_ends_when_the_node_ends() -> None:
         assert error.value.returncode == 1
 
 
-def test_waiting_has_a_limit(master: PrivateMaster) -> None:
+def test_waiting_has_a_limit() -> None:
     """If the service never appears, wait_for_service() raises NodeFailed at the timeout."""
     with NodeProcess.rosrun("course_pkg", "pulse") as process:
-        # A node that is stopped while it registers can leave a registration for the tests below.
-        assert eventually(lambda: "/pulse" in MasterClient(master.uri).system_state().publishers)
         with pytest.raises(NodeFailed, match=r"after 0\.2 s"):
             process.wait_for_service("/never", timeout=0.2)
         assert process.running
@@ -112,6 +110,27 @@ threading.Event().wait()
     assert not process.running
     assert client.system_state().nodes == ()
     process.stop()
+
+
+def test_stop_unregisters_a_node_that_registers_meanwhile(master: PrivateMaster) -> None:
+    """stop() also removes a registration that the process makes when it receives SIGINT."""
+    late = """
+import os, rosgraph, signal, socket
+listener = socket.create_server(("127.0.0.1", 0))
+uri = f"http://localhost:{listener.getsockname()[1]}/"
+def register(*_):
+    rosgraph.Master("/late", os.environ["ROS_MASTER_URI"]).registerPublisher("/late", "std_msgs/Empty", uri)
+    print("registered", flush=True)
+    os._exit(0)
+signal.signal(signal.SIGINT, register)
+print("ready", flush=True)
+signal.pause()
+"""
+    process = NodeProcess([sys.executable, "-c", late])
+    process.wait_for_output("ready")
+    process.stop()
+    assert "registered" in process.output()
+    assert MasterClient(master.uri).system_state().nodes == ()
 
 
 def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
