@@ -17,8 +17,9 @@ STATUSES = """exit status:
   0    every submission was graded
   1    nothing was graded, or the run could not continue; the message says why
   2    an option is wrong
-  3    some submissions need a look: they could not be graded, a part of them was not examined,
-       the time of handing in is not known, or they have no points
+  3    some submissions need a look: they could not be graded, a part of them was not examined
+       or its check could not finish, the time of handing in is not known, or they have
+       no points
   130  you stopped the run; the same command continues it
 
 Results that a run does not select stay in the reports. Each run prints the points that have

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course_pkg.errors import HandoutError
+from course_pkg.grading.tables import delimiter_of
 
 COLUMN = "username"  # of a roster
 LARGEST = 4 << 20  # bytes of a list of students
@@ -85,8 +86,7 @@ def _names(path: Path, text: str) -> Iterator[tuple[int, str]]:
             (number, line.strip()) for number, line in enumerate(text.splitlines(), 1) if line.strip()
         )
         return
-    delimiter = max(",;\t", key=first.count)
-    rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter_of(text)))
     head = [name.strip().lower() for name in rows[0]]
     if COLUMN not in head:
         raise HandoutError(

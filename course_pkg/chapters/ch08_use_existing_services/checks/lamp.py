@@ -38,8 +38,8 @@ def translate(context: CheckContext) -> None:
         _disobeys(context, panel, data)
     _refuses(context, panel)
     for obeys in context.random.shuffled([True] * context.random.integer(1, 3) + [False] * 2):
-        _act = _obeys if obeys else _disobeys
-        _act(context, panel, context.random.choice([True, False]))
+        try_lamp = _obeys if obeys else _disobeys
+        try_lamp(context, panel, context.random.choice([True, False]))
     context.absent(LAMP)
     _fails(context, panel, "the lamp has no server", "unavailable", "timeout exceeded")
 
