@@ -7,7 +7,7 @@ from itertools import count
 import rospy
 from std_msgs.msg import UInt32
 
-from course_pkg.ros.node.program import start_node, undisturbed
+from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
 
 def main() -> None:
@@ -16,7 +16,7 @@ def main() -> None:
         return
     with undisturbed():
         publisher = rospy.Publisher("pulse", UInt32, queue_size=1)
-    rate = rospy.Rate(rospy.get_param("~rate", 2.0))
+    rate = rospy.Rate(number_parameter("~rate", 2.0, 0.01, 1000.0))
     for number in count():
         if rospy.is_shutdown():
             return

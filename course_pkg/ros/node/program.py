@@ -56,7 +56,7 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block, because a registration holds a lock that a shutdown needs."""
+    """Delay Ctrl-C until the end of the block, because a call to the master holds a lock that a shutdown needs."""
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
     try:
@@ -101,7 +101,8 @@ def number_parameter(name: str, default: float, least: float, most: float) -> fl
 
     The value has to be a number from `least` to `most`, in the unit of the parameter.
     """
-    given = rospy.get_param(name, default)
+    with undisturbed():
+        given = rospy.get_param(name, default)
     try:
         value = float(given)
     except (TypeError, ValueError):

@@ -108,7 +108,8 @@ def main() -> None:
     """Greet customers until the node is shut down."""
     if not start_node("cashier"):
         return
-    design = rospy.get_param("~design", "wait")
+    with undisturbed():
+        design = rospy.get_param("~design", "wait")
     if design not in DESIGNS:
         sys.exit(f"~design is {design!r}, but it has to be one of {', '.join(DESIGNS)}.")
     rate = number_parameter("~rate", 2.0, 0.01, 1000.0)
