@@ -56,7 +56,7 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block, because a call to the master holds a lock that a shutdown needs."""
+    """Delay Ctrl-C until the end of the block: a call to the master holds a lock that a shutdown needs."""
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
     try:
