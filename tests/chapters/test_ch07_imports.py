@@ -52,7 +52,7 @@ def test_slow_import_on_a_busy_machine_is_not_a_mistake() -> None:
 
 
 def test_import_that_never_ends_is_a_mistake() -> None:
-    """The import slept most of the time, or computed longer than any import: the assertion fails."""
+    """The assertion fails if the import mostly slept, or used more CPU time than a normal import."""
     for reply in ({"ran": 0.02, "queued": 0.05}, {"ran": 0.5, "queued": 0.5}):
         with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
             imported(status=None, **reply)
