@@ -107,7 +107,7 @@ def test_unknown_host() -> None:
 
 
 def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
-    """A client can call a new master at the address of the old one, even with an open connection to the old one."""
+    """A client can call a new master at the address of the old one, even after a call of the old one."""
     with PrivateMaster() as former:
         client = MasterClient(former.uri)
         client.pid()
