@@ -32,7 +32,7 @@ from tests.turtlesim.fuzz import Fuzzer, resident, sane
 
 # rates: the CPU time of the simulator, and the regularity of its ticks. It needs an idle machine. Bars, with
 # 1 and with 12 turtles that move and have subscribers:
-# - a rate of 62.5 Hz with an error of at most 1 %, and a 99th percentile of the gaps of at most 24 ms (in 20 s)
+# - a rate of 62.5 Hz with an error of at most 1 %, and 99 % of the gaps at most 24 ms (in 20 s)
 # - at most 4 % of a core with one turtle, and 15 % with 12
 # - responses of spawn, teleport and reset within 18 ms
 
@@ -169,11 +169,11 @@ def fuzz_main() -> None:
     print("the node still ran, and its world was consistent, after each block")
 
 
-# faults: measures how long it takes to cause and undo each fault of BreakIt, and whether the graph is restored.
+# faults: measures how long it takes to cause and undo each fault of BreakIt, and if the graph is restored.
 # usage: nodes.py faults [ROUNDS] [FAULT …]
-# For each fault, it prints the median and the maximum duration (s). It also prints how often something was left
-# behind: a node, topic, service, process, listening port or environment variable. It also measures the start
-# and the end of a plain node, because a fault with a server cannot be faster than this.
+# For each fault, it prints the median and the maximum duration (s). It also prints how often something was
+# left behind: a node, topic, service, process, listening port or environment variable. It also measures the
+# start and the end of a plain node, because a fault with a server cannot be faster than this.
 
 BOUND = 3.0  # s; the benchmark counts the rounds that take longer
 BARE = """

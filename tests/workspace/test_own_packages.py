@@ -180,7 +180,7 @@ def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path:
 
 
 def test_rosrun_searches_nothing_of_the_checkout_but_the_package() -> None:
-    """A call of rosrun searches only the course's package. The catkin workspace contains a link to nothing else."""
+    """The catkin workspace contains only a link to the course's package, so rosrun searches nothing else."""
     checkout = Places.of().checkout
     shown = Places.of().workspace / "src" / "course_pkg"
     assert shown.is_dir()
