@@ -1,4 +1,4 @@
-"""The connection to IPython: it reports the start and end of each cell, and shows errors."""
+"""Connect to IPython: report the start and end of each cell run, and show errors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class NotebookShell:
         self.errors = ErrorDisplay(shell)
         shell.events.register("pre_run_cell", self._begin)
         shell.events.register("post_run_cell", self._end)
-        if request := _execute_request(shell):  # the cell that calls join() has already begun
+        if request := _execute_request(shell):  # the cell that calls join() is already running
             self._begin_run(request["metadata"].get("cellId"), request["content"]["code"])
 
     def add_programs(self, keep: Keep) -> None:
