@@ -91,7 +91,7 @@ def _accept(sock: socket.socket, address: tuple[str, int], header: dict[str, str
 
 
 def name_error(name: str) -> str:
-    """Return roscpp's error message for `name` as the name of a graph resource, or "" if it is valid."""
+    """Return roscpp's error message if `name` is not a valid graph resource name, else ""."""
     message_end = f"Graph Resource Name [{name}].  "
     if not FIRST.match(name):
         return (

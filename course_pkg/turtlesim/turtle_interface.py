@@ -38,7 +38,7 @@ InTick = Callable[[Callable[[], None]], None]
 
 
 class TurtleInterface:
-    """The topics and services of one turtle. They exist until close().
+    """The topics and services of one turtle. The topics and services exist until close() is called.
 
     `in_tick` runs a function between two ticks, and returns when this function has ended.
     """
@@ -133,7 +133,10 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`, or drop `data` if there is no room. Raises the error of a broken connection."""
+        """Write `data`, or drop `data` if the connection has no room.
+
+        Raises the error of a broken connection.
+        """
         if self._room.poll(0):
             return self._write(data)
         return True

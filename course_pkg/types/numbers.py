@@ -15,7 +15,7 @@ _INFINITE = re.compile(r"([+-]?)\.?inf(inity)?", re.IGNORECASE)
 
 
 def float32(number: float) -> float:
-    """Return the shortest number that is the same float32: 6.24 for 6.240000247955322.
+    """Return the shortest number with the same float32 value, such as 6.24 for 6.240000247955322.
 
     Raises OverflowError if the number is too large for a float32.
     """
@@ -28,7 +28,7 @@ def float32(number: float) -> float:
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # near the end of the range, the shorter number can be out of range
+        # near the largest float32, the shorter number can be out of range
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")
@@ -43,9 +43,9 @@ def _fits(number: float) -> bool:
 
 
 def parse_float(text: str) -> float:
-    """Return the number in a string; `inf` and `nan` are numbers, too. Raises ValueError."""
+    """Return the number in a string; `inf` and `nan` are also numbers. Raises ValueError."""
     if _NAN.fullmatch(text):
-        # Always the same object for nan, so that two lists or dicts that contain it are equal.
+        # Always return the same nan object: lists or dicts that contain the same nan object are equal.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")
@@ -64,7 +64,7 @@ def parse_integer(text: str) -> int:
 
 
 def nearest_number(text: str, integer: bool) -> str | None:
-    """Return the number that a mistyped string probably means, or None if it is not clear."""
+    """Return the number that a mistyped string probably means, or None if the meaning is not clear."""
     guess = text.replace("\N{MINUS SIGN}", "-").replace("\N{EN DASH}", "-").replace("_", "").strip()
     if guess.count(",") == 1 and "." not in guess and not integer:
         guess = guess.replace(",", ".")

@@ -57,7 +57,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
 
 
 def parse_fields(fields: tuple[Field, ...], tree: StringTree, path: str, expected: str) -> dict[str, Plain]:
-    """Return the plain values of a message's fields, in their order. Raises FieldError."""
+    """Return the plain values of a message's fields, in the order of the fields. Raises FieldError."""
     if isinstance(tree, str):
         tree = _parse_flow(tree, "{", "}", path, expected)
     require_names(fields, tree, path, expected)

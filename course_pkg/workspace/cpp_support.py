@@ -8,7 +8,8 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-WARNINGS = ("-Werror=return-type",)  # otherwise, a handler without a return statement builds, but may crash
+# without this option, a handler without a return statement builds, but may crash
+WARNINGS = ("-Werror=return-type",)
 
 
 def missing_for_cpp() -> str:

@@ -37,7 +37,10 @@ def explain(output: str) -> Fault | None:
 
 
 def _faults(text: str) -> Iterator[Fault]:
-    """Yield faults, first the causes: CMake's errors are often only consequences of another tool's error."""
+    """Yield faults, in the order from cause to consequence.
+
+    An error of CMake is often only a consequence of another tool's error.
+    """
     yield from _matching(FROM_BUILD, text)
     found = list(cmake_messages(text))
     errors = [message for message in found if message.is_error]
