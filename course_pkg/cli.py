@@ -1,7 +1,8 @@
 """Runs the commands of `course`. Each package declares its commands in its module `commands.py`.
 
-Any Python of the machine can run this module before anything is installed, because it imports only the
-standard library and the modules `commands.py`. Each command imports other modules when it runs.
+Any Python interpreter of the machine can run this module before anything is installed, because the module
+imports only the standard library and the modules `commands.py`. Each command imports other modules when it
+runs.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ CourseError
 ├── ExportFailed: a file with the student's progress cannot be written
 └── SiteError: the site cannot be built, or a check of the built site failed
 
-Each message says what happened, where, and what to do next.
+Each message explains what happened, where, and what to do next.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ class UnknownType(InterfaceError):
 class BrokenDefinition(InterfaceError):
     """ROS does not accept the text of a service or message type.
 
-    `source` names the type or file. `line` and `column` count from 1. `text` is the wrong line. `problem` and
-    `remedy` are the two parts of the message.
+    `source` is the name of the type or of the file. `line` and `column` count from 1. `text` is the wrong
+    line. `problem` and `remedy` are the two parts of the message.
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:

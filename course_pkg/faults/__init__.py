@@ -1,4 +1,6 @@
-"""Faults of services, nodes and masters. A fault is really caused on the graph, and then undone.
+"""Faults of services, nodes and masters.
+
+A fault is not simulated: it is caused on the graph, and then undone.
 
     with caused("stale") as stage:
         seen = stage.symptom()

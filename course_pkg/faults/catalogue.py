@@ -46,7 +46,7 @@ def caused(name: str) -> Iterator[Stage]:
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:
-    """Return the faults with the `chosen` names and groups, or all faults if `chosen` is empty.
+    """Return the faults with a name or group in `chosen`, or all faults if `chosen` is empty.
 
     Raises UnknownFault if a name is neither a fault nor a group.
     """

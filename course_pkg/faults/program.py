@@ -57,7 +57,9 @@ class Seen:
 
 
 class Program:
-    """A Python program or a command in a separate process. It ends when this process ends, or earlier.
+    """A Python program or a command in a separate process.
+
+    The separate process ends when this process ends, or earlier.
 
     A Python program waits for begin(). A command begins at once.
     """
@@ -76,7 +78,7 @@ class Program:
 
     @classmethod
     def python(cls, name: str, code: str, env: Mapping[str, str], *args: str) -> Program:
-        """Return a program that runs `code` as the file `name` after begin()."""
+        """Return a program that runs `code` as the file `name` after begin() is called."""
         return cls(code, [sys.executable, str(PLAYER), "READY", "GO", name, code, *args], env)
 
     def begin(self) -> None:

@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that provides /door; `body` is the code of its handler.
 
-    `changes` maps each text of the program that is replaced to its new text.
+    In the program, each key of `changes` is replaced by its value.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():

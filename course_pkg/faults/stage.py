@@ -65,8 +65,8 @@ class Stage:
     """A fault on the running graph, or on a separate master.
 
     undo() ends the fault. The fault also ends when this object is deleted, or when this process ends, even if
-    SIGKILL ends it. Raises MasterUnreachable or MasterSilent if there is no master, or if the master does not
-    answer.
+    it is killed with SIGKILL. Raises MasterUnreachable or MasterSilent if there is no master, or if the
+    master does not answer.
     """
 
     def __init__(self, fault: Playable) -> None:
@@ -115,7 +115,7 @@ class Stage:
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the visitor's interpreter early, because symptom() should not have to wait for it."""
+        """Start the visitor's interpreter early; otherwise, symptom() would have to wait for its start."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -200,7 +200,7 @@ class Stage:
     def local(self, text: str) -> str:
         """Return `text` with this stage's namespace in place of /lab.
 
-        MASTER_PORT is replaced by the port of its master.
+        The word MASTER_PORT is replaced by the port of the stage's master.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -250,7 +250,7 @@ class _Resources:
 
 
 def _free_namespace(uri: str) -> str:
-    """Return a namespace that no node uses. Another notebook on this graph may also have a stage."""
+    """Return a namespace that no node uses. Another notebook may already have a stage on this graph."""
     taken = [node for node in MasterClient(uri).system_state().nodes if node.startswith("/lab")]
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

@@ -17,7 +17,7 @@ LONGEST = 3600.0  # s; the maximum delay and the maximum stay of a customer
 
 @dataclass(frozen=True)
 class Visit:
-    """The visit of one customer: the customer's number, and the times of coming and leaving in s."""
+    """One visit: the customer's number, and the times in s at which the customer comes and leaves."""
 
     number: int
     comes: float
@@ -55,7 +55,7 @@ class Counter:
         return tuple(visit.number for visit in self._visits if visit.comes <= now < visit.goes)
 
     def next_change(self, now: float) -> float:
-        """Return the time at which the next customer comes or leaves, or infinity without any visit."""
+        """Return the time at which the next customer comes or leaves, or infinity if there is no visit."""
         times = (time for visit in self._visits for time in (visit.comes, visit.goes) if time > now)
         return min(times, default=math.inf)
 

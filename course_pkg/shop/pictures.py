@@ -23,7 +23,7 @@ WIDTH, HEIGHT = 160, 120  # size of a frame in points (pixels)
 DARK = 96  # a point with a lower brightness is dark
 SHARE = 10  # if at least one point in 10 is dark, the frame shows a customer
 BRIGHT, DARK_COAT = 208, 40  # minimum brightness of a point of the wall, and of a point of a coat
-SHADE = 12  # a point is brighter than this minimum by less than SHADE
+SHADE = 12  # a point is brighter than its minimum brightness by less than SHADE
 # half the breadth of a figure's head and shoulders, as a fraction of the frame's height
 HEAD, SHOULDERS = 0.14, 0.2
 

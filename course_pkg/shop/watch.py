@@ -1,4 +1,4 @@
-"""The customers that a camera sees at a counter, and a wait for the next customer.
+"""The customers that a camera sees at a counter, and functions that wait for a customer.
 
 This module does not need ROS.
 

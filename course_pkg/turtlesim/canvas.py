@@ -34,7 +34,10 @@ class Canvas:
         return red, green, blue
 
     def line(self, start: Point, end: Point, colour: Colour, width: int) -> None:
-        """Draw a straight line that is `width` px wide. It extends by half this width beyond each end."""
+        """Draw a straight line that is `width` px wide.
+
+        The line extends by half this width beyond each end.
+        """
         half = max(width, 1) / 2
         reach = half * math.sqrt(2)
         top = max(math.floor(min(start[1], end[1]) - reach), 0)
@@ -62,7 +65,10 @@ class _Rectangle:
         self._start = start
 
     def across(self, y: float) -> tuple[float, float]:
-        """Return the range of x in which the row at `y` is inside the rectangle, or EMPTY."""
+        """Return the range of x in which the row at `y` is inside the rectangle.
+
+        Return EMPTY if the row is outside.
+        """
         x, dy = self._start[0], y - self._start[1]
         left, right = -math.inf, math.inf
         for ux, uy, low, high in self._pairs:

@@ -18,7 +18,7 @@ CORNER = math.pi / 2  # rad
 SPEED = 1.0  # m/s; the maximum velocity
 TURN = 0.8  # rad/s; the maximum angular velocity
 TOLERANCE = 0.01  # m or rad
-SLOW = 4.0  # 1/s; the velocity for each remaining m (or rad), which makes the turtle slow down at the end
+SLOW = 4.0  # 1/s; velocity per remaining m (or rad): the turtle slows down at the end of a side or corner
 
 
 @dataclass(frozen=True)

@@ -57,7 +57,7 @@ class DriverServices:
         return ChangeSpeedResponse(before)
 
     def start_stop(self, request: SetBoolRequest) -> SetBoolResponse:
-        """Start the turtle if the request is true, and stop it otherwise."""
+        """Start the turtle if `data` of the request is true, and stop it otherwise."""
         word = "moving" if request.data else "standing"
         already = self.driver.moving == request.data
         self.driver.moving = request.data

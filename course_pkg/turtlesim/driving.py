@@ -59,6 +59,6 @@ def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> 
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # If there was a delay, missed velocities are not published.
+            # After a delay, the velocities that were not published in time are skipped.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

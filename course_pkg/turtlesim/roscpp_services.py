@@ -2,7 +2,8 @@
 
 rospy adds "service cannot process request: …" to an error message, and its connection header does not name
 the types of request and response. A roscpp server sends only the error message of its callback, which may be
-empty. Its header names the types of request and response. The protocol: http://wiki.ros.org/ROS/TCPROS.
+empty. The connection header of a roscpp server names these types. The protocol:
+http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations

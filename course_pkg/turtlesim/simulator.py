@@ -20,7 +20,7 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # the turtle that exists after a reset
-# maximum time in s for requests in a tick; even with many requests, a pose is delayed only by this time
+# maximum time in s for requests in a tick; even many requests do not delay a pose by more than this time
 BUDGET = 0.008
 MAX_DELAY = 0.25  # s; ticks that are later than this are skipped, for example after the machine has slept
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))

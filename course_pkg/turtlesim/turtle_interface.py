@@ -3,7 +3,8 @@
 With a queue, rospy starts a thread for each subscriber of a topic, and each message wakes this thread. At
 1,500 messages per second, this would take most of the processor time. Without a queue, rospy writes each
 message directly, and a subscriber that does not read blocks the publisher. Therefore a turtle writes a
-message directly if the connection has room. Otherwise it drops the message, as a queue of one message does.
+message directly if the connection's buffer has space. Otherwise, the message is dropped, as in a queue for
+one message.
 """
 
 from __future__ import annotations

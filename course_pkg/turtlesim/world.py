@@ -130,7 +130,7 @@ class World:
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
         """Add a turtle, and return it. Raises NameTaken if a turtle with this name exists.
 
-        Without `name`, the turtle gets the next free name of turtle1, turtle2, and so on.
+        Without `name`, the turtle gets the first free name of the series turtle1, turtle2, ….
         """
         return self.add(self.make(x, y, theta, name))
 
@@ -167,7 +167,7 @@ class World:
         self.clear(background)
 
     def tick(self, now: float) -> list[str]:
-        """Move every turtle for 16 ms, and return the warnings. `now` is the present time in s."""
+        """Move every turtle for 16 ms, and return the warnings. `now` is the current time in s."""
         warnings = [self.turtles[name].tick(self.canvas, now) for name in sorted(self.turtles)]
         return [warning for warning in warnings if warning]
 

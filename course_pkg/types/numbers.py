@@ -23,8 +23,8 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # Any number with up to 6 digits survives the conversion to float32, so the search begins at 6 digits.
-    # Below the normal range, one digit can be enough.
+    # A number with up to 6 digits can be recovered from its float32 value, so the search begins at 6 digits.
+    # For subnormal numbers, one digit can be enough.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
@@ -57,7 +57,7 @@ def parse_float(text: str) -> float:
 
 
 def parse_integer(text: str) -> int:
-    """Return the integer in a string, decimal or `0x…`. Raises ValueError."""
+    """Return the integer in a decimal string or a hexadecimal string (`0x…`). Raises ValueError."""
     if not text.isascii() or not _INTEGER.fullmatch(text):
         raise ValueError(text)
     return int(text, 16) if "x" in text.lower() else int(text)

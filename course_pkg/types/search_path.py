@@ -19,7 +19,10 @@ DefinitionKind = Literal["srv", "msg"]
 
 
 def split_type_name(name: str) -> tuple[str, str]:
-    """Return the package and the short name of a full type name. Raises UnknownType for any other name."""
+    """Return the package and the short name of a full type name.
+
+    Raises UnknownType if `name` is not a full type name.
+    """
     package, slash, short = name.partition("/")
     if not (package and slash and short) or "/" in short:
         raise UnknownType(name, f"{name!r} is not the full name of a type; write it as package/Type")

@@ -31,7 +31,10 @@ def default(field: Field) -> Plain:
 
 
 def check(field: Field, value: object, path: str) -> Plain:
-    """Return any value as a plain value of the field. Raises FieldError if the value does not fit."""
+    """Convert any value to a plain value of the field, and return it.
+
+    Raises FieldError if the value does not fit.
+    """
     if field.kind is Kind.ARRAY:
         return _check_array(field, value, path)
     if field.kind is Kind.MESSAGE or field.fields:

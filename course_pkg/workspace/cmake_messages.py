@@ -85,7 +85,10 @@ def cmake_commands(text: str) -> Iterator[Command]:
 
 
 def unknown_command(name: str, message: Message) -> Fault:
-    """Return the fault for an unknown command. Its package was not found earlier, or its name is misspelt."""
+    """Return the fault for an unknown command.
+
+    The package of the command was not found earlier, or the name is misspelt.
+    """
     if name.lower() in GENERATION:
         problem = (
             f"CMake does not know {name} here. The package message_generation defines it, but was not "

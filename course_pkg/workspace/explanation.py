@@ -1,8 +1,8 @@
 """Explains the errors of catkin_make, rosrun and other tools: what is wrong with a package, and what to do.
 
-A row matches a part of a message that is probably the same in every release. The messages come from catkin
-0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is used. Names in
-braces are replaced by the groups of the pattern.
+The pattern of a row matches the part of a message that is probably the same in every release. The messages
+come from catkin 0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is
+used. In the texts of a row, names in braces are replaced by the groups of the pattern.
 """
 
 from __future__ import annotations

@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 NAME = "workspace"
 REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
-# folders in devel; used if the course's devel folder has no such folder
+# default folders for generated modules; used if the course's devel folder contains no such folder
 MODULES = ("lib/python3/dist-packages",)
 # The MD5 sum in a module that genpy has written.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
-KINDS = (".srv", ".msg")  # packages whose names have these endings contain only generated modules
+KINDS = (".srv", ".msg")  # Python packages with these name endings contain only generated modules
 
 
 def own_workspace() -> Path:

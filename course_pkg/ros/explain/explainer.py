@@ -9,7 +9,8 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-LONGEST = 50_000  # maximum number of characters that are searched; of a longer text, only the end is searched
+# maximum number of characters that are searched; if a text is longer, only its end is searched
+LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
@@ -45,7 +46,7 @@ def explain(error: object) -> Explanation:
 def _of_exception(error: BaseException) -> Explanation:
     """Return the explanation of an exception or of its cause.
 
-    If no table contains a CourseError, its own message is the explanation.
+    If a CourseError is in no table, the error's own message is the explanation.
     """
     for each in _chain(error):
         message = f"{type(each).__name__}: {_string(each)}"
@@ -75,7 +76,7 @@ def _chain(error: BaseException) -> Iterator[BaseException]:
 
 
 def _of_text(text: str) -> Explanation | None:
-    """Return the explanation of a build's output, or of the last known error in another text."""
+    """Return the explanation of a build's output, or of the last known error in any other text."""
     if _BUILD.search(text) and (found := _of_build(text)):
         return found
     for message in _candidates(text):

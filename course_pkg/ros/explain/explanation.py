@@ -57,7 +57,7 @@ class Explanation:
 
 
 def known(message: str) -> Explanation | None:
-    """Return the explanation of the error message `TypeName: message`, or None if the table has none."""
+    """Return the explanation of the error message `TypeName: message`, or None if no table contains it."""
     for pattern, cause, remedy, chapter in TABLE:
         if re.search(pattern, message):
             return Explanation(cause, remedy, chapter)

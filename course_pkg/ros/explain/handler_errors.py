@@ -1,6 +1,6 @@
 """The table of errors that a client gets.
 
-The cause is a failed handler of the server, or an incorrect declaration of the service.
+These errors are caused by a failed handler of the server, or by an incorrect declaration of the service.
 
 Each row is (pattern, cause, remedy, chapter). The pattern matches the part of an error message that is the
 same in every release of ROS. The first row that matches is used.

@@ -1,4 +1,6 @@
-"""An action server in a kernel. A cell may create it again, and the kernel can end while the server runs.
+"""An action server in a kernel.
+
+A cell may create the action server again, and the kernel can end while the server runs.
 
 A SimpleActionServer can execute goals on a thread of its own, but this thread would keep the process running.
 This module therefore uses the other method of actionlib, goal callbacks:
@@ -28,7 +30,7 @@ class ActionServer:
 
     `server` is an actionlib.SimpleActionServer: `execute` uses it to send feedback and the result, and to
     check whether the goal was cancelled. An ActionServer ends when stop() is called, or when no variable
-    refers to it any more. The second case happens, for example, when its cell runs again.
+    refers to it any more. The second case happens, for example, when the cell that created it runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:

@@ -1,6 +1,6 @@
-"""Store the text that a handler prints with its service.
+"""Store the printed text of a handler in the handler's service.
 
-Otherwise, it would appear below the cell that is running.
+Otherwise, the text would appear below the cell that is running.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class RoutedStream(io.TextIOBase):
         return bool(self.stream.isatty())
 
     def fileno(self) -> int:
-        """Return the descriptor of the replaced stream."""
+        """Return the file descriptor of the replaced stream."""
         return int(self.stream.fileno())
 
     @property

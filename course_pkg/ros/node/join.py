@@ -64,7 +64,7 @@ def leave(node: Node) -> None:
 def _kernel(pid: int) -> _Kernel:
     """Return the only _Kernel of this process.
 
-    A forked child process gets a new _Kernel, because it is not a node.
+    A forked child process gets a new _Kernel, because the child is not a node.
     """
     return _Kernel(pid)
 
@@ -191,8 +191,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # Everything is already unregistered; otherwise, rospy would unregister it again, without a time
-            # limit.
+            # Everything is already unregistered. If rospy knew the master's address, rospy would unregister
+            # again, without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()

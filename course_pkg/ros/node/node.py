@@ -26,7 +26,7 @@ from course_pkg.ros.trace.recording import Recording
 
 
 class Node:
-    """This kernel as a node of the graph, created by join(). `leave` removes it from the graph."""
+    """This kernel as a node of the graph, created by join(). `leave` removes the node from the graph."""
 
     def __init__(self, leave: Callable[[Node], None], cells: Cells) -> None:
         self._leave = leave

@@ -1,9 +1,9 @@
 """Add the features of a course node to a process, after init_node().
 
-Idle connections: in rospy, one thread accepts all connections and also reads their headers. A client that
-connects and sends nothing therefore blocks new connections to all services and topics of the node. In a
-prepared node, this thread reads a header only after the whole header has arrived. If a header arrives slowly,
-a separate thread waits for it, for a limited time.
+In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
+nothing therefore blocks new connections to all services and topics of the node. In a prepared node, this
+thread reads a header only after the whole header has arrived. If a header arrives slowly, a separate thread
+waits for it, for a limited time.
 
 In the slave API (http://wiki.ros.org/ROS/Slave_API), the answer of `getBusStats` has a part for the
 statistics of services. rospy leaves this part empty, and this module fills it. `getCourseRecord` is an
@@ -37,10 +37,10 @@ from course_pkg.ros.trace.service_hooks import hook_services
 from course_pkg.ros.trace.topic_hooks import hook_topics
 
 HEADER_TIMEOUT = 10.0  # maximum time in s until a header has arrived
-AT_ONCE = 2  # ms; a header that takes longer is awaited on a separate thread
+AT_ONCE = 2  # time in ms; if a header takes longer, a separate thread waits for it
 LONGEST = 65536  # maximum size of a header in bytes; a connection with a longer header is closed
-# maximum number of waiting connections; with rospy's 5, some of many simultaneous clients wait 1 s for a TCP
-# retransmission
+# maximum number of waiting connections; with rospy's 5, some clients wait 1 s for a TCP retransmission if
+# many clients connect at once
 BACKLOG = 128
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
@@ -69,7 +69,7 @@ def prepare_node() -> None:
 def guard_against_idle_connections() -> bool:
     """Make this process's node wait for headers on separate threads.
 
-    Return whether this release of rospy allows it.
+    Return whether this release of rospy allows this change.
 
     Call this function after init_node(). This function changes rospy's internals. If the internals of this
     release of rospy are different, the function changes nothing and returns False.
@@ -158,7 +158,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 
 
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
-    """Return the record of this node since `since` (s of time.monotonic()) as JSON.
+    """Return the record of this node from the time `since` (s of time.monotonic()), as JSON.
 
     Encoding the record as XML would take ten times as long.
     """

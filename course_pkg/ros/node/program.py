@@ -63,7 +63,10 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block. A call to the master holds a lock that a shutdown needs."""
+    """Delay Ctrl-C until the end of the block.
+
+    A shutdown needs a lock, and a call to the master holds this lock.
+    """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
     try:

@@ -1,7 +1,7 @@
 """Call a service with a time limit.
 
 rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
-itself. A watchdog or another thread can then end the call at any time, by a shutdown of the transport's
+itself. A watchdog or another thread can then end the call at any time, by shutting down the transport's
 socket.
 """
 

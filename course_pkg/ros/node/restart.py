@@ -1,9 +1,9 @@
 """Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
 rospy can start only once in a process. signal_shutdown(), an interrupted rospy.spin(), or another node with
-the same name shuts it down. After that, init_node() does nothing and reports no error. The student would
-have to restart the kernel and would lose all variables. This module therefore sets rospy's variables to
-their values from before the first init_node().
+the same name shuts it down. After that, init_node() does nothing and reports no error. The student would have
+to restart the kernel and would lose all variables. This module therefore sets rospy's variables back to the
+values that they had before the first init_node().
 
 init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to the
 node's log file. After init_node(), the log messages of all threads would appear below the cell that is
@@ -42,7 +42,7 @@ def can_begin_again() -> bool:
 
 
 def begin_again() -> None:
-    """Make rospy ready for another init_node(), without registrations.
+    """Make rospy ready for another init_node(), and clear its registrations.
 
     The old node must already be shut down.
     """
@@ -58,7 +58,9 @@ def begin_again() -> None:
 
 
 def allow_init_node() -> None:
-    """Make every later rospy.init_node() do nothing. A cell may contain a whole program that calls it.
+    """Make every later rospy.init_node() do nothing.
+
+    A cell may contain a whole program that calls this function.
 
     Without this function, rospy compares the arguments with those of the first call, and raises ROSException
     if they differ.

@@ -15,9 +15,9 @@ REPEAT = 0.02  # time in s after which an action runs again
 class Watchdog:
     """Runs an action after its deadline has passed, and again every 20 ms, until the action is disarmed.
 
-    The action is repeated because the socket that it shuts down may not exist yet. The thread runs while any
-    action is armed. It ends some seconds after the last action was disarmed, because the next call often
-    follows soon.
+    The action is repeated because the socket that it shuts down may not exist when the action runs first. The
+    thread runs while any action is armed. It ends some seconds after the last action was disarmed, because
+    the next call often follows soon.
     """
 
     def __init__(self) -> None:
@@ -53,8 +53,8 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # The next lines may miss an action that is armed at this moment; because of inf, arm() then
-                # wakes this thread.
+                # The next lines may miss an action that is armed at this moment; with the value inf, arm()
+                # then wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)

@@ -90,7 +90,7 @@ class Cells:
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Assign no cell to the objects that the block creates.
+        """Do not assign the objects that the block creates to any cell.
 
         A new run of the cell then does not end these objects.
         """
@@ -104,7 +104,7 @@ class Cells:
     def check(self) -> Iterator[None]:
         """After the block, end all objects that it created.
 
-        Its services do not replace services that cells created.
+        A service of the block does not replace a service that a cell created.
         """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current

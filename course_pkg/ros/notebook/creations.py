@@ -1,8 +1,8 @@
 """Record in `Cells` which objects of rospy and actionlib a cell creates, and end these objects.
 
-rospy has no list of its Publisher and Subscriber objects, only of their topics. This module therefore
-replaces the methods that create these objects; the new methods also record the objects. If a method in this
-release of rospy differs from the expected method, it is not replaced.
+rospy has no list of its Publisher and Subscriber objects, but only a list of their topics. This module
+therefore replaces the methods that create these objects; the new methods also record the objects. If a method
+in this release of rospy differs from the expected method, it is not replaced.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ GOAL_TIMEOUT = 2.0  # maximum time in s until a goal ends after it was cancelled
 # The errors that are raised if a topic is already closed, the node has been shut down, or the master does not
 # answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address that an ended service gets. With its old address, its shutdown() would unregister a newer
-# service of this process with the same name.
+# The address that an ended service gets. With the old address, the shutdown() of this service would
+# unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
 LOOK = 0.5  # time in s between two checks whether an action server has ended
 
@@ -188,7 +188,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
     """End an action server and cancel a running goal.
 
-    The goal may run longer if it ignores the cancellation.
+    The goal may run longer if its function ignores the cancellation.
     """
     with server.terminate_mutex:
         server.need_to_terminate = True

@@ -48,7 +48,7 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait until the output contains `line` and the program serves `service`, if given.
+        """Wait until the output contains `line`, if given, and the program serves `service`, if given.
 
         Without both arguments, wait until the program ends.
 
@@ -106,7 +106,7 @@ class ProgramMagics:
 def _words(line: str) -> list[str]:
     """Return the words of a command, without a final `&`.
 
-    A magic always starts its program in the background.
+    A magic always starts its program in the background, so a `&` is not necessary.
     """
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words

@@ -1,6 +1,6 @@
 """Show a traceback in at most 12 lines.
 
-These are the message and the student's own lines, without frames of libraries.
+The lines show the message and the student's own code, without frames of libraries.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """Return a line about the exception that the student's code was handling at that moment, if any."""
+    """Return a line about the exception that was being handled when `error` was raised, if any."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:

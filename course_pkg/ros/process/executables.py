@@ -1,6 +1,6 @@
 """Find the path of a node's program by the rules of rosrun.
 
-This module does not run rosrun, which takes 0.1 s.
+This module does not run rosrun, because rosrun takes 0.1 s.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from course_pkg.waiting import wait_until
 READY = 15.0  # maximum time in s until the master answers; usually 0.15 s, but much longer on a busy machine
 ATTEMPTS = 5
 ENDED = -1  # used in place of the master's process id if its process has ended
-OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # if they are set, ROS binds to other addresses than 127.0.0.1
+OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # if they are set, ROS binds to addresses other than 127.0.0.1
 
 
 class PrivateMaster:
@@ -99,9 +99,9 @@ class PrivateMaster:
         return ready
 
     def _wait(self, process: SupervisedProcess) -> bool:
-        """Wait until a master answers on the port, or this process has ended.
+        """Wait until a master answers on the port, or until `process` has ended.
 
-        Return whether this process answered.
+        Return whether `process` is the master that answered.
         """
         client = MasterClient(self.uri, timeout=1.0)
         pid = wait_until(lambda: _pid(client) or (process.returncode is not None and ENDED), READY, 0.005)
@@ -113,7 +113,7 @@ class PrivateMaster:
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
     """Return as soon as the master at ROS_MASTER_URI answers. Ctrl-C interrupts this wait.
 
-    It does not interrupt the wait in init_node().
+    Ctrl-C does not interrupt the wait in init_node().
 
     This function polls the master every `interval` s, and calls `warn` once if no master answers. It raises
     MalformedMasterUri and NotAMaster at once, because waiting would not correct these errors.

@@ -112,6 +112,6 @@ def _parameters(prefix: Path) -> dict[str, str]:
 def _receives(client: MasterClient) -> bool:
     """Return whether /rosout subscribes to the log messages.
 
-    This subscription is the last step of its start.
+    This subscription is the last step in the start of /rosout.
     """
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

@@ -183,7 +183,7 @@ def descendants(root: int) -> list[int]:
 def _import_libraries() -> None:
     """Add the folders of the course and of its libraries to the import path.
 
-    -I and -S leave these folders out.
+    The interpreter's options -I and -S leave these folders out.
     """
     import site
 
@@ -212,7 +212,10 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 
 
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
-    """Unregister the owner's node, and delete the folder; "" means no master or no folder."""
+    """Unregister the owner's node, and delete the folder.
+
+    An empty string means that there is no master, or no folder.
+    """
     if master_uri:
         with suppress(ImportError):
             sys.path.insert(0, COURSE)

@@ -19,7 +19,10 @@ CHUNK = 65536  # maximum number of bytes that are read or written at once
 
 
 class JsonChannel:
-    """One of the two ends of a connection. One thread may send while another thread receives."""
+    """One of the two ends of a connection that carries JSON objects.
+
+    One thread may send while another thread receives.
+    """
 
     def __init__(self, sock: socket.socket, limit: int = LIMIT) -> None:
         self._socket = sock
@@ -48,7 +51,8 @@ class JsonChannel:
             while line:
                 try:
                     sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
-                # poll() is called only now, because it waits until most of a socket's buffer is free.
+                # poll() is called only after send() has failed, because poll() waits until most of a socket's
+                # buffer is free.
                 except BlockingIOError:
                     self._wait_for(select.POLLOUT, deadline)
                     continue

@@ -93,7 +93,7 @@ def rpc_answer(probe: Probe) -> RpcValue:
 
 
 def encode_header(fields: dict[str, str]) -> bytes:
-    """Return a connection header after its length (http://wiki.ros.org/ROS/Connection Header)."""
+    """Return a connection header, preceded by its length (http://wiki.ros.org/ROS/Connection Header)."""
     header: bytes = encode_ros_handshake_header(fields)
     return header
 

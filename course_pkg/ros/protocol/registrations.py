@@ -85,7 +85,7 @@ def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
 def registered_at(ports: Collection[int]) -> list[Registration]:
     """Return the registrations with these ports at the master of ROS_MASTER_URI.
 
-    Without a master, there are none.
+    Without a master, the result is empty.
 
     A process listens on the ports of its registrations. Read the ports of a process while it is running.
     """

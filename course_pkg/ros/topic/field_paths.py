@@ -41,7 +41,7 @@ def measurement(message: MessageType) -> str:
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
     """Return a function that reads the number at a path from a message's bytes.
 
-    It returns NaN if the message does not contain the number.
+    The returned function gives NaN if the message does not contain the number.
 
     Raises ValueError if the type does not have this path.
     """

@@ -83,7 +83,7 @@ class Commands:
             self._publish(message)
 
     def repeat(self, texts: dict[str, StringTree], *, latch: bool, queue: int, rate: float) -> None:
-        """Publish the message `rate` times per second, until another command stops this."""
+        """Publish the message `rate` times per second, until another command ends the repetition."""
         message = self._message(texts)
         self.stop()
         self._advertise(latch, queue)

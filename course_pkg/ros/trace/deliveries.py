@@ -3,7 +3,7 @@
 If a publisher has a queue_size, rospy puts each message into one queue per subscriber, and a thread sends the
 messages of the queue. When a queue is full, rospy drops its oldest message without an error message, so this
 module replaces the queue with a queue that counts. A message counts as sent when it is written to the
-connection. The publisher cannot know if a slow subscriber drops it later.
+connection. The publisher cannot know if a slow subscriber drops the message later.
 """
 
 from __future__ import annotations

@@ -177,7 +177,7 @@ class _Count:
 
 
 class CallCounter:
-    """Counts the requests of each service by caller; threads may share it."""
+    """Counts the requests of each service by caller; several threads may share the counter."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -33,7 +33,7 @@ R = TypeVar("R")
 
 
 def hook_services() -> bool:
-    """Start to record this process's calls and handlers; return whether it is possible."""
+    """Start to record this process's calls and handlers; return whether this is possible."""
     hooks = (
         Hook(ServiceProxy, "call", ("self", "args", "kwds"), _recording_call, uses=[TRANSPORT]),
         Hook(ServiceProxy, "_get_service_uri", ("self", "request"), _recording_lookup),
@@ -46,7 +46,10 @@ def hook_services() -> bool:
 
 
 def service_transport(protocol: TCPROSTransportProtocol, name: str) -> TCPROSTransport:
-    """Return a client's connection, of rospy's current class; if the hooks are installed, it is recorded."""
+    """Return a new client connection of rospy's current class.
+
+    If the hooks are installed, this class records the calls.
+    """
     made: TCPROSTransport = getattr(tcpros_service, TRANSPORT)(protocol, name)
     return made
 

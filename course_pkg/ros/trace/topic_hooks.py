@@ -38,7 +38,7 @@ R = TypeVar("R")
 
 
 def hook_topics() -> bool:
-    """Start to record this process's published and received messages; return whether it is possible."""
+    """Start to record this process's published and received messages; return whether this is possible."""
     hooks = (
         Hook(TCPROSSub, "read_messages", ("self", "b", "msg_queue", "sock"), _counting_messages),
         Hook(

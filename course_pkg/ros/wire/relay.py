@@ -37,7 +37,7 @@ class RelayedConnection:
 
     opened: float  # a time of time.monotonic()
     chunks: list[Chunk] = field(default_factory=list)
-    closed_by: str = ""  # "client" or "server", whichever closed first; empty while the connection is open
+    closed_by: str = ""  # the end that closed first, "client" or "server"; empty while the connection is open
     refused: str = ""  # the reason if the server could not be reached
     lost: int = 0  # the number of bytes that were forwarded but not stored
 
@@ -158,7 +158,8 @@ def _copy(
 ) -> None:
     """Forward the bytes from `source` to `sink`, and then the end of the stream."""
     kept = 0
-    with suppress(OSError):  # A reset, or a close() of the relay, also ends the connection normally.
+    # After a reset of the connection, or a close() of the relay, the connection ends without an error.
+    with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)
             if kept <= MOST:
