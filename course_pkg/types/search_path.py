@@ -72,7 +72,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
 
 
 def read_definition(file: Path) -> str:
-    """Return the text of a definition; bytes that are not UTF-8, as in old comments, are replaced."""
+    """Return the text of a definition; bytes that are not valid UTF-8 (as in old comments) are replaced."""
     return file.read_text(encoding="utf-8", errors="replace")
 
 

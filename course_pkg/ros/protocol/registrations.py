@@ -87,7 +87,8 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
 
     Without a master, the result is empty.
 
-    A process listens on the ports of its registrations. Read the ports of a process while it is running.
+    A process listens on the ports of its registrations. Read the ports of a process while it is running,
+    because an ended process listens on no port.
     """
     if ports:
         with suppress(GraphError):  # if no master answers, there are no registrations

@@ -135,7 +135,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection whose deadline applies to a request and its whole answer, not to each byte."""
+    """An HTTP connection with one deadline for a request and its whole answer, not for each read."""
 
     sock: _DeadlineSocket | None
 
