@@ -82,8 +82,8 @@ def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 
     """Raise `error` in the block when the block has run for `seconds` s, and again every `repeat` s.
 
     If `repeat` is 0, `error` is raised only once. Use `repeat` for code that may catch the first error. This
-    function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks may
-    not be nested. Raises ValueError in another thread.
+    function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and such
+    blocks may not be nested. Raises ValueError in another thread.
     """
 
     def alarm(*_: object) -> None:

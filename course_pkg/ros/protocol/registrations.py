@@ -1,7 +1,7 @@
 """List the registrations at the master, and remove the registrations of nodes that have ended.
 
-This is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It removes
-only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
+This clean-up is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It
+removes only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
 (SIGSTOP) still accepts connections, so it keeps its registrations.
 """
 
