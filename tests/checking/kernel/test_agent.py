@@ -82,7 +82,7 @@ def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
 
 
 def test_the_traceback_of_a_handler_is_kept_once() -> None:
-    """rospy logs a handler's exception; the check receives the student's line that raised it."""
+    """The module rospy logs a handler's exception; the check receives the student's line that raised it."""
     agent = KernelAgent({})
     try:
         try:

@@ -40,7 +40,7 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a submission: `answers` by a cell's letter, then `change`."""
+    """Return a student's notebook with these answers, by the letters of cells, after `change`."""
     notebook = derived(copy.deepcopy(REFERENCE))
     for cell in notebook["cells"]:
         letter = {D: "d", C: "c", W: "w"}.get(cell["id"], "")
