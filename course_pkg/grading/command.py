@@ -18,17 +18,18 @@ from course_pkg.grading.deadlines.moments import zone_of
 from course_pkg.grading.deadlines.times import times_of
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.flags.finding import wanted_kinds, with_flags
-from course_pkg.grading.grade import Grade, Submission
+from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.intake.folders import require_other_folder
 from course_pkg.grading.intake.naming import NOTEBOOK
 from course_pkg.grading.intake.submissions import submissions
 from course_pkg.grading.marking import key_of
+from course_pkg.grading.points import read_points
 from course_pkg.grading.queue import Task, grade_all, pool_of
 from course_pkg.grading.reports import write_reports
 from course_pkg.grading.reports.records import RESULTS
 from course_pkg.grading.required import require_references
 from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of, read_lists
-from course_pkg.grading.run.changes import changes, described, write_changes
+from course_pkg.grading.run.changes import changes, described, worth_changes, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
 from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
@@ -65,6 +66,7 @@ class Options:
     late_max_days: float | None = None
     roster: Path | None = None
     moodle_worksheet: Path | None = None
+    points: Path | None = None
     validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
     flags: tuple[str, ...] = ()  # the kinds of flags; all of them if it is empty
 
@@ -82,6 +84,7 @@ def grade(options: Options) -> int:
     require_other_folder(options.source, options.out)
     kinds = wanted_kinds(options.flags)
     extras = read_extras(options.private)
+    points = read_points(options.points or extras.points)
     selected = selection(options.students, options.chapters, options.parts)
     everyone = _dated(options, _handed_in(options, selected), lists, table)
     selected = selected.for_students(everyone)
@@ -100,8 +103,9 @@ def grade(options: Options) -> int:
         # The threads would wait until their notebooks have ended. The processes that they run end with this
         # process.
         os._exit(130)
-    graded = best_attempts([_with_lateness(each, policy) for each in graded])
+    graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
+    rest = [points.weighed(each) for each in rest]
     class_list = _class_list(lists, options.source, [*everyone, *rest])
     chapters = {each.chapter for each in graded}
     reported = with_flags([*graded, *rest], everyone, kinds)
@@ -118,9 +122,9 @@ def _print_end(
     """Print the changes since the last run, the results that stayed, and the last line."""
     lines = []
     if earlier.grades:
-        found = changes(earlier.grades, graded)
+        found = changes(earlier.grades, [*graded, *rest])
         write_changes(found, out)
-        lines += described(found, out)
+        lines += [*worth_changes(earlier.grades, [*graded, *rest]), *described(found, out)]
     if earlier.unreadable:
         lines.append(
             f"{earlier.unreadable} files in {out / RESULTS} are not results of this version of the course."
@@ -141,7 +145,14 @@ def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, chapters:
         ) from error
 
 
-def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Path | None = None) -> int:
+def grade_one(
+    notebook: Path,
+    out: Path,
+    *,
+    sandboxed: bool = True,
+    private: Path | None = None,
+    points: Path | None = None,
+) -> int:
     """Grade one notebook into the file `out`, and store nothing else; a job array of a cluster uses this."""
     require_references()
     found = submissions(notebook)
@@ -149,10 +160,12 @@ def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Pat
         raise GradingError(f"{notebook} is not a notebook of this course.")
     if sandboxed:
         require_sandbox()
-    key = key_of(found[0], read_extras(private), "missing", sandboxed=sandboxed)
+    extras = read_extras(private)
+    worth = read_points(points or extras.points)
+    key = key_of(found[0], extras, "missing", sandboxed=sandboxed)
     folder = str(private.resolve()) if private else ""
     task = Task(found[0], os.urandom(16).hex(), key, sandboxed, folder, "missing")
-    write_json(out, task.grade())
+    write_json(out, worth.weighed(grade_from(task.grade())).as_dict())
     return 0
 
 

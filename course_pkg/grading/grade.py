@@ -121,9 +121,9 @@ class Grade:
         return round(sum(report.points for report in self.reports) * self.factor, 2)
 
     @property
-    def possible(self) -> int:
+    def possible(self) -> float:
         """The points that could be earned."""
-        return sum(report.possible for report in self.reports)
+        return round(sum(report.possible for report in self.reports), 2)
 
     def for_student(self) -> Grade:
         """Return the grade without flags, and without the data that show how a private part is examined."""

@@ -26,7 +26,7 @@ class Column:
     check: str
     chapter: str
     goal: str
-    possible: int
+    possible: float
 
 
 class Book:
@@ -68,18 +68,18 @@ class Book:
         """Return the parts of a chapter."""
         return [column for column in self.columns if column.chapter == chapter]
 
-    def possible(self, chapter: str) -> int:
+    def possible(self, chapter: str) -> float:
         """Return the highest possible points of a chapter."""
-        return sum(column.possible for column in self.columns_of(chapter))
+        return round(sum(column.possible for column in self.columns_of(chapter)), 2)
 
     def earned(self, student: str) -> float:
         """Return all points of a student after the deduction for lateness."""
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     @property
-    def total(self) -> int:
+    def total(self) -> float:
         """The highest possible points of all chapters."""
-        return sum(column.possible for column in self.columns)
+        return round(sum(column.possible for column in self.columns), 2)
 
 
 def report_of(grade: Grade | None, check: str) -> Report | None:
