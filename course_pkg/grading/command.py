@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from course_pkg.errors import GradingError
-from course_pkg.grading.deadlines.deadline import deadlines
+from course_pkg.grading.deadlines.deadline import Deadlines, deadlines
 from course_pkg.grading.deadlines.extensions import extensions_of
 from course_pkg.grading.deadlines.late import LatePolicy, LateTable, late_policy, late_table
 from course_pkg.grading.deadlines.lateness import LAST, Lateness, attempts_to_grade, best_attempts
@@ -26,6 +26,7 @@ from course_pkg.grading.marking import key_of
 from course_pkg.grading.points import read_points
 from course_pkg.grading.queue import Task, grade_all, pool_of
 from course_pkg.grading.reports import write_reports
+from course_pkg.grading.reports.asked import Asked, columns_of
 from course_pkg.grading.reports.records import RESULTS
 from course_pkg.grading.required import require_references
 from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of, read_lists
@@ -86,7 +87,9 @@ def grade(options: Options) -> int:
     extras = read_extras(options.private)
     points = read_points(options.points or extras.points)
     selected = selection(options.students, options.chapters, options.parts)
-    everyone = _dated(options, _handed_in(options, selected), lists, table)
+    found = _handed_in(options, selected)
+    due = _deadlines(options, found, lists)
+    everyone = _dated(options, found, due, table)
     selected = selected.for_students(everyone)
     if options.sandboxed:
         require_sandbox()
@@ -107,9 +110,10 @@ def grade(options: Options) -> int:
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
     rest = [points.weighed(each) for each in rest]
     class_list = _class_list(lists, options.source, [*everyone, *rest])
-    chapters = {each.chapter for each in graded}
+    chapters = frozenset({*selected.chapters, *(each.chapter for each in graded)})
+    asked = Asked(chapters, columns_of(selected.chapters, points), due.is_over)
     reported = with_flags([*graded, *rest], everyone, kinds)
-    _report(_in_order(reported), options.out, class_list, chapters)
+    _report(_in_order(reported), options.out, class_list, asked)
     earlier.forget_files(graded, selected)
     sys.stdout.writelines(f"{sentence}\n" for sentence in [*class_list.summary(), *about_flags(reported)])
     _print_end(options.out, earlier, graded, rest, time.monotonic() - began)
@@ -135,9 +139,9 @@ def _print_end(
     sys.stdout.write("\n".join([*lines, ""]))
 
 
-def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, chapters: Collection[str]) -> None:
+def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, asked: Asked) -> None:
     try:
-        write_reports(grades, out, class_list, chapters)
+        write_reports(grades, out, class_list, asked)
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
@@ -180,15 +184,20 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
     return lists.matched(origins_of(there), source)
 
 
-def _dated(
-    options: Options, found: Sequence[Submission], lists: Lists, table: LateTable | None
-) -> list[Submission]:
-    """Return the submissions to grade, with their days late."""
+def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
+    """Return the deadlines, with the extensions in the roster."""
     # A wrong number is reported before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
-    due = deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
+    return deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
+
+
+def _dated(
+    options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
+) -> list[Submission]:
+    """Return the submissions to grade, with their days late."""
+    zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # without a deadline, a wrong times.csv does no harm
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
