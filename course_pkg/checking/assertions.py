@@ -87,18 +87,28 @@ class Results:
         # returns the text of the call, which is needed only when a check fails
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
-        self.marked: set[str] = set()  # the goals that count even if a later assertion does not hold
-        self._goals: dict[str, bool] = {}  # the goals that count only if the check reaches its end
+        self.marked: set[str] = set()  # the goals for which the check has reached a mark
+        self._goals: dict[str, bool] = {}  # the goals that were examined separately, and whether they hold
 
     @property
     def assertions(self) -> tuple[Assertion, ...]:
         """The assertions, in the order in which they were first checked."""
         return tuple(self._assertions.values())
 
-    def goals_at_end(self) -> tuple[set[str], set[str]]:
-        """Return the goals that are fulfilled, and the goals that are not, if the check reached its end."""
-        failed = {goal for goal, fulfilled in self._goals.items() if not fulfilled}
-        return (self.marked | self._goals.keys()) - failed, failed
+    @property
+    def failed_goals(self) -> set[str]:
+        """The goals of which an assertion does not hold."""
+        return {goal for goal, fulfilled in self._goals.items() if not fulfilled}
+
+    @property
+    def kept_goals(self) -> set[str]:
+        """The goals that are fulfilled even if the check does not reach its end."""
+        return self.marked - self.failed_goals
+
+    @property
+    def fulfilled_goals(self) -> set[str]:
+        """The goals that are fulfilled if the check reaches its end."""
+        return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
         """Record whether the assertions of `goal` hold; a goal that failed once stays so."""

@@ -62,7 +62,8 @@ class CheckContext:
         """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
 
         So a goal counts only if all assertions before its mark hold. Put the part's main goal first; then a
-        program that does nothing, or refuses everything, earns nothing for a later goal.
+        program that does nothing, or refuses everything, earns nothing for a later goal. If the goal was
+        examined with `goal`, it counts only if it did not fail there.
         """
         self._results.marked.add(goal)
 

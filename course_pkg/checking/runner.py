@@ -74,19 +74,18 @@ def _reported(part: Part, context: CheckContext) -> Report:
         with context, interrupt_after(at_this_load(part.deadline), DeadlinePassed):
             part(context)
     except AssertionFailed:
-        return _report(part, Verdict.FAILED, results.assertions, goals=results.marked)
+        return _report(part, Verdict.FAILED, results.assertions, goals=results.kept_goals)
     except ToolMissing as error:
         return _report(part, Verdict.NOT_ATTEMPTED, note=str(error))
     except DeadlinePassed:
         shown = (*results.assertions, _too_slow(part, context))
-        return _report(part, Verdict.FAILED, shown, goals=results.marked)
+        return _report(part, Verdict.FAILED, shown, goals=results.kept_goals)
     except ChannelError as error:
         note = f"The kernel sent a reply that is not valid: {error}."
         return _report(part, Verdict.FAILED, results.assertions, note)
-    fulfilled, failed = results.goals_at_end()
-    _require_marks(part, fulfilled | failed)
-    if failed:
-        return _report(part, Verdict.FAILED, results.assertions, goals=fulfilled)
+    _require_marks(part, results.fulfilled_goals | results.failed_goals)
+    if results.failed_goals:
+        return _report(part, Verdict.FAILED, results.assertions, goals=results.fulfilled_goals)
     return _report(part, Verdict.PASSED, results.assertions, goals=[goal.text for goal in part.goals])
 
 
