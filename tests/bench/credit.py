@@ -1,11 +1,11 @@
 """Partial credit: the points of wrong answers, and of answers that do nothing.
 
-usage: ./course run python tests/bench/credit.py [PART …]
+usage: ./course run python tests/bench/credit.py [few] [PART …]
 
-PART is the beginning of a part's id, such as 05 or 05.3. All wrong example answers have to earn less than
-full points. An answer that does nothing is made from the first right answer: all of its functions return the
+PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points,
+and all wrong example answers less. An answer that does nothing is made from the first right answer: all of its functions return the
 same value or raise an exception, or the answer cannot be run. It has to earn nothing. The exit status is the
-number of answers with too many points. Parts without goals are left out, because only a pass earns points.
+number of answers with wrong points. With `few`, only two wrong answers of each part run. Parts without goals are left out, because only a pass earns points.
 """
 
 from __future__ import annotations
@@ -35,15 +35,19 @@ UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise
 
 
 def main() -> int:
-    """Run the answers, print those with points, and return the number of answers with too many points."""
-    asked = tuple(sys.argv[1:]) or ("",)
+    """Run the answers, print those with points, and return the number of answers with wrong points."""
+    words = sys.argv[1:]
+    few = "few" in words
+    asked = tuple(word for word in words if word != "few") or ("",)
     parts = {part.check: part for part in every_part() if part.goals and part.check.startswith(asked)}
     examples = [answer for answer in every_answer() if answer.check in parts]
-    answers = [answer for answer in examples if not answer.right]
+    answers: list[Answer] = []
     for check in parts:
-        answers += _doing_nothing(next(each for each in examples if each.right and each.check == check))
+        wrong = [each for each in examples if each.check == check and not each.right]
+        right = next(each for each in examples if each.check == check and each.right)
+        answers += [right, *wrong[: 2 if few else None], *_doing_nothing(right)]
     earned: Counter[str] = Counter()
-    wrong = 0
+    unfair = 0
     with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
         jobs = [
             PartJob(each.check, each.before, (each.source,), each.after, 1, parts[each.check].deadline)
@@ -54,19 +58,20 @@ def main() -> int:
             report = pool.result(job).report
             points = report.points if report else 0
             full = parts[answer.check].points
-            too_many = points > 0 if answer.title.startswith(IDLE) else points >= full
-            wrong += too_many
+            idle = answer.title.startswith(IDLE)
+            fair = points == full if answer.right else points == 0 if idle else points < full
+            unfair += not fair
             earned["nothing" if not points else "some points" if points < full else "full points"] += 1
-            if points or too_many:
-                sign = "!!" if too_many else "  "
+            if not fair or 0 < points < full:
+                sign = "  " if fair else "!!"
                 print(f"{sign} {answer.check} {points:g} of {full}: {answer.title}", flush=True)
     counts = ", ".join(f"{count} {name}" for name, count in earned.items())
-    print(f"{len(parts)} parts, {len(answers)} answers: {counts}; {wrong} with too many points")
-    return wrong
+    print(f"{len(parts)} parts, {len(answers)} answers: {counts}; {unfair} with wrong points")
+    return unfair
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
-    """Yield answers that do nothing, with the names of `right`; without functions, only those that cannot be run."""
+    """Yield answers that do nothing, with the names of `right`; some need functions in it."""
     magic = right.source.startswith("%%")
     first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
     head = f"{first}\n" if magic else ""
