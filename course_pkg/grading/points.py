@@ -75,10 +75,15 @@ def read_points(path: Path | None) -> PointsTable:
         raise _wrong(path, f"there is no part {unknown[0]!r}.{like} {START}")
     if EVERY in given and given[EVERY] != ALL_OR_NOTHING:
         raise _wrong(path, f'{EVERY!r} can only be "{ALL_OR_NOTHING}". Give other points part by part.')
-    default = given.get(EVERY)
-    return PointsTable(
-        {check: _worth(part, given.get(check, default), path) for check, part in known.items()}
-    )
+    worth = {
+        check: _worth(part, given[check], path)
+        if check in given
+        else _all_or_nothing(part, part.points)
+        if EVERY in given
+        else Worth(part.points, part.goals)
+        for check, part in known.items()
+    }
+    return PointsTable(worth)
 
 
 def write_points(path: Path, asked: Sequence[str] = ()) -> None:
@@ -126,9 +131,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Return the points of `part` for its value in the file, or the author's points for None."""
-    if given is None:
-        return Worth(part.points, part.goals)
+    """Return the points of `part` for its value in the file."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):

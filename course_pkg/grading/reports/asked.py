@@ -28,8 +28,8 @@ class Column:
 class Asked:
     """The chapters of a run, the parts that were selected, and whether a student's chapter is due.
 
-    A report also contains chapters of earlier runs. A chapter that is not due yet counts for a student as
-    soon as it is handed in.
+    A report also contains chapters of earlier runs. Before its deadline, a chapter counts only for the
+    students who handed it in.
     """
 
     chapters: frozenset[str] = frozenset()
