@@ -29,7 +29,7 @@ REFUSED = (
     "The server refused with an error message: raise this error.",
     "The connection works, but the server refused. Call again only if the connection broke.",
 )
-SHARED = "Use one connection for all calls, even after a refusal."
+ONE_FOR_ALL = "Use one connection for all calls, even after a refusal."
 STORED = "Look the address up once, and use the stored address for all calls."
 
 
@@ -39,7 +39,7 @@ STORED = "Look the address up once, and use the stored address for all calls."
     goal="Use one connection for all calls; if it breaks, open a new connection and call once more.",
     needs=["Keeper"],
     deadline=20.0,
-    goals=[SHARED, "Open a new connection when the old one breaks or the server moves."],
+    goals=[ONE_FOR_ALL, "Open a new connection when the old one breaks or the server moves."],
 )
 def persistent_client(context: CheckContext) -> None:
     """Respond, refuse, break the connection, stop the server, and start the server at another address."""
@@ -56,7 +56,7 @@ def persistent_client(context: CheckContext) -> None:
     acts.pop(0)
     _measures(context, client, "the connection still works after a refusal", volumes[3])
     _one_connection(context, server, "after a refusal, the client uses the same connection")
-    context.fulfilled(SHARED)
+    context.fulfilled(ONE_FOR_ALL)
     acts.insert(0, HangUp())
     _measures(context, client, "a broken connection is replaced", volumes[4])
     _breaks_twice(context, client, server)

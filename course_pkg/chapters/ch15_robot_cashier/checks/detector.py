@@ -58,7 +58,7 @@ FAILED: Hints = [
 ]
 WAITED = "Wait for a customer, with a limit."
 SEVERAL = "Respond to several callers at the same time."
-SILENT = "Refuse before the first message, and after 1 s without a message."
+SILENT_CAMERA = "Refuse before the first message, and after 1 s without a message."
 
 
 @part(
@@ -191,7 +191,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
-    goals={SILENT: 3, "Notice a camera that becomes silent or comes back during a call.": 1},
+    goals={SILENT_CAMERA: 3, "Notice a camera that becomes silent or comes back during a call.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
     """Call before the first message, shortly and long after the last message, and while new messages come."""
@@ -208,7 +208,7 @@ def the_silent_camera(context: CheckContext) -> None:
         while vision.silent_for() < 1.2:
             time.sleep(0.05)
         _refuses(context, detect, 0.3, "after 1 s without a message, the node refuses")
-        context.fulfilled(SILENT)
+        context.fulfilled(SILENT_CAMERA)
         vision.show(False)
         vision.customer = None
         _refuses(context, detect, 1.5, "if the camera becomes silent during the call, the node refuses")
