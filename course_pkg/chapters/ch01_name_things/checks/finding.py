@@ -6,6 +6,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = "You called another service with a similar name. Compare the whole text after the last slash."
+FOUND = "Find the service, call it, and return the volume."
+RUNNING = "Return the sorted names of the running publishers of a topic."
 
 
 @part(
@@ -17,6 +19,7 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     ),
     needs=["ask_wherever"],
     deadline=25.0,
+    goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
     """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
@@ -82,6 +85,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             (ANYTHING, "This service responds with the volume 0. Return this value unchanged."),
         ],
     )
+    context.fulfilled(FOUND)
     context.expect(
         "None if there is no such service",
         expected=None,
@@ -138,6 +142,7 @@ _NOBODY = [
     goal="Return the sorted names of the nodes that publish a topic and answer a ping.",
     needs=["living_publishers"],
     deadline=25.0,
+    goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
     """Register running and killed publishers of two topics; then pass topics without a running publisher."""
@@ -188,6 +193,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
         ],
     )
+    context.fulfilled(RUNNING)
     context.expect(
         "no running publisher gives an empty list",
         expected=[[], []],

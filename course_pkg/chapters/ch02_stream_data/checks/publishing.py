@@ -36,6 +36,8 @@ def create(kind, topic):
 def set_value(topic, value):
     notices[topic].set(value)
 """
+COUNTS = "Publish all numbers at the given rate, from the moment at which a subscriber is connected."
+LATCHED = "Let a node that subscribes later receive the last value."
 
 
 @part(
@@ -47,6 +49,7 @@ def set_value(topic, value):
     ),
     needs=["count_aloud"],
     deadline=40.0,
+    goals={COUNTS: 3, "Begin after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
     """Subscribe to two counts with different rates; then start a third count without a subscriber."""
@@ -74,6 +77,7 @@ def count_aloud(context: CheckContext) -> None:
                 "as there is one."
             ),
         )
+    context.fulfilled(COUNTS)
     alone = context.run(
         "count_aloud",
         f"/{context.random.word()}",
@@ -171,6 +175,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
+    goals=[LATCHED, "Publish each change once, and no value that stays the same."],
 )
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber; one may be 0."""
@@ -193,6 +198,7 @@ def a_notice(context: CheckContext) -> None:
     listener = _subscribed(context, zero)
     _receives(context, listener, [0.0], "the first value is published, even if it is 0")
     _receives(context, _subscribed(context, twin), [first], LATE)
+    context.fulfilled(LATCHED)
     _set(context, zero, 0.0)
     _receives(context, listener, [0.0], "a value that stays the same is not published again")
     _set(context, topic, first)

@@ -84,12 +84,17 @@ class Work:
             self._busy -= 1
 
 
+MIRRORED = "Publish every message once, with opposite signs and the same header."
+NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in order."
+
+
 @part(
     "02.2",
     points=2,
     goal="Publish every message of one topic immediately on another topic, with opposite signs.",
     needs=["start_mirror"],
     deadline=30.0,
+    goals={MIRRORED: 3, "Publish it immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
     """Publish random joint states, and compare each of them with the mirrored message."""
@@ -122,6 +127,7 @@ def a_mirror(context: CheckContext) -> None:
             actual=subscription.count,
             hints=ONCE,
         )
+        context.fulfilled(MIRRORED)
         _promptly(context, publisher.sent, subscription.arrivals)
         expected, seen = _changed(messages, context.read("witnessed", list))
         context.expect(
@@ -304,6 +310,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goal="Draw only the newest angle of one topic, but prepare all orders of another topic.",
     needs=["start_robot"],
     deadline=30.0,
+    goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
     """Publish angles much faster than draw() handles them, and many orders within a short time."""
@@ -326,8 +333,10 @@ def two_queues(context: CheckContext) -> None:
         customers.finish(10.0)
         time.sleep(max(2 * DRAWING, ORDERS * PREPARING))  # wait for the calls with the last values
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
-    _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
-    _prepared(context, prepare.at_once, prepared, numbers)
+    with context.goal(NEWEST):
+        _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
+    with context.goal(ALL_ORDERS):
+        _prepared(context, prepare.at_once, prepared, numbers)
 
 
 def _drawn(

@@ -74,12 +74,16 @@ class Greetings:
             self._busy -= 1
 
 
+GREETED = "Greet five customers once and in order, and publish each number after the greeting."
+
+
 @part(
     "03.2",
     points=2,
     goal="Greet each customer of a topic once, in the order of the messages.",
     needs=["start_greeting"],
     deadline=30.0,
+    goals={GREETED: 3, "Greet later customers, and customers after a second start_greeting().": 1},
 )
 def greet_everyone(context: CheckContext) -> None:
     """Announce five customers quickly, two of them twice; after a pause, two new ones and an old one."""
@@ -122,6 +126,7 @@ def _greets(
         actual="an earlier message",
         hints="The number was published before the greeting had ended. Call say_good_day(number) first.",
     )
+    context.fulfilled(GREETED)
     _told(context, customers, [later[0], first[3], later[1]])
     _greeted(context, said, subscription, numbers)
     _starts_again(context, first[0])

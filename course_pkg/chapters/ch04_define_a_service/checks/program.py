@@ -52,6 +52,7 @@ FAULTS = [
 
 START = f"""%%writefile {FILE}
 ..."""
+STARTED = "Write a program that rosrun can start, and that serves /lamp with the right type."
 
 
 @part(
@@ -61,6 +62,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[STARTED, "Return the response of the exercise for each mode."],
 )
 def the_program(context: CheckContext) -> None:
     """Build a copy, run its program with other names for node and service, and call the service."""
@@ -85,6 +87,7 @@ def the_program(context: CheckContext) -> None:
     with folder.start("bash", "-c", f". devel/setup.bash && exec {line}", worded=line) as running:
         _serves(context, running, name, f"/{node}")
         lamp = context.service(name, lamp_class(), hints=FAULTS, timeout=5.0)
+        context.fulfilled(STARTED)
         for mode in (1, 2, 0, context.random.integer(3, 255), 1):
             _answers(context, lamp, mode)
 

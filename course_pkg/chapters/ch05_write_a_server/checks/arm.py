@@ -21,6 +21,8 @@ IMPORT = "import arm"
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
 ..."""
+MOVES = "Serve /move_arm and /maintenance, and count the moves."
+CLOSES = "Shut /move_arm down, and return the state and whether it changed."
 
 
 @part(
@@ -33,6 +35,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
+    goals=[MOVES, CLOSES, "Serve /move_arm again, and continue the count."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
     """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
@@ -92,10 +95,12 @@ def _works(context: CheckContext) -> None:
     move = context.service(MOVE, "std_srvs/Trigger")
     maintenance = context.service(MAINTENANCE, "std_srvs/SetBool", hints=SWITCHES)
     _counts(context, [move().message, move().message], 1)
+    context.fulfilled(MOVES)
     address = context.look().service(MOVE)
     for data, changed in ((False, False), (True, True), (True, False)):
         _switches(context, maintenance(data=data), closed=data, changed=changed)
     _is_closed(context, address)
+    context.fulfilled(CLOSES)
     _switches(context, maintenance(data=False), closed=False, changed=True)
     context.require(
         "after the maintenance, /move_arm is served again",

@@ -42,6 +42,11 @@ class Case:
     hint: str = ""  # for a wrong exit status
     remapped: bool = False  # whether getGeometry is remapped; otherwise the program runs in another namespace
     late: bool = False  # the service starts after the program
+    ends: str = ""  # the goal that is fulfilled if this run and the runs before it are right
+
+
+COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
+USED = "Print a usage line, and end with 2, if the arguments are wrong."
 
 
 @part(
@@ -54,6 +59,7 @@ class Case:
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
+    goals={COMPARED: 2, USED: 1, "End with 3 if the call fails, and wait for a late service.": 1},
 )
 def does_it_fit(context: CheckContext) -> None:
     """Run the program for all cases at the same time; each case has its own namespace."""
@@ -89,6 +95,8 @@ def does_it_fit(context: CheckContext) -> None:
     for each, done in zip(started, finished[1:], strict=True):
         each.run.show()
         _examine(context, each.case, each.server, done, elsewhere=bool(absolute.requests))
+        if each.case.ends:
+            context.fulfilled(each.case.ends)
 
 
 def _cases(context: CheckContext) -> list[Case]:
@@ -124,6 +132,7 @@ def _cases(context: CheckContext) -> list[Case]:
             "too large",
             hint="The volume in the response is larger than LIMIT: print too large, and end with the exit "
             "status 1.",
+            ends=COMPARED,
         ),
         Case("three numbers", sides, answer, 2, USAGE, calls=0, hint=usage),
         Case(
@@ -134,6 +143,7 @@ def _cases(context: CheckContext) -> list[Case]:
             USAGE,
             calls=0,
             hint="float() raises ValueError for a word. Catch it, print the usage line, and end with 2.",
+            ends=USED,
         ),
         Case(
             "a refusal",

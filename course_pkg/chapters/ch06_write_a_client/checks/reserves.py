@@ -9,6 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
+FIRST = "Return the volume of the first service if it responds."
+NEXT = "Return the volume of the next service if a service does not exist or refuses."
 
 
 @part(
@@ -20,6 +22,7 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhe
     ),
     needs=["first_answer"],
     deadline=30.0,
+    goals=[FIRST, NEXT, "Wait one second for a response, and return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server alone, after each kind of failing server, and then only failing servers."""
@@ -66,6 +69,7 @@ def ask_the_next_one(context: CheckContext) -> None:
             "test for an empty list or for None."
         ),
     )
+    context.fulfilled(FIRST)
     for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
         context.expect(
             "the next service is used if one fails",
@@ -80,6 +84,7 @@ def ask_the_next_one(context: CheckContext) -> None:
                 )
             ],
         )
+    context.fulfilled(NEXT)
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,

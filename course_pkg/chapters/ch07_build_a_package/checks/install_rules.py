@@ -15,6 +15,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 SCRIPTS = ("server.py", "client.py")
 PLACE = "lib/my_geometry"
 INSTALLING = 20.0  # s; it takes 1 s on an idle machine
+INSTALLED = "Install server.py and client.py in the folder in which rosrun finds them."
 
 
 @part(
@@ -26,6 +27,7 @@ INSTALLING = 20.0  # s; it takes 1 s on an idle machine
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
+    goals={INSTALLED: 3, "Install all that the server needs to run.": 1},
 )
 def the_install_rules(context: CheckContext) -> None:
     """Install a copy, hide the other folders, and start the installed server."""
@@ -33,6 +35,7 @@ def the_install_rules(context: CheckContext) -> None:
     _installs(context, package)
     for script in SCRIPTS:
         _is_in_its_place(context, package, script)
+    context.fulfilled(INSTALLED)
     package.folder.command("mv", "src", "devel", "build")
     space = f"/{context.random.word()}"
     name = f"{space}{SERVER.service}"

@@ -52,6 +52,8 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
+TOGGLED_BY_CALL = "Go straight ahead, and change the direction with each call."
+TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turtle.": 1}
 
 
 @part(
@@ -61,6 +63,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
     """Toggle the direction a few times, and check the velocities that the program publishes."""
@@ -76,6 +79,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
+        context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
             RATE,
             "the program publishes twice per second",
