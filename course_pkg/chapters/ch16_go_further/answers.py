@@ -71,6 +71,15 @@ replace("self.server.set_preempted(FetchResult(fetched=fetched))\n              
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
 # %% 16.1 wrong: not started | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("\n        self.server.start()", "")
+# %% 16.1 wrong: starts the course's robot | hint: Another program does the work
+import subprocess
+
+
+class Fetcher:
+    def __init__(self, name):
+        words = ["rosrun", "course_pkg", "fetcher", f"fetch:={name}", "__name:=another"]
+        self.process = subprocess.Popen(words)
+        actionlib.SimpleActionClient(name, FetchAction).wait_for_server(rospy.Duration(15))
 # %% 16.1 wrong: a fixed action name | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("Server(name", 'Server("/my_fetch"')
 # %% 16.1 wrong: succeeds although it was cancelled | hint: The goal was cancelled, so the right state is not SUCCEEDED
@@ -169,6 +178,8 @@ replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
 # %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
 replace("things, seconds=0.1", "things")
+# %% 16.2 wrong: cancels all goals | hint: Use cancel_goal(), which cancels only
+replace("cancel_goal", "cancel_all_goals")
 # %% 16.2 wrong: five seconds in any case | hint: The limit has to be the argument `seconds`
 replace("(seconds)", "(4.5)")
 # %% 16.2 wrong: cancels early | hint: The limit has to be the argument `seconds`

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
+from threading import Timer
 
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import CHARGE
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
@@ -14,6 +15,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 from course_pkg.checking.result import Result
+from course_pkg.waiting import wait_until
 
 AT_ONCE = 50
 ONE = 6.0  # s for a single call
@@ -50,6 +52,10 @@ RACE = (
     "The same request came five times at the same time and was charged more than "
     "once. Hold one lock while you check for a receipt, take the money and store "
     "the receipt."
+)
+TOO_SOON = (
+    "A request failed and was repeated, but nothing was charged. Store the request_id after take has "
+    "returned, not before."
 )
 REFUSED = (
     "A repeated request was refused. The client did not get the first response, so send the same "
@@ -99,9 +105,10 @@ def charge_once(context: CheckContext) -> None:
         _refuses_without_an_id(context, charge)
         _at_once(context, purse, crowd)
         _gives_different_receipts(context, purse, crowd)
+        _remembers(context, charge, *known)
     finally:
         context.run("checked_desk.close")
-    _is_new_to_another_till(context, hints, known)
+    _is_new_to_another_till(context, hints, known[0])
 
 
 class CheckedPurse:
@@ -135,6 +142,10 @@ class CheckedPurse:
                 raise RuntimeError("the drawer is stuck")
             self.took.append(cents)
 
+    def asked(self, cents: int) -> bool:
+        """Return whether take() was called with this amount."""
+        return self._asked[str(cents)] > 0
+
     def await_crowd(self) -> None:
         """Let the next take() wait longer, so that the other calls can begin even on a busy machine."""
         self._long_waits = 1
@@ -158,8 +169,8 @@ ANOTHER_RECEIPT: Hints = [
 ]
 
 
-def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> str:
-    """Send new requests, and repeat them; return the id of a request that was charged."""
+def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> tuple[str, int]:
+    """Send new requests, and repeat them; return the id and the receipt of a request that was charged."""
     cents = context.random.integer(100, 900)
     first, second = context.random.word(12), context.random.word(12)
     receipt = charge(request_id=first, cents=cents).receipt
@@ -192,7 +203,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
-        repeated = charge(request_id=again, cents=cents).receipt
+        repeated = charge(request_id=again, cents=context.random.integer(100, 900)).receipt
         _purse_has(context, purse, "a repeated request is not charged again", [cents, cents], AGAIN)
         context.expect(
             "a repeated request gets the same receipt again",
@@ -200,7 +211,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
             actual=repeated,
             hints=ANOTHER_RECEIPT,
         )
-    return first
+    return first, receipt
 
 
 def _only_one(words: str) -> Hints:
@@ -221,16 +232,22 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         ),
     )
     charge(request_id=request_id, cents=cents)
-    _purse_ends_with(
-        context,
-        purse,
-        "a request that failed can be sent again",
-        cents,
-        (
-            "A request failed and was repeated, but nothing was charged. Store the request_id after "
-            "take has returned, not before."
-        ),
-    )
+    _purse_ends_with(context, purse, "a request that failed can be sent again", cents, TOO_SOON)
+    _fails_for_twins(context, purse, charge)
+
+
+def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    """Repeat a request while the purse still works on it; then the first request fails."""
+    request_id, cents = context.random.word(12), context.random.integer(10_000, 19_000)
+    purse.stuck = True
+    purse.await_crowd()
+    title = "if the purse fails, the client gets an error"
+    first = Timer(0.0, charge.refused, [title], {"request_id": request_id, "cents": cents})
+    first.start()
+    wait_until(lambda: purse.asked(cents), ONE)
+    charge(request_id=request_id, cents=cents)
+    _purse_ends_with(context, purse, "a request that failed can be sent again", cents, TOO_SOON)
+    first.join()
 
 
 NOT_REFUSED: Hints = [
@@ -302,6 +319,16 @@ def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge
         expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
         actual=f"{len(set(receipts))} different receipts",
         hints=SAME_NUMBER,
+    )
+
+
+def _remembers(context: CheckContext, charge: Service, request_id: str, receipt: int) -> None:
+    """Repeat the first request after all other requests."""
+    context.expect(
+        "a repeated request gets the same receipt again",
+        expected=receipt,
+        actual=charge(request_id=request_id, cents=context.random.integer(100, 900)).receipt,
+        hints=ANOTHER_RECEIPT,
     )
 
 

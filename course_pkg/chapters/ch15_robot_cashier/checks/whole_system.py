@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from sensor_msgs.msg import Image
 
 from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import JOINTS
-from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import FILE
+from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import FILE, READER, READING, starts_programs
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import LAUNCH, MY_CASHIER, NODES
 from course_pkg.chapters.ch15_robot_cashier.checks.printer import Printer
 from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
@@ -87,6 +87,8 @@ AFTERWARDS = (
 def the_whole_system(context: CheckContext) -> None:
     """Be two customers at once, with faults of the printer and of the camera; then kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
+    command = f"python3 -c '{READER}' {FILE} hardware:=false"
+    programs = package.start(command, worded="roslaunch")
     space = f"/{context.random.word()}"
     printer = Printer()
     context.serve(f"{space}/print_line", "course_pkg/PrintLine", printer.answer)
@@ -99,6 +101,8 @@ def the_whole_system(context: CheckContext) -> None:
     line = f"roslaunch my_cashier cashier.launch hardware:=false wait:={WAIT}"
     with package.start(f"env ROS_NAMESPACE={space} {line}", worded=line) as running:
         took = _comes_up(context, running, space)
+        wait_until(lambda: programs.status is not None, READING)
+        starts_programs(context, programs.stop().out)
         greetings.published()
         mirrored.published()
         shop = Shop(context, space, printer, greetings, seen, counter)
