@@ -71,15 +71,6 @@ replace("self.server.set_preempted(FetchResult(fetched=fetched))\n              
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
 # %% 16.1 wrong: not started | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("\n        self.server.start()", "")
-# %% 16.1 wrong: starts the course's robot | hint: Another program does the work
-import subprocess
-
-
-class Fetcher:
-    def __init__(self, name):
-        words = ["rosrun", "course_pkg", "fetcher", f"fetch:={name}", "__name:=another"]
-        self.process = subprocess.Popen(words)
-        actionlib.SimpleActionClient(name, FetchAction).wait_for_server(rospy.Duration(15))
 # %% 16.1 wrong: a fixed action name | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("Server(name", 'Server("/my_fetch"')
 # %% 16.1 wrong: succeeds although it was cancelled | hint: The goal was cancelled, so the right state is not SUCCEEDED

@@ -32,7 +32,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     require_kernel(context, [service.node for service in context.look().services if service.name == NAME])
     first, second = context.random.word(), context.random.word()
     others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
-    turns = [first, second, first, first, second, second, *others]
+    turns = [first, second, first, first, second, second, *others, first]
     # larger than the number of calls, so that the check can distinguish a total from a number of calls
     amounts = context.random.integers(len(turns), 20, 900)
     totals = dict.fromkeys(turns, 0)

@@ -42,6 +42,7 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
+SYSTEM = "roslaunch starts the whole system"  # an assertion
 VISITS = 2  # largest number of customers after the restart until one of them is greeted
 MANY = 6  # calls at the same time, by two customers
 
@@ -102,7 +103,7 @@ def the_whole_system(context: CheckContext) -> None:
     with package.start(f"env ROS_NAMESPACE={space} {line}", worded=line) as running:
         took = _comes_up(context, running, space)
         wait_until(lambda: programs.status is not None, READING)
-        starts_programs(context, programs.stop().out)
+        starts_programs(context, programs.stop().out, SYSTEM)
         greetings.published()
         mirrored.published()
         shop = Shop(context, space, printer, greetings, seen, counter)
@@ -147,7 +148,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
             status, printed = running.status, running.stop().out
             name, node = missing[0]
             context.fail(
-                "roslaunch starts the whole system",
+                SYSTEM,
                 expected=f"{name} of the node {node}",
                 actual=telling_line(printed) if status is not None else f"no {name}",
                 hint=NOT_LAUNCHED
@@ -157,7 +158,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 ),
             )
         time.sleep(POLL)
-    context.require("roslaunch starts the whole system", holds=True)
+    context.require(SYSTEM, holds=True)
     return time.monotonic() - started
 
 
