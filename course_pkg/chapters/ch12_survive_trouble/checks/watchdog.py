@@ -76,7 +76,7 @@ def a_watchdog(context: CheckContext) -> None:
     name = f"/{context.random.word()}"
     second = SecondMaster(context)
     master = second.start()
-    watched = CheckedMaster(second.uri)
+    watched = CheckedMaster(second.uri, slow=context.random.number(1.2, 2.2))
     context.place("checked_master", watched)
     context.prepare(KERNEL_CODE)
     begun = time.monotonic()
