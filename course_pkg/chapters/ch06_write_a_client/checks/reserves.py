@@ -25,14 +25,15 @@ def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server alone, after each kind of failing server, and then only failing servers."""
     names = {kind: f"/{context.random.word()}" for kind in KINDS}  # a name must not show the kind
     first, second, late, tardy = volumes(context, 4)
-    context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
+    primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
     reserve = context.serve(names["second"], GEOMETRY, lambda _: {"volume": second})
     context.serve(names["flat"], GEOMETRY, lambda _: {"volume": 0.0})
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
     context.serve(names["frozen"], GEOMETRY, lambda _: Silence())
-    working = _first_of(context, names, "first", "second")
+    sides = context.random.numbers(3, 0.5, 9.0)
+    working = context.run("first_answer", [names["first"], names["second"]], *sides, hints=_ERRORS)
     context.expect(
         "the first service is used if it responds",
         expected=first,
@@ -47,6 +48,13 @@ def ask_the_next_one(context: CheckContext) -> None:
             ),
             (ANYTHING, "Return the volume of the response."),
         ],
+    )
+    context.expect(
+        "the first service is used if it responds",
+        expected=[dict(zip(("length", "width", "height"), sides, strict=True))],
+        actual=primary.requests,
+        near=1e-4,
+        hints="Call a service once, and send the three sides unchanged.",
     )
     context.expect(
         "then no other service is called",
@@ -66,7 +74,8 @@ def ask_the_next_one(context: CheckContext) -> None:
             "test for an empty list or for None."
         ),
     )
-    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
+    many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 5)])
+    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), many):
         context.expect(
             "the next service is used if one fails",
             expected=second,
