@@ -52,14 +52,14 @@ def manifest_tags(text: str) -> Iterator[Tag]:
 def dependencies(text: str, purpose: str) -> set[str]:
     """Return the packages that a package.xml names for `purpose`: "build" or "run".
 
-    A dependency with a condition counts only if the condition holds. `text` has to be valid for catkin.
+    A dependency with a condition does not count, because it does not hold always. `text` has to be valid for
+    catkin.
     """
     from catkin_pkg.package import parse_package_string  # imported here because it takes 50 ms
 
     package = parse_package_string(text)
-    package.evaluate_conditions({"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"})
     named = package.build_depends if purpose == "build" else package.exec_depends
-    return {each.name for each in named if each.evaluated_condition}
+    return {each.name for each in named if each.condition is None}
 
 
 def locate(fault: Fault, text: str) -> Fault:

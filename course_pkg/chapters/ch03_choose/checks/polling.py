@@ -14,23 +14,6 @@ from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
 SLACK = 0.7  # s that a busy machine may add
-# This code changes the clock of the kernel 0.3 s after it has run, and changes it back after 4 s.
-ANOTHER_CLOCK = """
-import time
-
-clock, began = time.time, time.monotonic()
-
-
-def changed():
-    return clock() + (3600.0 if 0.3 < time.monotonic() - began < 4.0 else 0.0)
-
-
-def set_clock(*, right):
-    time.time = clock if right else changed
-
-
-set_clock(right=False)
-"""
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "The pause between two calls is 1 / rate seconds."
 NO_END = (
@@ -74,7 +57,6 @@ def poll_with_a_deadline(context: CheckContext) -> None:
     _one_who_comes(context)
     _nobody(context)
     _nobody_slowly(context)
-    _while_the_clock_changes(context)
 
 
 def _one_who_is_there(context: CheckContext) -> None:
@@ -180,21 +162,6 @@ def _nobody_slowly(context: CheckContext) -> None:
         result,
         1.2 + 0.3 + 0.1,
         COUNTED,
-    )
-
-
-def _while_the_clock_changes(context: CheckContext) -> None:
-    context.prepare(ANOTHER_CLOCK)
-    try:
-        result, _ = _polled(context, Counter(0, after=float("inf")).answer, seconds=1.2, rate=10.0)
-    finally:
-        context.run("set_clock", right=True, worded="time.time()")
-    context.require(
-        "it does not give up early",
-        holds=result.took > 0.9,
-        expected="calls for 1.2 s, although the clock of the computer is changed by an hour",
-        actual=f"an end after {result.took:.1f} s",
-        hints="The end depends on the clock of the computer. Use time.monotonic() in place of time.time().",
     )
 
 

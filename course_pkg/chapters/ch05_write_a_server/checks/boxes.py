@@ -12,6 +12,7 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 # Matches an error message of the student's handler, but not a message that rospy wrote itself.
+NUMBER = r"-?\d+(?:\.\d+)?"
 MANY = 6  # the most numbers in a message; with many numbers, one of them is right by chance
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 
@@ -147,7 +148,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
     side, value = next(iter(negative.items()))
     reason = error.lower().partition("process request:")[2]
     named = [name for name in SIDES if name in reason]
-    numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", reason)]
+    numbers = [float(number) for number in re.findall(NUMBER, reason)]
     context.require(
         "the message names the side and its value",
         holds=named == [side]
@@ -161,6 +162,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 def _unclear(named: list[str], side: str, reason: str) -> str:
     """Return the hint for an error that names the sides in `named` and should name `side`."""
+    if len(re.findall(NUMBER, reason)) > MANY:
+        return "The message contains many numbers. Write only the value of the negative side."
     if "{" in reason:
         return (
             "The message contains braces. Write f before the string, so that Python replaces the "
