@@ -494,8 +494,341 @@ replace('return "waiting"', "return 0")
 replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")
 # %% 02.5 wrong: the time in a local variable | hint: Messages arrived before the first call of state()
 replace("self.last = time", "last = time")
-# %% 02.5 wrong: ends 0.4 s late | hint: No message has arrived for more than a second
-replace("<= 1.0", "<= 1.4")
+# %% 02.5 wrong: ends 1.2 s late | hint: No message has arrived for more than a second
+replace("<= 1.0", "<= 2.2")
+
+# %% 02.1 wrong: publishes nothing without a subscriber | hint: publish all numbers at the given rate
+replace("\n    wait_until(publisher.get_num_connections, 2.0)\n    pace = rospy.Rate(rate)", """
+    end = time.monotonic() + 2
+    while not publisher.get_num_connections():
+        if time.monotonic() > end:
+            return
+        time.sleep(0.005)
+    pause = rospy.Rate(rate)""")
+replace("pace.", "pause.")
+# %% 02.1 wrong: pauses that are too short | hint: The pauses are shorter than 1 / rate.
+based_on("time.sleep in place of a rate")
+replace("sleep(1 / rate)", "sleep(0.8 / rate)")
+# %% 02.1 wrong: publishes nothing without a subscriber, but waits as long | hint: Without a subscriber, wait 2 s, and then
+replace("2.0)", "2.0)\n    if not publisher.get_num_connections():\n        time.sleep(count / rate)\n        return")
+
+# %% 02.3 wrong: compares by truth | hint: The same value was published again
+replace("self.value = None", "self.last = None")
+replace("\n        if value != self.value:\n            self.value = value\n            self.publisher.publish(value)", """
+        if self.last and self.last == value:
+            return
+        self.last = value
+        self.publisher.publish(value)""")
+# %% 02.3 wrong: leaves out small changes | hint: A changed value was not published
+based_on("compares by truth")
+replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.1")
+# %% 02.3 wrong: all objects share the last value | hint: Store the last value in self, not in the class
+based_on("compares by truth")
+replace("        self.last = None\n", "")
+replace("class Notice:\n", "class Notice:\n    last = [None]\n\n")
+replace("self.last and self.last == value", "self.last[0] == value")
+replace("self.last = value", "self.last[0] = value")
+
+# %% 02.4 wrong: the subscribers in the other order | hint: The two subscribers are in the
+replace("\n    ]", "\n    ][::-1]")
+
+# %% 02.2 wrong: returns the publisher | hint: Return the rospy.Subscriber
+replace("return rospy", "rospy")
+replace("show)", "show)\n    return publisher")
+# %% 02.2 wrong: another subscriber is returned | hint: Return the rospy.Subscriber, so that the caller
+replace("return rospy.Subscriber(source, JointState, show)", "rospy.Subscriber(source, JointState, show)\n    return rospy.Subscriber(source, JointState, str)")
+
+# %% 02.3 right: compares with the value before
+class Notice:
+    def __init__(self, topic):
+        self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)
+        self.value = None
+
+    def set(self, value):
+        if value != self.value:
+            self.value = value
+            self.publisher.publish(value)
+
+# %% 02.3 right: returns early, and creates the publisher with all arguments by name
+class Notice:
+    last = ()
+
+    def __init__(self, topic):
+        self.pub = rospy.Publisher(name=topic, data_class=Float64, latch=True, queue_size=1)
+
+    def set(self, value):
+        if (value,) == self.last:
+            return
+        self.last = (value,)
+        self.pub.publish(Float64(data=value))
+
+# %% 02.3 wrong: not latched | hint: Nothing arrived. With latch=True
+replace("10, latch=True", "10")
+# %% 02.3 wrong: waits for a subscriber instead of latching | hint: Don't wait in set()
+replace("10, latch=True", "10")
+replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.8)\n            self.publisher.publish(value)")
+# %% 02.3 wrong: waits for a subscriber and latches | hint: Don't wait in set()
+replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.5)\n            self.publisher.publish(value)")
+# %% 02.3 wrong: publishes each time | hint: The same value was published again.
+replace("if value != self.value:", "if True:")
+# %% 02.3 wrong: starts with 0 | hint: The first value was not published,
+replace("None", "0.0")
+# %% 02.3 wrong: tests the truth value of the number | hint: The first value was not published,
+replace("if value != self.value:", "if value and value != self.value:")
+# %% 02.3 wrong: an endless loop | hint: set() does not return
+replace("""self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)
+        self.value = None""", "self.publisher = rospy.Publisher(topic, Float64, queue_size=1)")
+replace("if value != self.value:\n            self.value = value", "pace = rospy.Rate(10)\n        while not rospy.is_shutdown():")
+replace("(value)", "(value)\n            pace.sleep()")
+# %% 02.3 wrong: a thread publishes it again and again | hint: A value is published again and again
+replace("10, latch=True", "1")
+replace("= None", """= None
+        threading.Thread(target=self.repeat, daemon=True).start()
+
+    def repeat(self):
+        while True:
+            if self.value is not None:
+                self.publisher.publish(self.value)
+            time.sleep(0.05)""")
+replace("if value != self.value:\n            self.value = value\n            self.publisher.publish(value)", "self.value = value")
+# %% 02.3 wrong: unregisters the publisher | hint: Create a rospy.Publisher for the topic that Notice()
+replace("self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)\n        self.value = None", "self.topic = topic")
+replace("if value ! … publish(value)", """publisher = rospy.Publisher(self.topic, Float64, queue_size=1, latch=True)
+        publisher.publish(value)
+        publisher.unregister()""")
+# %% 02.3 wrong: another type | hint: Publish it with the type in the exercise
+replace("Float64", "String")
+replace("publish(value)", "publish(str(value))")
+# %% 02.3 wrong: publishes each change twice | hint: A value was published twice
+replace("self.publisher.publish(value)", "self.publisher.publish(value)\n            self.publisher.publish(value)")
+# %% 02.3 wrong: publishes no second value | hint: A changed value was not published
+replace("if value != self.value:", "if self.value is None or value != self.value and not self.publisher.get_num_connections():")
+# %% 02.3 wrong: never publishes a value that it had before | hint: A changed value was not published
+replace("self.value = None", "self.values = []")
+replace("value != self.value", "value not in self.values")
+replace("self.value = value", "self.values.append(value)")
+# %% 02.3 wrong: a late subscriber gets all earlier values | hint: A late subscriber received an older
+replace("Notice:", "Notice(rospy.SubscribeListener):")
+replace("self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)\n        self.value = None", """self.values = []
+        self.publisher = rospy.Publisher(topic, Float64, subscriber_listener=self, queue_size=10)
+
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
+        for value in self.values:
+            peer_publish(Float64(value))""")
+replace("\n        if value ! … publish(value)", "\n        self.values.append(value)\n        self.publisher.publish(value)")
+# %% 02.3 wrong: rounds the value | hint: This is not the value that was set
+replace("publish(value)", "publish(round(value))")
+
+# %% 02.4 right: two lambdas
+def start_robot(angles, draw, orders, prepare):
+    return [
+        rospy.Subscriber(angles, Float64, lambda message: draw(message.data), queue_size=1),
+        rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data)),
+    ]
+
+# %% 02.4 right: worker threads
+import queue
+
+def start_robot(angles, draw, orders, prepare):
+    newest, waiting = queue.LifoQueue(), queue.Queue()
+
+    def drawing():
+        while True:
+            angle = newest.get()
+            while not newest.empty():
+                newest.get()
+            draw(angle)
+
+    def preparing():
+        while True:
+            prepare(waiting.get())
+
+    for work in (drawing, preparing):
+        threading.Thread(target=work, daemon=True).start()
+    first = rospy.Subscriber(angles, Float64, lambda message: newest.put(message.data))
+    second = rospy.Subscriber(orders, UInt32, lambda message: waiting.put(message.data))
+    return [first, second]
+
+# %% 02.4 wrong: no limit for the angles | hint: Too many angles wait in the queue
+replace("draw(message.data), queue_size=1", "draw(message.data)")
+# %% 02.4 wrong: ten angles may wait | hint: Only the newest one is useful here
+replace("queue_size=1", "queue_size=10")
+# %% 02.4 wrong: one order may wait | hint: Some orders were lost
+replace("prepare(message.data)", "prepare(message.data), queue_size=1")
+# %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Twenty orders
+replace("prepare(message.data)", "prepare(message.data), queue_size=10")
+replace("lambda message: prepare", "lambda message: time.sleep(0.02) or prepare")
+# %% 02.4 wrong: a thread for each angle | hint: Two calls ran at the same time
+replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
+    def on_angle(message):
+        threading.Thread(target=draw, args=[message.data], daemon=True).start()
+""")
+replace("lambda message: draw(message.data)", "on_angle")
+# %% 02.4 wrong: the whole message for draw | hint: draw() got the whole message. Pass
+replace("lambda message: draw(message.data)", "draw")
+# %% 02.4 wrong: the whole message for prepare | hint: prepare() got the whole message. Pass
+replace("lambda message: prepare(message.data)", "prepare")
+# %% 02.4 wrong: every sixteenth angle | hint: The last angle was not drawn.
+based_on("a thread for each angle")
+replace("(angles, draw, orders, prepare):", "(angles, draw, orders, prepare):\n    count = [0]\n")
+replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", """count[0] += 1
+        if count[0] % 16 == 1:
+            draw(message.data)""")
+replace(", queue_size=1", "")
+# %% 02.4 wrong: the first angle only | hint: draw() got only one angle. Do
+based_on("a thread for each angle")
+replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", "first.unregister()\n        draw(message.data)")
+replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle, queue_size=1)
+    return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
+# %% 02.4 wrong: does not return | hint: The function does not return. It
+replace("return [", "subscribers = [")
+replace("    ]", "    ]\n    rospy.spin()\n    return subscribers")
+# %% 02.4 wrong: returns nothing | hint: Return a list of two rospy.Subscriber objects
+replace("return [", "subscribers = [")
+# %% 02.4 wrong: draws each angle twice | hint: An angle was drawn twice
+replace("draw(message.data),", "(draw(message.data), draw(message.data)),")
+# %% 02.4 wrong: prepares each order twice | hint: An order was prepared twice
+replace("prepare(message.data)", "(prepare(message.data), prepare(message.data))")
+
+# %% 02.4 wrong: the newest order first | hint: The orders were not prepared in
+def start_robot(angles, draw, orders, prepare):
+    waiting = []
+
+    def preparing():
+        while True:
+            if len(waiting) > 1 or waiting and time.monotonic() > quiet[0]:
+                prepare(waiting.pop())
+            time.sleep(0.001)
+
+    quiet = [0.0]
+
+    def on_order(message):
+        quiet[0] = time.monotonic() + 0.1
+        waiting.append(message.data)
+
+    threading.Thread(target=preparing, daemon=True).start()
+    return [
+        rospy.Subscriber(angles, Float64, lambda message: draw(message.data), queue_size=1),
+        rospy.Subscriber(orders, UInt32, on_order),
+    ]
+
+# %% 02.4 wrong: a fixed topic for the angles | hint: Create a rospy.Subscriber for the topic `angles`
+replace("Subscriber(angles", 'Subscriber("/angle"')
+# %% 02.4 wrong: another type for the orders | hint: Create a rospy.Subscriber for the topic `orders`
+replace("UInt32", "Float64")
+# %% 02.4 wrong: replaces draw by a method of its own | hint: draw() was not called. Call it
+replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
+    type(draw).__call__ = lambda self, value: time.sleep(0.25)""")
+# %% 02.4 wrong: does not call draw | hint: draw() was not called. Call it
+replace("draw(message.data)", "draw")
+# %% 02.4 wrong: does not call prepare | hint: prepare() was not called. Call it
+replace("prepare(message.data)", "prepare")
+# %% 02.4 wrong: rounds the angle | hint: draw() got an angle that was
+replace("draw(message.data)", "draw(round(message.data))")
+# %% 02.4 wrong: counts the orders from 1 | hint: prepare() got an order that was
+replace("prepare(message.data)", "prepare(message.data + 10000)")
+
+# %% 02.5 right: the time of the last message
+class Watch:
+    def __init__(self, topic):
+        self.last = None
+        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)
+
+    def hear(self, message):
+        self.last = time.monotonic()
+
+    def state(self):
+        if self.last is None:
+            return "waiting"
+        return "running" if time.monotonic() - self.last <= 1.0 else "ended"
+
+# %% 02.5 wrong: compares the number of messages with the last call | hint: The last message arrived less than
+replace("last = None", "count = 0\n        self.before = 0")
+replace("last = time.monotonic()", "count += 1")
+replace("last is None", "count == 0")
+replace('return "running" if time.monotonic() - self.last <= 1.0 else "ended"', """state = "running" if self.count > self.before else "ended"
+        self.before = self.count
+        return state""")
+# %% 02.5 wrong: counts the publishers | hint: No message has arrived for more
+replace("self.last = None", "self.heard = False")
+replace("self.last = time.monotonic()", "self.heard = True")
+replace("self.last is None", "not self.heard")
+replace("time.monotonic() - self.last <= 1.0", "self.subscriber.get_num_connections()")
+# %% 02.5 wrong: waits for a message in state() | hint: Don't wait for a message in state()
+replace("self.last = None\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", """self.topic = topic
+        self.heard = False""")
+replace("last = time.monotonic()", "heard = True")
+replace('if self.last … else "ended"', '''try:
+            rospy.wait_for_message(self.topic, UInt32, timeout=1)
+        except rospy.ROSException:
+            return "ended" if self.heard else "waiting"
+        self.heard = True
+        return "running"''')
+# %% 02.5 wrong: "ended" before the first message | hint: The stream has not begun
+replace("self.last = None", "self.last = 0")
+replace('\n        if self.last is None:\n            return "waiting"', "")
+# %% 02.5 wrong: "running" before the first message | hint: No message has arrived yet
+replace("self.last = None", "self.last = time.monotonic()")
+replace('\n        if self.last is None:\n            return "waiting"', "")
+# %% 02.5 wrong: a limit of a quarter of a second | hint: The last message arrived half a
+replace("1.0", "0.25")
+# %% 02.5 wrong: the time of the first message | hint: The last message arrived less than
+replace("self.last = time.monotonic()", "if self.last is None:\n            self.last = time.monotonic()")
+# %% 02.5 wrong: never running again after it ended | hint: The last message arrived less than
+replace("self.last = None", "self.last = None\n        self.ended = False")
+replace('\n        return "running" if time.monotonic() - self.last <= 1.0 else "ended"', '''
+        if time.monotonic() - self.last > 1:
+            self.ended = True
+        return "ended" if self.ended else "running"''')
+# %% 02.5 wrong: "waiting" after the stream has ended | hint: Messages arrived before, but no message
+replace('"ended"', '"waiting"')
+# %% 02.5 wrong: compares with None before the first message | hint: Before the first message, there is
+replace('if self.last … else "ended"', 'if time.monotonic() - self.last <= 1.0:\n            return "running"\n        return "ended"')
+# %% 02.5 wrong: subscribes in state() | hint: for the topic, of type UInt32, in __init__
+replace("def __init__(self, topic):", "def __init__(self, topic):\n        self.topic = topic")
+replace("\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", "")
+replace("(self):", "(self):\n        rospy.Subscriber(self.topic, UInt32, self.hear)")
+# %% 02.5 wrong: one global time for all watches | hint: Only the other Watch received messages.
+replace("class Watch:", "last = None\nclass Watch:")
+replace("\n        self.last = None", "")
+replace("self.last = time.monotonic()", "global last\n        last = time.monotonic()")
+replace("self.last is None", "last is None")
+replace("self.last", "last")
+# %% 02.5 wrong: with capital letters | hint: Write the string exactly as in the exercise
+replace('return "waiting"\n        return "running" if time.monotonic() - self.last <= 1.0 else "ended"', '''return "Waiting"
+        return "Running" if time.monotonic() - self.last <= 1.0 else "Ended"''')
+# %% 02.5 wrong: another type | hint: for the topic, of type UInt32, in __init__
+replace("UInt32", "Float64")
+
+# %% 02.5 right: a timer that changes the state
+class Watch:
+    def __init__(self, topic):
+        self._state = "waiting"
+        self._timer = None
+        rospy.Subscriber(topic, UInt32, self._hear)
+
+    def _hear(self, message):
+        if self._timer:
+            self._timer.cancel()
+        self._state = "running"
+        self._timer = threading.Timer(1.0, self._end)
+        self._timer.daemon = True
+        self._timer.start()
+
+    def _end(self):
+        self._state = "ended"
+
+    def state(self):
+        return self._state
+
+# %% 02.5 wrong: a number for each state | hint: Return one of the three strings
+replace('return "waiting"', "return 0")
+# %% 02.5 wrong: waits for the first message | hint: state() waits for a message. Subscribe
+replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")
+# %% 02.5 wrong: the time in a local variable | hint: Messages arrived before the first call of state()
+replace("self.last = time", "last = time")
+# %% 02.5 wrong: ends 1.2 s late | hint: No message has arrived for more than a second
+replace("<= 1.0", "<= 2.2")
 
 # %% 02.1 wrong: publishes nothing without a subscriber | hint: publish all numbers at the given rate
 replace("\n    wait_until(publisher.get_num_connections, 2.0)\n    pace = rospy.Rate(rate)", """

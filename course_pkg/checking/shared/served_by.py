@@ -35,10 +35,8 @@ def require_served_by_notebook(context: CheckContext, *services: str) -> None:
     """Assert that the kernel's own node serves each service."""
     context.prepare(SERVED_HERE)
     for service in filter(None, map(context.look().service, services)):
-        address = context.run("served_at", service.name, worded=f"rospy.Service({service.name})").returned(
-            str
-        )
-        if address != service.uri:
+        here = context.run("served_at", service.name, worded=f"rospy.Service({service.name})")
+        if here.value != service.uri:
             context.fail(
                 "the node of the notebook serves the service",
                 expected="a server in the kernel of the notebook",

@@ -74,7 +74,7 @@ def ask_the_next_one(context: CheckContext) -> None:
             "test for an empty list or for None."
         ),
     )
-    many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 5)])
+    many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 3)])
     for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), many):
         context.expect(
             "the next service is used if one fails",
@@ -181,4 +181,5 @@ _ERRORS: Hints = [
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
     """Run the student's function with the names of the services of these kinds, in this order."""
     sides = context.random.numbers(3, 0.5, 9.0)
-    return context.run("first_answer", [names[kind] for kind in kinds], *sides, hints=hints or _ERRORS)
+    services = [names[kind] for kind in kinds]
+    return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)
