@@ -77,6 +77,15 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         actual=", ".join(places) or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
+    # catkin_install_python may change the first line.
+    both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
+    if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
+        context.fail(
+            f"{script} is installed in {PLACE}, as an executable file",
+            expected=f"the same lines as in scripts/{script}",
+            actual="another file",
+            hint=f"The installed file is not the script of the package. Install scripts/{script}.",
+        )
 
 
 def _why_not_there(text: str, script: str, places: list[str], *, there: bool) -> str:
