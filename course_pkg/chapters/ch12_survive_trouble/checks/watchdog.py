@@ -119,7 +119,7 @@ def _registers_again(
     # A watchdog may test in another way whether a master runs, for example with rosgraph.is_master_online.
     context.require(
         "without a master, the watchdog continues to poll",
-        holds=polled or wait_until(lambda: master.lookup_service(name), SOON),
+        holds=polled or bool(wait_until(lambda: master.lookup_service(name), SOON)),
         expected="further polls",
         actual="no further poll",
         hints=DIED,
