@@ -292,6 +292,11 @@ replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
 # %% 04.4 wrong: a loop that is not closed | hint: The end of the output may
 replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
 
+# %% 04.4 right: rospy is named everywhere, and the program is installed
+replace("message_generation std_msgs", "message_generation rospy std_msgs")
+replace("message_runtime std_msgs)", """message_runtime rospy std_msgs)
+
+catkin_install_python(PROGRAMS scripts/lamp_server.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})""")
 # %% 04.4 wrong: message_generation in catkin_package | hint: Only the build needs message_generation, but
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 

@@ -43,6 +43,8 @@ solution()
 # %% 07.2 right: with comments and blank lines
 replace("float32 length\nfloat32 width", "# The sides of a box, in metres.\nfloat32 length\nfloat32 width   # along y\n")
 replace("float32 area", "float32   area    # of the floor, in square metres\n")
+# %% 07.2 wrong: a tab | hint: There is a tab between type
+replace("float32 width", "float32\twidth")
 # %% 07.2 wrong: no dashes | hint: three dashes
 replace("---\n", "")
 # %% 07.2 wrong: float as in C++ | hint: float32
@@ -380,6 +382,10 @@ replace("rosrun my_geometry server.py", "rosrun server.py")
 # %% 07.7 wrong: two sides | hint: The call needs the name /getGeometry,
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
 # %% 07.7 wrong: no call | hint: Show a call with rosservice
+replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")
+# %% 07.7 right: from the folder install, and with the client
+replace("catkin_make", "catkin_make install")
+replace("source devel/setup.bash", "source install/setup.bash", times=2)
 replace("rosservice call /getGeometry 1.2 5.2 8.9\n", "")
 # %% 07.7 wrong: sources before it builds | hint: Imagine a new terminal: first build,
 replace("catkin_make\nsource devel/setup.bash\n", "source devel/setup.bash\ncatkin_make\n")

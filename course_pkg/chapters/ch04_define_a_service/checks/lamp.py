@@ -49,6 +49,7 @@ MANIFEST = """\
 
   <buildtool_depend>catkin</buildtool_depend>
   <build_depend>message_generation</build_depend>
+  <build_depend>rospy</build_depend>
   <build_depend>std_msgs</build_depend>
   <exec_depend>message_runtime</exec_depend>
   <exec_depend>rospy</exec_depend>
@@ -70,6 +71,7 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
+    f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",  # a CMakeLists.txt may install it
 }
 
 
@@ -80,7 +82,7 @@ def lamp_class() -> ServiceClass:
 
 def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     """Build a workspace of the student's `given` (files or folders) and the check's own other files."""
-    texts = {path: text for path, text in SOUND.items() if path not in given}
+    texts = {path: text for path, text in SOUND.items() if not path.startswith(tuple(given))}
     folder = context.folder(files=given, texts=texts)
     build = run_catkin_make(folder, f"{LIMITS};", within=BUILD)
     printed = f"{build.out}\n{build.err}"
