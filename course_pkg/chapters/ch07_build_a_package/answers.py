@@ -20,6 +20,9 @@ solution()
 </package>
 """
 
+# %% 07.1 right: markup in the description, and the old maintainer in a comment
+replace("<description>", "<description><b>Boxes:</b> ")
+replace("  <maintainer", '  <!-- <maintainer email="you@todo.todo">you</maintainer> -->\n  <maintainer')
 # %% 07.1 wrong: message_runtime is missing | hint: A package is missing. The warning
 replace("\n  <exec_depend>message_runtime</exec_depend>", "")
 # %% 07.1 wrong: rospy is missing | hint: , but package.xml has no tag
@@ -304,6 +307,9 @@ replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
 # %% 07.6 wrong: files, not programs | hint: install(FILES …) installs files that are
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 right: the whole folder, with its permissions
+based_on("two rules, one of them plain CMake")
+replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/ USE_SOURCE_PERMISSIONS DESTINATION lib")
 # %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
@@ -396,7 +402,7 @@ solution()
 replace("int32 number\n---\nstring state", "# 0 or 1; anything else is refused.\nint32  number\n---\nstring state  # OFF or ON")
 # %% 07.8 wrong: a bool | hint: has the type bool. Use the type
 replace("int32", "bool")
-# %% 07.8 wrong: in one half | hint: state is in the wrong half
+# %% 07.8 wrong: in one half | hint: state is on the wrong side
 replace("---\nstring state", "string state\n---")
 # %% 07.8 wrong: another name | hint: has no field … number
 replace("number", "value")

@@ -19,7 +19,7 @@ TYPE = "lamp_services/Lamp"
 LIMITS = "ulimit -t 6 -f 100000"  # s of processor time and KiB of a file; a step takes 1 s of processor time
 BUILD = 40.0  # s for the whole build; it takes 1.5 s on an idle machine, and 20 s on a very busy one
 
-GENERATION = re.compile("catkin_package names message_generation")
+GENERATION = re.compile("catkin_package lists message_generation")
 RUNTIME = (
     "Only the build needs message_generation, but programs need message_runtime. Write "
     "message_runtime in catkin_package."
