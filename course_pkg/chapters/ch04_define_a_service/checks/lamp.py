@@ -92,18 +92,11 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     return folder
 
 
-def in_sourced(folder: Folder, line: str, within: float = 10.0) -> tuple[int | None, str]:
-    """Return status and output of a bash command in a shell that has sourced the folder's workspace."""
-    sourced = f". devel/setup.bash && {line}"
-    done = folder.command("bash", "-c", sourced, within=within, worded=line)
-    return done.status, done.out + done.err
-
-
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Return the MD5 sum of the type that Python finds in `folder`, or "" and the error output."""
+    """Return the MD5 sum of the type that Python finds in `folder`, and ""; or "" and the error output."""
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
-    status, printed = in_sourced(folder, line)
-    return (printed.strip(), "") if status == 0 else ("", printed)
+    done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
+    return (done.out.strip(), "") if done.status == 0 else ("", done.out + done.err)
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:

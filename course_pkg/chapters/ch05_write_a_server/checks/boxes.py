@@ -10,6 +10,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.geometry import expect_geometry
 
 SIDES = ("length", "width", "height")
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # Matches an error message of the student's handler, but not a message that rospy wrote itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 
@@ -145,7 +146,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
     named = [name for name in SIDES if name in reason]
     context.require(
         "the message names the side and its value",
-        holds=named == [side] and value in map(float, re.findall(r"-?\d+(?:\.\d+)?", reason)),
+        holds=named == [side] and value in map(float, re.findall(NUMBER, reason)),
         expected=f"a message that contains {side} and {value:g}, and no other side",
         actual=error,
         hints=_unclear(named, side, reason),
