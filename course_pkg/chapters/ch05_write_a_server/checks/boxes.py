@@ -10,8 +10,8 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # Matches an error message of the student's handler, but not a message that rospy wrote itself.
-NUMBER = r"-?\d+(?:\.\d+)?"
 MANY = 6  # the most numbers in a message; with many numbers, one of them is right by chance
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
