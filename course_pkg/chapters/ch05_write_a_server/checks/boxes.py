@@ -11,8 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+MANY = 6  # maximum number of numbers in a message; of many numbers, one is right by chance
 # Matches an error message of the student's handler, but not a message that rospy wrote itself.
-MANY = 6  # the most numbers in a message; with many numbers, one of them is right by chance
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
 MEASURED = "Measure a box without a negative side."
