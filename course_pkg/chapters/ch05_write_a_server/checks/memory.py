@@ -146,7 +146,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
     context.expect(
         "after each reset, the message counts 1, 2, 3",
         expected=str(int(before) + 1),
-        actual=context.run("another_client", worded="a call from another client").returned(),
+        actual=context.run("another_client", worded="a call from another client").value,
         hints="The calls of all clients have to change the same count. Store one number in self.",
     )
     _starts_from_zero(context)

@@ -104,7 +104,7 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
             "machine is busy. Run this cell again."
         )
     printed = done.out + done.err
-    began = done.status is None or "it began its work" in printed
+    began = done.status in (None, 0) or "it began its work" in printed
     context.require(
         "an import of the script starts no node",
         holds=done.status == IMPORTED,
