@@ -34,6 +34,9 @@ COUNT = 20  # number of velocities that the check publishes
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
 )
+CALLED = "Call /spawn, /toggle_forward and /change_speed in this order."
+PASSED_ON = "Publish the velocities of turtle1 for MyTurtle."
+FOLLOW_GOALS = {CALLED: 3, PASSED_ON: 3, "End with 1 if a service is missing or refuses.": 2}
 
 
 @part(
@@ -46,6 +49,7 @@ STOPS = (
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
     """Serve all three services; in two other runs, leave one service out, or refuse a call."""
@@ -100,8 +104,10 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
     with missing.world.run() as first, refusing.world.run() as second, whole.world.run() as running:
         whole.serve("spawn")
         _calls_in_order(context, whole, running)
+        context.fulfilled(CALLED)
         began = time.monotonic()
         _passes_on(context, whole, running)
+        context.fulfilled(PASSED_ON)
         _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
         _stops_early(context, missing, first, ["spawn"], began + LIMIT + LATE - time.monotonic())
 

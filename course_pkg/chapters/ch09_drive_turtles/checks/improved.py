@@ -26,6 +26,9 @@ NO_REFUSAL = (
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
+SETS_ITS_RATE = "Publish the velocities at the rate that /change_rate sets."
+SETS_ITS_SPEED = "Set the speed with /change_speed, and the direction with /toggle_forward."
+IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtle with /start_stop.": 3}
 
 
 @part(
@@ -37,6 +40,7 @@ SPEED_SO_FAR = "the response of /change_speed contains the speed before the call
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
     """Set speeds, stop and start the turtle in both directions, and check the published velocities."""
@@ -70,8 +74,10 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
         )
         for impossible in (0.0, float("nan")):
             refuses(context, change_rate, SETS_RATE, rate=impossible)
+        context.fulfilled(SETS_ITS_RATE)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         change_speed = _changes_speed(context, world, stream, toggle)
+        context.fulfilled(SETS_ITS_SPEED)
         _starts_and_stops(context, world, stream, toggle, change_speed)
         stream.moves_turtle()
         change_rate(rate=TINY)

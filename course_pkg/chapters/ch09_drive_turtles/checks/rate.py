@@ -55,6 +55,8 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
+CHANGED = "Change the rate, return the old one, and refuse impossible rates."
+RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
 
 
 @part(
@@ -65,6 +67,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
     """Set rates and measure them; then try impossible rates."""
@@ -79,6 +82,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         stream = Stream(context, world, running)
         change = world.service("change_rate", KIND, REFUSALS)
         rate = sets_rates(context, change, stream)
+        context.fulfilled(CHANGED)
         toggles_the_stream(world.service("toggle_forward", "std_srvs/Empty"), stream)
         context.expect(
             "the response contains the rate before the call",

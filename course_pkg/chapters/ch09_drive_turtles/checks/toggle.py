@@ -54,6 +54,8 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
+TOGGLED_BY_CALL = "Go straight ahead, and change the direction with each call."
+TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turtle.": 1}
 
 
 @part(
@@ -63,6 +65,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
     """Toggle the direction a few times, and check the velocities that the program publishes."""
@@ -79,6 +82,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
         _counts_each_call(toggle, stream)
+        context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
             RATE,
             "the program publishes twice per second",

@@ -112,6 +112,10 @@ class Till:
             return f"{type(error).__name__}"
 
 
+SOLD = "Sell one thing, and call the till without the lock."
+PUT_BACK = "Put the thing back if the till fails."
+
+
 @part(
     "10.5",
     points=3,
@@ -119,6 +123,7 @@ class Till:
     "if the till fails.",
     needs=["Shop"],
     deadline=60.0,
+    goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
 )
 def no_lock_across_a_call(context: CheckContext) -> None:
     """Buy once, with a till that calls /left; then with failing tills; then in 50 threads."""
@@ -142,7 +147,9 @@ def no_lock_across_a_call(context: CheckContext) -> None:
         buying = context.service(buy, TRIGGER, hints=failed, timeout=MANY)
         looking = context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)
         _sells(context, buying, till, cents, count)
+        context.fulfilled(SOLD)
         _fails_to_sell(context, buying, looking, till, count - 1)
+        context.fulfilled(PUT_BACK)
         _sells_to_fifty(context, buying, looking, till, shelf, count - 1)
     finally:
         context.run("checked_shop.close")

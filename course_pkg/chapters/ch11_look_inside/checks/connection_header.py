@@ -57,6 +57,9 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     ]
 
 
+RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
+
+
 @part(
     "11.1",
     points=2,
@@ -172,6 +175,7 @@ NOT_RAISED: Hints = [
         "raise ConnectionError if the connection ends earlier."
     ),
     needs=["receive"],
+    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
 )
 def exact_read(context: CheckContext) -> None:
     """Send the bytes together, in pieces, and with additional bytes; then close the connection too early."""
@@ -183,6 +187,7 @@ def exact_read(context: CheckContext) -> None:
     joined = [whole[:5], whole[5:] + following]
     _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
     _receives(context, "no bytes for a count of 0", [whole], [0, 12])
+    context.fulfilled(RECEIVED)
     with OtherEnd([whole[:7]], closes=True) as other:
         context.prepare(YOUR_END.format(name=other.name))
         context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(

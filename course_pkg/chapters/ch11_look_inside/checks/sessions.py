@@ -16,6 +16,7 @@ REFUSED = (
     'The header had the field "session", but your handler refused the call. Check '
     "the name of the field in your code."
 )
+TOTALS = "Keep a separate total for each session."
 
 
 @part(
@@ -25,6 +26,7 @@ REFUSED = (
         "Keep a separate total for each session in the connection header; refuse a call without a session."
     ),
     needs=["Sessions"],
+    goals={TOTALS: 2, "Refuse a call without a session.": 1},
 )
 def totals_of_sessions(context: CheckContext) -> None:
     """Call in two sessions; continue one of them from another node; then call without a session."""
@@ -65,6 +67,7 @@ def totals_of_sessions(context: CheckContext) -> None:
             )
         ],
     )
+    context.fulfilled(TOTALS)
     _refuses_without_a_session(context, kind)
 
 

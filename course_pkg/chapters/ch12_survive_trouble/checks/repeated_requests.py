@@ -74,6 +74,8 @@ STUCK = (
     "not released. Use `with self.lock:`, which also releases the lock after an "
     "error."
 )
+CHARGED = "Charge a new request, and send the same receipt when it comes again."
+FAILED = "Charge again after the purse has failed, and refuse a request without an id."
 
 
 @part(
@@ -82,6 +84,7 @@ STUCK = (
     goal="Charge each request only once, even if it comes again, and send the same receipt each time.",
     needs=["Till"],
     deadline=60.0,
+    goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
 )
 def charge_once(context: CheckContext) -> None:
     """Send new and repeated requests; let the purse fail; omit the id; send 50 requests at the same time."""
@@ -99,8 +102,10 @@ def charge_once(context: CheckContext) -> None:
     crowd = context.service(name, CHARGE, hints=hints, timeout=MANY)
     try:
         known = _charges_new_requests(context, purse, charge)
+        context.fulfilled(CHARGED)
         _fails_once(context, purse, charge)
         _refuses_without_an_id(context, charge)
+        context.fulfilled(FAILED)
         _at_once(context, purse, crowd)
         _gives_different_receipts(context, purse, crowd)
         _remembers(context, charge, *known)

@@ -15,6 +15,7 @@ from course_pkg.checking.plain_values import ServiceClass
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
 WITHIN = 4.0  # s for a call
+COUNTED = "Count the calls of each session separately."
 
 
 @part(
@@ -27,6 +28,7 @@ WITHIN = 4.0  # s for a call
     needs=[f"file:{PROGRAM.path}"],
     deadline=150.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals={COUNTED: 2, "Refuse a call without a session.": 1},
 )
 def count_sessions(context: CheckContext) -> None:
     """Call the service in two sessions, and without a session."""
@@ -40,6 +42,7 @@ def count_sessions(context: CheckContext) -> None:
         for session in context.random.shuffled(sessions * 3):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
+        context.fulfilled(COUNTED)
         service.refused(
             'a call without the field "session" is refused',
             hints=(

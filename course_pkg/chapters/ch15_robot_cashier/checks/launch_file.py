@@ -70,6 +70,7 @@ DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write defa
 NOT_PASSED = (
     'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
 )
+LISTED = "Start all nodes, and those of the hardware only with hardware:=true."
 
 
 @part(
@@ -79,6 +80,7 @@ NOT_PASSED = (
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[LISTED, "Pass the argument wait to the nodes, and start the right programs."],
 )
 def the_launch_file(context: CheckContext) -> None:
     """Compare the nodes, programs and parameters that roslaunch would start."""
@@ -89,6 +91,7 @@ def the_launch_file(context: CheckContext) -> None:
         listed = [ending.enter_context(_roslaunch(package, words)) for words in ([], given)]
         for command, words, wanted in zip(listed, ([], given), ((*HARDWARE, *NODES), NODES), strict=True):
             _lists(context, _read(context, command), " ".join(words) or "no argument", wanted)
+    context.fulfilled(LISTED)
     for words, value in (([], 2.0), (given, wait)):
         printed = package.run(f"python3 -c '{READER}' {FILE} {' '.join(words)}", within=READING).out
         _passes_the_argument(context, printed, value, words)

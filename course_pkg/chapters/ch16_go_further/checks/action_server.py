@@ -39,6 +39,7 @@ NO_STATE = (
     "set_preempted or set_aborted of the server; the return value of the function "
     "is ignored."
 )
+EXECUTED = "Publish feedback after each thing, and the result at the end."
 
 
 @part(
@@ -47,6 +48,7 @@ NO_STATE = (
     goal="Write an action server: feedback after each thing, the result at the end, and cancellation.",
     needs=["Fetcher"],
     deadline=60.0,
+    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal without things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
     """Create an object of the student's class; send goals with different times, and cancel one of them."""
@@ -60,6 +62,7 @@ def executed_goal(context: CheckContext) -> None:
     require_kernel(context, [node for publishers in status for node in publishers])
     _carries_out(context, client, feedback)
     _takes_long_for_a_long_thing(context, client)
+    context.fulfilled(EXECUTED)
     _cancels(context, client, feedback)
     _fetches_nothing(context, client)
 
