@@ -1,4 +1,4 @@
-"""14.9: a handler that reads the connection header of its client."""
+"""14.9: a handler that reads the connection header of a client."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # s for a call
+WITHIN = 4.0  # time limit for a call (s)
 COUNTED = "Count the calls of each session separately."
 
 
@@ -91,7 +91,7 @@ def _counts(
 
 
 def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
-    """Call with these `headers`, within a time limit; return the message of the response, or the error."""
+    """Call with these `headers` within a time limit; return the message in the response, or the error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:
