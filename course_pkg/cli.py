@@ -95,8 +95,8 @@ def _dispatch(arguments: Sequence[str]) -> int:
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     """Set up the missing parts of the environment, and set its environment variables.
 
-    If the command imports libraries, this process is replaced by the Python interpreter of the environment,
-    which runs the command.
+    If the command imports libraries, the Python interpreter of the environment replaces this process, and
+    runs the command.
     """
     from course_pkg.setup import Places, ensure, environment
 

@@ -70,8 +70,8 @@ def wait_until(
 def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
-    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without
-    this factor, a program that waits for the processor would look like a program that never ends.
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without a
+    longer limit, a program that waits for the processor would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -82,8 +82,8 @@ def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 
     """Raise `error` in the block when the block has run for `seconds` s, and again every `repeat` s.
 
     If `repeat` is 0, `error` is raised only once. Use `repeat` for code that may catch the first error. This
-    function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks may
-    not be nested. Raises ValueError in another thread.
+    function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and such
+    blocks may not be nested. Raises ValueError in another thread.
     """
 
     def alarm(*_: object) -> None:

@@ -216,9 +216,11 @@ class CheckContext:
             )
         )
 
-    def fake_node(self, name: str, topic: str, kind: str, *, alive: bool = True) -> FakeNode:
+    def fake_node(
+        self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
+    ) -> FakeNode:
         """Register the node `name` as a publisher of `topic`, alive or killed; see peers/node.py."""
-        return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive))
+        return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
     # -- the student's topics
 

@@ -5,9 +5,9 @@ The process waits for a byte before it runs the program.
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
 READY and GO are file descriptors. This program writes a byte to READY when the interpreter and rospy are
-loaded. It then reads a byte from GO, and runs the code. When the code has ended, it writes the exit status to
-READY as one byte. A case can therefore start the interpreter early, and measure only the time that the code
-takes.
+loaded. It then reads a byte from GO, and runs the code. When the code has ended, this program writes the exit
+status to READY as one byte. A case can therefore start the interpreter early, and measure only the time that
+the code takes.
 """
 
 from __future__ import annotations

@@ -45,8 +45,9 @@ def read_sides(arguments: Sequence[str]) -> tuple[float, float, float] | None:
 def measure(sides: tuple[float, float, float]) -> str:
     """Start the node, wait for the service, call it, and return its response as two lines.
 
-    Raises MasterUnreachable if there is no master, ROSException if the service does not exist within TIMEOUT,
-    CallTimeout if the response does not arrive within TIMEOUT, and ServiceException if the call fails.
+    Raises MasterUnreachable if there is no master, and ServiceException if the call fails. Raises
+    ROSException if the service does not exist within TIMEOUT s, and CallTimeout if the response does not
+    arrive within TIMEOUT s.
     """
     MasterClient(master_uri()).pid()  # raises an error if no master answers; init_node would wait for ever
     rospy.init_node("client", anonymous=True)

@@ -27,7 +27,7 @@ class Canvas:
         self._pixels[:] = bytes(colour) * (SIDE * SIDE)
 
     def colour_at(self, point: Point) -> Colour:
-        """Return the colour of the pixel nearest to `point` (px), which may be outside the canvas."""
+        """Return the colour of the pixel nearest to `point` (px); the point may be outside the canvas."""
         column, row = (min(max(math.floor(each + 0.5), 0), SIDE - 1) for each in point)
         start = (row * SIDE + column) * DEPTH
         red, green, blue = self._pixels[start : start + DEPTH]
@@ -59,8 +59,8 @@ class _Rectangle:
         along = (end[0] - start[0], end[1] - start[1])
         length = math.hypot(*along)
         ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
-        # A rectangle has two pairs of parallel edges. Each entry contains the direction at a right angle to a
-        # pair of edges, and the positions of the two edges in this direction.
+        # A rectangle has two pairs of parallel edges. Each entry is (ux, uy, low, high): the unit vector at a
+        # right angle to two edges, and the positions of these edges along this vector.
         self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
         self._start = start
 

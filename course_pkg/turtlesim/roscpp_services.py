@@ -1,8 +1,8 @@
 """Services and names that behave like those of a roscpp node.
 
 rospy adds "service cannot process request: …" to an error message, and its connection header does not name
-the types of request and response. A roscpp server sends only the error message of its callback, which may be
-empty. The connection header of a roscpp server names these types. The protocol:
+the types of request and response. A roscpp server sends only the error message of its callback; this message
+may be empty. The connection header of a roscpp server names these types. The protocol:
 http://wiki.ros.org/ROS/TCPROS.
 """
 

@@ -43,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This imports the module of the type, not the package of the type. Python therefore also finds a type
-    # that was built after its package was imported; genpy.message would not find such a type.
+    # This line imports the module of the type, not the package of the type. Python therefore also finds a
+    # type that was built after its package was imported; genpy.message would not find such a type.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -72,7 +72,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
 
 
 def read_definition(file: Path) -> str:
-    """Return the text of a definition; bytes that are not UTF-8, as in old comments, are replaced."""
+    """Return the text of a definition; bytes that are not valid UTF-8 (as in old comments) are replaced."""
     return file.read_text(encoding="utf-8", errors="replace")
 
 
@@ -147,8 +147,8 @@ def _similarity(one: str, other: str) -> float:
 def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
-    # A RosPack object caches the paths of packages, so each search creates a new object. This takes a few
-    # milliseconds.
+    # A RosPack object caches the paths of packages, so each search creates a new object. Creating the object
+    # takes a few milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

@@ -84,7 +84,10 @@ class MessageType:
 
     @property
     def built(self) -> bool:
-        """Whether Python can import the class from its package; otherwise, it was generated from the text."""
+        """Whether Python can import the class from its package.
+
+        If not, the class was generated from the text.
+        """
         return not hasattr(self.cls, "_dependencies")
 
     @property

@@ -95,8 +95,8 @@ class OwnPackages:
         """Make all built packages available to this process and to the programs that it starts.
 
         The folders come last on each search path, so a package of the student cannot replace a package of the
-        course. Return a message if an imported type has another definition now, or if a package.xml cannot be
-        read; else "".
+        course. Return a message if the definition of an imported type has changed, or if a package.xml cannot
+        be read; else "".
         """
         for name, folders in self._paths.items():
             _append(name, folders)

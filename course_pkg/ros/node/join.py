@@ -171,7 +171,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        With a private master, this process is not needed, because the master ends with the kernel.
+        A private master needs no such process, because it ends when the kernel ends.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())

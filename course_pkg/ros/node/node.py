@@ -160,7 +160,7 @@ class Node:
     def renew(self) -> None:
         """Create the services, subscriptions and publishers again after a restart of rospy.
 
-        This does not restore objects that a cell created directly with rospy.
+        This method does not restore objects that a cell created directly with rospy.
         """
         if self._uri == rospy.get_node_uri():
             return

@@ -39,8 +39,8 @@ from course_pkg.ros.trace.topic_hooks import hook_topics
 HEADER_TIMEOUT = 10.0  # maximum time in s until a header has arrived
 AT_ONCE = 2  # time in ms; if a header takes longer, a separate thread waits for it
 LONGEST = 65536  # maximum size of a header in bytes; a connection with a longer header is closed
-# maximum number of waiting connections; with rospy's 5, some clients wait 1 s for a TCP retransmission if
-# many clients connect at once
+# maximum number of waiting connections; with rospy's limit of 5, some clients have to wait 1 s for a TCP
+# retransmission when many clients connect at once
 BACKLOG = 128
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"

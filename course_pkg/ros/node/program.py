@@ -82,8 +82,8 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
     """Become the node `node`, wait up to 5 s for `service`, call it once, and return the response.
 
     `kind` is a service class, a ServiceType, or a name such as "std_srvs/Trigger". Raises ROSException if no
-    node serves `service` in time, rospy's errors for a failed call, and CallTimeout. Raises MasterUnreachable
-    at once if no master answers.
+    node serves `service` within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
+    for a failed call. Raises MasterUnreachable at once if no master answers.
     """
     MasterClient(master_uri()).pid()  # Without this check, init_node would wait for a master for ever.
     rospy.init_node(node)

@@ -86,8 +86,8 @@ class Publisher:
     def stop(self, *, unregister: bool = True) -> None:
         """Stop publishing and unregister the topic; the counts are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
-        The publisher is stopped even if this error is raised.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
+        ever). The publisher is stopped even if this error is raised.
         """
         with self._lock:
             publisher, self._publisher = self._publisher, None

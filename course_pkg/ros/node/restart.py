@@ -1,9 +1,9 @@
 """Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
-rospy can start only once in a process. signal_shutdown(), an interrupted rospy.spin(), or another node with
-the same name shuts it down. After that, init_node() does nothing and reports no error. The student would have
-to restart the kernel and would lose all variables. This module therefore sets rospy's variables back to the
-values that they had before the first init_node().
+rospy can start only once in a process. It is shut down by signal_shutdown(), by an interrupted rospy.spin(),
+or by another node with the same name. After that, init_node() does nothing and reports no error. The student
+would have to restart the kernel and would lose all variables. This module therefore sets rospy's variables
+back to the values that they had before the first init_node().
 
 init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to the
 node's log file. After init_node(), the log messages of all threads would appear below the cell that is

@@ -82,7 +82,7 @@ class Service:
     def stopped(self) -> bool:
         """Whether this service is no longer served.
 
-        This is the case if it was stopped, or if another service now has the same name.
+        A service is no longer served if it was stopped, or if another service now has the same name.
         """
         return get_service_manager().get_service(self.name) is not self._impl
 

@@ -58,8 +58,8 @@ class Subscription:
     def stop(self, *, unregister: bool = True) -> None:
         """Unsubscribe; the stored messages are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
-        Even if this error is raised, no further messages are stored.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
+        ever). Even if this error is raised, no further messages are stored.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None

@@ -53,8 +53,8 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # The next lines may miss an action that is armed at this moment; with the value inf, arm()
-                # then wakes up this thread.
+                # Another thread may arm an action while the next lines run, and they may miss this action.
+                # With the value inf, arm() wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
@@ -64,7 +64,7 @@ class Watchdog:
         """Return whether this thread may end; if it may, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
-            # Another thread armed an action before it could see that this thread is about to end.
+            # Another thread armed an action while this thread was about to end, so this thread continues.
             if self._armed:
                 self._thread = threading.current_thread()
             return self._thread is None

@@ -86,7 +86,7 @@ class ErrorDisplay:
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
-        # in nbval, the execution count does not change, so it identifies no cell
+        # in nbval, the execution count does not change, so `In[…]` does not identify a cell
         if name == f"In[{self._shell.execution_count}]":
             return "An earlier cell"
         return f"{kind} {name}".strip()
@@ -122,7 +122,10 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show the same error only once below each cell. A callback may raise it many times per second."""
+        """Show the same error only once below each cell.
+
+        A callback may raise the same error many times per second.
+        """
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

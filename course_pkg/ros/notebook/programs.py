@@ -44,7 +44,7 @@ class Program:
 
     @property
     def status(self) -> int | None:
-        """The exit status, negative for a signal, or None while the program is running."""
+        """The exit status (negative if a signal ended the program), or None while the program is running."""
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:

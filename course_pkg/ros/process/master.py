@@ -115,8 +115,8 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
 
     Ctrl-C does not interrupt the wait in init_node().
 
-    This function polls the master every `interval` s, and calls `warn` once if no master answers. It raises
-    MalformedMasterUri and NotAMaster at once, because waiting would not correct these errors.
+    This function polls the master every `interval` s, and calls `warn` once if no master answers. This
+    function raises MalformedMasterUri and NotAMaster at once, because waiting would not correct these errors.
     """
     client, warned = MasterClient(master_uri()), False
     while True:

@@ -57,7 +57,7 @@ class NodeProcess:
 
     @property
     def returncode(self) -> int | None:
-        """The exit status, negative for a signal, or None while the process is running."""
+        """The exit status (negative if a signal ended the process), or None while the process is running."""
         return self._process.returncode
 
     @property

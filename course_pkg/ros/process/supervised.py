@@ -27,7 +27,7 @@ class SupervisedProcess:
     When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
     in the folder `cwd` and inherits the descriptors `inherit`. At the end, the supervisor deletes the folder
     `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI). If
-    `command` is empty, the supervisor only does this clean-up after this process has ended.
+    `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
 
     If `foreground` is true, the command uses the standard input and the terminal of this process: it receives
     Ctrl-C, and if `output` is None, it prints to the terminal. Raises GraphError if the command cannot be
@@ -68,7 +68,10 @@ class SupervisedProcess:
 
     @property
     def returncode(self) -> int | None:
-        """The command's exit status, negative for a signal; None while any of its processes is running."""
+        """The command's exit status, or None while any of its processes is running.
+
+        The exit status is negative if a signal ended the command.
+        """
         status = self._process.poll()
         return 128 - status if status is not None and status > 128 else status
 
@@ -93,7 +96,7 @@ class SupervisedProcess:
     def end(self, grace: float = 2.0) -> None:
         """End the command and all its descendants with SIGINT, and kill them after `grace` s.
 
-        In a forked child this does nothing, because the command belongs to the parent.
+        In a forked child, this method does nothing, because the command belongs to the parent.
         """
         if os.getpid() != self._owner:
             return

@@ -1,7 +1,7 @@
 """List the registrations at the master, and remove the registrations of nodes that have ended.
 
-This is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It removes
-only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
+This clean-up is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It
+removes only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
 (SIGSTOP) still accepts connections, so it keeps its registrations.
 """
 
@@ -87,7 +87,8 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
 
     Without a master, the result is empty.
 
-    A process listens on the ports of its registrations. Read the ports of a process while it is running.
+    A process listens on the ports of its registrations. Read the ports of a process while it is running,
+    because an ended process listens on no port.
     """
     if ports:
         with suppress(GraphError):  # if no master answers, there are no registrations

@@ -47,8 +47,8 @@ class XmlRpcClient:
 
         The time limit is the shorter of `timeout` s and the client's own timeout.
 
-        Raises TimeoutError at the time limit, another OSError if no program accepts the connection, and one
-        of NO_ANSWER if the answer is not valid XML-RPC or is a fault.
+        Raises TimeoutError at the time limit, and another OSError if no program accepts the connection.
+        Raises one of NO_ANSWER if the answer is not valid XML-RPC or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
         return decode(self._exchange(encode(method, *args), deadline))
@@ -135,7 +135,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection whose deadline applies to a request and its whole answer, not to each byte."""
+    """An HTTP connection with one deadline for a request and its whole answer, not for each read."""
 
     sock: _DeadlineSocket | None
 

@@ -15,7 +15,7 @@ from course_pkg.types import Field, Kind, MessageType
 ELEMENTS = 8  # maximum number of elements that are listed for an array
 MOST = 200  # maximum number of numbers that are listed for a message; arrays of arrays may contain thousands
 
-_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # the kind that is most probably a measurement is first
+_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # a float is most probably a measurement, so it is first
 # Parts of messages that are not measurements: the time and frame of a measurement, and the sensor's limits.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")

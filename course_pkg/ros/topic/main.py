@@ -202,7 +202,7 @@ def main(argv: list[str]) -> None:
     node = TopicNode(JsonChannel(socket.socket(fileno=int(argv[1]))), argv[2])
     node.run()
     node.leave()
-    os._exit(0)  # ends without waiting for rospy's threads
+    os._exit(0)  # end the process without waiting for rospy's threads
 
 
 if __name__ == "__main__":

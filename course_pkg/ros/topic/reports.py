@@ -18,7 +18,7 @@ class Peer(TypedDict):
 class Source(Peer):
     """A publisher that is connected to the topic process.
 
-    Its type and MD5 sum are from its connection header.
+    The type and the MD5 sum are from the publisher's connection header.
     """
 
     md5: str

@@ -59,7 +59,8 @@ class Activity:
     """All counts of one poll.
 
     `at` is a time of time.monotonic() (s). `silent` contains the nodes that gave no usable answer. `callers`
-    contains the services whose servers count their callers; the latest caller of each service is first.
+    maps each service to its callers, the latest first; services whose servers do not count callers are
+    missing.
     """
 
     at: float

@@ -17,7 +17,7 @@ from course_pkg.ros.trace.recorder import recorder
 from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessRecord, Recording
 
 TIMEOUT = 1.0  # maximum time in s until all nodes have answered; 20,000 spans take 0.3 s
-LEFT_OUT = ("/rosout",)  # the node that receives the log messages, which are not recorded
+LEFT_OUT = ("/rosout",)  # the node that receives log messages; log messages are not recorded
 REASONS = {
     Reach.REFUSED: "its process is gone",
     Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is stopped, or busy",

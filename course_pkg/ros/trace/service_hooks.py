@@ -1,7 +1,7 @@
 """The recorder's hooks for service calls, in rospy's clients and servers.
 
 A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
-count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for this, so
+count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for calls, so
 this module replaces a few methods of rospy. If these methods differ in a release of rospy, this module
 changes nothing.
 """

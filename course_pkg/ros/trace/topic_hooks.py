@@ -3,8 +3,8 @@
 A message is identified by its connection (the TCP ports) and by its number on this connection. A publisher's
 queue may drop messages before they are sent. The publisher therefore counts the messages that it sends. A
 subscriber may drop messages after they have arrived, so it counts the messages that arrive. rospy has no
-hooks for this, so this module replaces a few methods of rospy. If these methods differ in a release of rospy,
-this module changes nothing.
+hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a release of
+rospy, this module changes nothing.
 """
 
 from __future__ import annotations

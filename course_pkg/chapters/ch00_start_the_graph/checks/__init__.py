@@ -224,6 +224,14 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "with time.sleep."
             ),
         )
+        if 0 not in publisher.subscribers[before - first : after - first]:
+            context.fail(
+                "the second number is received after the pause",
+                expected="no subscriber during the pause",
+                actual="a subscriber that received all numbers of the pause",
+                hint="The function received numbers during the pause. rospy.wait_for_message unsubscribes "
+                "after one number.",
+            )
         with context.goal(MISSED):
             context.expect(
                 "the third number is how many were missed",

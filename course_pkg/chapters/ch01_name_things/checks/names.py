@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import shlex
 import time
 from contextlib import ExitStack
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.common_hints import NO_RETURN
-from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.checking.shared.command_line import commands_of
+from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 
 GEOMETRY = "course_pkg/geometry"
@@ -73,7 +73,7 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
     """Call the student's `function` with `name`; run the returned command until `running` is closed."""
     command = context.run(function, name).returned()
-    words = _words(command)
+    words = next(iter(commands_of(command)), [])
     context.require(
         "the result is a command for rosrun",
         holds=words[:3] == ["rosrun", "course_pkg", program],
@@ -94,14 +94,6 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
         ],
     )
     return running.enter_context(context.folder().start(*words, worded=str(command)))
-
-
-def _words(command: Json) -> list[str]:
-    """Return the words into which a shell splits the command; an empty list if it is not a valid command."""
-    try:
-        return shlex.split(command) if isinstance(command, str) else []
-    except ValueError:  # a quotation mark is not closed
-        return []
 
 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
@@ -138,6 +130,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
                 (ANYTHING, "The node has to be `measurer` in the namespace of the room."),
             ],
         )
+    require_served_by_program(context, server, wanted)
 
 
 def _astray(room: str, found: str) -> str:

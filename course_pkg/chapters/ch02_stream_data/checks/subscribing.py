@@ -13,6 +13,7 @@ from course_pkg.checking.peers.subscription import Arrival
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Fields, Value
 from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import at_this_load
 
 JOINTS = "sensor_msgs/JointState"
 KEEPER = """
@@ -50,6 +51,7 @@ def witness(message):
 """
 FIELDS = ("name", "position", "velocity")
 DRAWING, PREPARING = 0.25, 0.02  # s that one call takes
+RETURNS = 1.5  # s in which a function has to return; this takes some ms on an idle machine
 OLDEST = 0.5  # s; the largest age of an angle when a drawing begins
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
@@ -140,6 +142,16 @@ def a_mirror(context: CheckContext) -> None:
                 "changed message. Create a new JointState."
             ),
         )
+    before = subscription.count
+    context.publish(source, JOINTS, messages, every=0.02)
+    subscription.during(0.4)
+    if subscription.count > before:
+        context.fail(
+            "the subscriber is returned",
+            expected="no mirrored message after unregister() of the subscriber",
+            actual=f"{subscription.count - before} messages",
+            hint=NO_SUBSCRIBER,
+        )
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
@@ -181,7 +193,12 @@ def _begun(
     context.prepare(KEEPER)
     try:
         started = context.run(
-            "begin", Its(start), *args, worded=worded, hints=[(matches("TimesUp"), NEVER_RETURNS)]
+            "begin",
+            Its(start),
+            *args,
+            within=at_this_load(RETURNS),
+            worded=worded,
+            hints=[(matches("TimesUp"), NEVER_RETURNS)],
         )
         names = started.returned()
         swapped = len(topics) > 1 and names == list(reversed(topics))

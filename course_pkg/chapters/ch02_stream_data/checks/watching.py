@@ -7,7 +7,7 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.result import Result
-from course_pkg.waiting import wait_until
+from course_pkg.waiting import at_this_load, wait_until
 
 KEEPER = """
 watches = {}
@@ -99,9 +99,9 @@ def _runs(context: CheckContext, topic: str) -> None:
         _PAUSE,
         before=end,
     )
-    time.sleep(max(end + 0.4 - time.monotonic(), 0.0))
+    time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
     # On a busy machine, the last message may reach the watch late.
-    wait_until(lambda: _asked(context, topic).returned() != "running", 0.4)
+    wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
 

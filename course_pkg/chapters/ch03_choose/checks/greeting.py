@@ -28,16 +28,17 @@ ear = Ear()
 
 
 def begin(start, *topics):
-    ear.names = getattr(start, "__globals__", {})
-    if ear.names.get("say_good_day") not in (None, ear):
-        ear.say = ear.names["say_good_day"]
-        ear.names["say_good_day"] = ear
+    names = getattr(start, "__globals__", {})
+    if names.get("say_good_day") not in (None, ear):
+        ear.say = names["say_good_day"]
+        ear.names = {name: names for name, value in names.items() if value is ear.say}
+        names.update(dict.fromkeys(ear.names, ear))
     return start(*topics)
 
 
 def end():
-    if ear.say:
-        ear.names["say_good_day"] = ear.say
+    for name, names in ear.names.items():
+        names[name] = ear.say
 """  # reports the calls, because the topic may not show that two calls run at the same time
 MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
 TOO_LATE = (
@@ -129,6 +130,13 @@ def _greets(
     context.fulfilled(GREETED)
     _told(context, customers, [later[0], first[3], later[1]])
     _greeted(context, said, subscription, numbers)
+    context.require(
+        "no customer is lost",
+        holds=set(map(str, numbers)) <= set(map(str, said.said)),
+        expected=f"a call of say_good_day() for each of {numbers}",
+        actual=f"calls for {said.said}",
+        hints="The number was published, but the customer was not greeted. Call say_good_day(number).",
+    )
     _starts_again(context, first[0])
 
 

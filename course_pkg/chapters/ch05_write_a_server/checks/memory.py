@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from course_pkg.checking import CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Condition
+from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 A_NEW_SWITCH = """
 from rospy.impl.tcpros_service import convert_return_to_response
@@ -29,6 +30,14 @@ from std_srvs.srv import TriggerRequest, TriggerResponse
 
 def a_new_counter(kind):
     return convert_return_to_response(kind().handle_count(TriggerRequest()), TriggerResponse).message
+"""
+ANOTHER_CLIENT = """
+import rospy
+from std_srvs.srv import Trigger
+
+
+def another_client():
+    return rospy.ServiceProxy("/count", Trigger)().message
 """
 NO_REFUSAL = "A request for the present position is not an error. Return success=False and the position."
 STARTS_ON = "A new switch was not off. Set its position to False in __init__."
@@ -82,6 +91,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
             )
         ],
     )
+    require_served_by_notebook(context, "/count", "/reset_count")
     count(), count()
     before = count().message
     for last in (context.random.integer(3, 6), 12):
@@ -132,13 +142,19 @@ def a_counter_that_resets(context: CheckContext) -> None:
                 ],
             )
             before = response.message
-    reset()
+    context.prepare(ANOTHER_CLIENT)
+    context.expect(
+        "after each reset, the message counts 1, 2, 3",
+        expected=str(int(before) + 1),
+        actual=context.run("another_client", worded="a call from another client").returned(),
+        hints="The calls of all clients have to change the same count. Store one number in self.",
+    )
     _starts_from_zero(context)
     context.fulfilled(COUNTED)
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Count once with a new object; skip a class that does not work as in the exercise."""
+    """Count once with a new object, while /count is not at zero; skip a class that works otherwise."""
     if not context.has("Counter"):
         return
     context.prepare(A_NEW_COUNTER)
@@ -148,7 +164,8 @@ def _starts_from_zero(context: CheckContext) -> None:
             "after each reset, the message counts 1, 2, 3",
             expected="'1'",
             actual=repr(new.value),
-            hint="A new counter did not start from zero. Set its count to zero in __init__.",
+            hint="A new counter did not start from zero. Set its count to zero in __init__, and store it in "
+            "self.",
         )
 
 
@@ -178,6 +195,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
+    require_served_by_notebook(context, "/switch")
     turn(data=False)
     with context.goal(POSITION):
         context.expect(

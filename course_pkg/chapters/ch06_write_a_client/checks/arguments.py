@@ -98,7 +98,11 @@ def read_the_arguments(context: CheckContext) -> None:
         actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
         hints="Four numbers are too many. Return None; do not ignore one of them.",
     )
-    for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
+    for others in (
+        [texts[0], "wide", texts[2]],
+        [*texts[:2], "wide", texts[2]],
+        [texts[0], f"float({texts[1]})", texts[2]],
+    ):
         context.expect(
             "None when one is not a number",
             expected=None,

@@ -94,7 +94,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
             _fails(context, "refuses", name, sides)
             _is_called_once(context, refuses)
         else:
-            context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
+            server = context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
             context.expect(
                 "it returns the volume of the response",
                 expected=volume,
@@ -102,6 +102,13 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
                 near=1e-6,
                 hints=DEPENDS,
             )
+            if len(server.requests) > 1:
+                context.fail(
+                    "it returns the volume of the response",
+                    expected="one call of the service",
+                    actual=f"{len(server.requests)} calls",
+                    hint="The function called the service more than once. Call it once.",
+                )
 
 
 def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:

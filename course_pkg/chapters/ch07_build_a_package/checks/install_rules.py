@@ -74,16 +74,26 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         f"{script} is installed in {PLACE}, as an executable file",
         holds=there and "7" in modes[places.index(f"{PLACE}/{script}")],
         expected=f"{PLACE}/{script}",
-        actual=", ".join(places) or "no such file",
+        actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
+    # catkin_install_python may change the first line.
+    both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
+    if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
+        context.fail(
+            f"{script} is installed in {PLACE}, as an executable file",
+            expected=f"the same lines as in scripts/{script}",
+            actual="another file",
+            hint=f"The installed file is not the script of the package. Install scripts/{script}.",
+        )
 
 
 def _why_not_there(text: str, script: str, places: list[str], *, there: bool) -> str:
     rules = [each.name for each in cmake_commands(text) if not each.is_comment]
     if there:
         return (
-            "install(FILES …) installs files that are not executable. For scripts, use catkin_install_python."
+            "The installed file is not executable. install(FILES …) installs files that are not executable, "
+            "so use catkin_install_python for scripts."
         )
     if places:
         return (

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
 from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 LAMP = "/on_off"
 KIND = "course_pkg/ServiceExample"
@@ -35,6 +37,7 @@ COMPARED = "Return success=False if the lamp refuses or has another state."
 def translate(context: CheckContext) -> None:
     """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
+    require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):
         _obeys(context, panel, data)
     context.fulfilled(OBEYED)
@@ -88,7 +91,7 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
 
 
 def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
-    state = STATES[not data]
+    state = context.random.choice([STATES[not data], f"NOT {STATES[data]}"])
     lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
     response = panel(data=data)
     context.expect(
@@ -106,13 +109,25 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
         actual=response.message,
         hints="The message has to be the state in the lamp's response, not the wanted state.",
     )
+    _was_called_once(context, lamp)
     lamp.leave()
+
+
+def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
+    if len(lamp.requests) != 1:
+        context.fail(
+            "it calls /on_off once, with 1 for True and 0 for False",
+            expected="one call for each call of /lamp",
+            actual=f"{len(lamp.requests)} calls",
+            hint="The handler called /on_off again after an answer that it did not want. Call it once.",
+        )
 
 
 def _refuses(context: CheckContext, panel: Service) -> None:
     reason = f"{context.random.word()} is hot"
     lamp = context.serve(LAMP, KIND, lambda _: Refuse(reason))
     _fails(context, panel, "the lamp refuses", reason)
+    _was_called_once(context, lamp)
     lamp.leave()
 
 

@@ -27,6 +27,7 @@ ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # m/s
 LATER = 0.5  # s after which /toggle_forward starts
+WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
 ENDING = 0.6  # s in which a program without spin() ends
 COUNT = 20  # number of velocities that the check publishes
@@ -171,10 +172,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     subscription.published(
         hints=[
             ended,
-            (
-                "no publisher",
-                "Publish on /NAME/cmd_vel, where NAME is the name in the response of /spawn.",
-            ),
+            ("no publisher", WHERE),
         ],
         within=4.0,
     )
@@ -190,7 +188,16 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     )
     publisher.finish(5.0)
     subscription.wait(COUNT, 2.0)
+    driver.world.runs_own_program()
     _each_once(context, velocities, subscription)
+    own = {driver.world.name(f"{name}/cmd_vel") for name in ("turtle1", driver.name)}
+    topics = [topic.name for topic in context.look().topics if topic.publishers]
+    context.expect(
+        "the program publishes each velocity once",
+        expected=[],
+        actual=[name for name in topics if name.startswith(driver.world.name("")) and name not in own],
+        hints=WHERE,
+    )
 
 
 def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription) -> None:

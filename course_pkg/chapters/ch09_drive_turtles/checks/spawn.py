@@ -85,6 +85,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)
+    world.runs_own_program()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
     done = world.ends(running, LIMIT)
     server.leave()

@@ -197,6 +197,12 @@ def exact_read(context: CheckContext) -> None:
         )
 
 
+TAKEN = (
+    "The function read more than `count` bytes from the socket. The later bytes belong to the next message: "
+    "leave them in the socket."
+)
+
+
 class OtherEnd:
     """The other end of the student's socket, which sends `pieces`; it is open until the block ends.
 
@@ -214,6 +220,7 @@ class OtherEnd:
         self._listener.listen(1)
         self._listener.settimeout(CONNECTING)
         self._over = threading.Event()
+        self._sock: socket.socket | None = None
         self._sending = threading.Thread(target=self._send, daemon=True)
 
     def __enter__(self) -> OtherEnd:
@@ -227,10 +234,17 @@ class OtherEnd:
         self._sending.join()
         self._listener.close()
 
+    def has_more(self) -> bool:
+        """Return whether the client's socket contains bytes that the client has not read."""
+        with suppress(OSError):
+            return bool(self._sock and _unread(self._sock))
+        return False
+
     def _send(self) -> None:
         with suppress(OSError):  # the kernel has closed its socket, or does not connect
             sock, _ = self._listener.accept()
             with sock:
+                self._sock = sock
                 for piece in self._pieces:
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
@@ -245,7 +259,7 @@ def _unread(sock: socket.socket) -> int:
 
 
 def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
-    whole, at = b"".join(pieces), 0
+    whole, at, left = b"".join(pieces), 0, True
     with OtherEnd(pieces) as other:
         context.prepare(YOUR_END.format(name=other.name))
         for count in counts:
@@ -259,6 +273,10 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
                 ).returned(),
                 hints=_not_received(count),
             )
+            left = left and (at == len(whole) or bool(wait_until(other.has_more, PEEKING)))
+    context.require(
+        what, holds=left, expected="the later bytes in the socket", actual="an empty socket", hints=TAKEN
+    )
 
 
 def _not_received(count: int) -> Hints:

@@ -30,7 +30,7 @@ STRING = "std_msgs/String"
 GREETING = "Good day!"
 STANDING = 1.2  # s for which the first call waits
 PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of half a second, measured on a busy machine
-BETWEEN = 0.1  # s, the shortest time between two calls while a customer is there
+BETWEEN = 0.18  # s, the shortest time between two calls while a customer is there
 NEXT_CALL = 6.0  # s for the next call, on a busy machine
 
 

@@ -14,6 +14,7 @@ from actionlib_msgs.msg import GoalStatus
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.shared.own_program import require_kernel
 from course_pkg.msg import FetchAction, FetchGoal
 from course_pkg.waiting import Deadline, at_this_load, wait_until
 
@@ -57,6 +58,8 @@ def executed_goal(context: CheckContext) -> None:
     context.run("begin", Its("Fetcher"), name, worded="Fetcher(name)").returned()
     client = actionlib.SimpleActionClient(name, FetchAction)
     _is_served(context, client)
+    status = [topic.publishers for topic in context.look().topics if topic.name == f"{name}/status"]
+    require_kernel(context, [node for publishers in status for node in publishers])
     _carries_out(context, client, feedback)
     _takes_long_for_a_long_thing(context, client)
     context.fulfilled(EXECUTED)
