@@ -19,15 +19,18 @@ LAB = "JupyterLab"  # the group of all tests that use JupyterLab
 
 
 def pytest_configure() -> None:
-    """Handle the signals that a shell ignores for background commands. All child processes inherit this."""
+    """Handle also those signals that a shell ignores for background commands.
+
+    All child processes inherit these settings.
+    """
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-@pytest.hookimpl(tryfirst=True)  # because pytest-xdist reads the marks in the same hook
+@pytest.hookimpl(tryfirst=True)  # first, because pytest-xdist reads the marks in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Form groups of tests that stay on one worker (`--dist loadgroup`), and put the slowest groups first.
+    """Put tests into groups that stay on one worker (`--dist loadgroup`); the slowest groups come first.
 
     The tests of a file form a group, because they share a master. The tests of example answers form a group,
     because the sandboxes of one worker run the answers at the same time. All tests with JupyterLab form a
@@ -71,7 +74,10 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
 
 @pytest.fixture
 def kernel(master: PrivateMaster) -> Iterator[Kernel]:
-    """Start a process that runs cells. Each test gets a new one, because rospy starts only once in each."""
+    """Start a process that runs cells.
+
+    Each test gets a new process, because rospy can start only once in a process.
+    """
     with Kernel() as fresh:
         yield fresh
 
@@ -88,6 +94,6 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture(scope="session")
 def sandbox() -> None:
-    """Skip the test if this machine has no sandbox; without it, `course grade` does not run, either."""
+    """Skip the test if this machine cannot create a sandbox; `course grade` does not run there either."""
     if reason := refusal():
         pytest.skip(reason)

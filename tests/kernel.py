@@ -39,8 +39,8 @@ for line in sys.stdin:
 class Reply:
     """The result of a cell.
 
-    `value` is the value of the cell's variable `result`. If the cell raised an exception, `error` is the name
-    of its class and `words` is its message. `took` is the time in s.
+    `value` is the value of the variable `result` in the cell. If the cell raised an exception, `error` is the
+    name of its class and `words` is its message. `took` is the duration in s.
     """
 
     value: Any
@@ -65,7 +65,7 @@ class Kernel:
             stderr=subprocess.STDOUT,
             pass_fds=[writer],
             env={name: value for name, value in environment.items() if value is not None},
-            start_new_session=True,  # as Jupyter starts a kernel
+            start_new_session=True,  # Jupyter starts a kernel in the same way
             text=True,
         )
         os.close(writer)
@@ -81,18 +81,18 @@ class Kernel:
         self.exit()
 
     def ask(self, cell: str, timeout: float = TIMEOUT) -> Reply:
-        """Run a cell, and return its result, which may be an error. `timeout` is the time limit in s."""
+        """Run a cell, and return its result; it may be an error. `timeout` is the time limit in s."""
         self.begin(cell)
         return self.reply(timeout)
 
     def run(self, cell: str, timeout: float = TIMEOUT) -> Any:  # noqa: ANN401
-        """Run a cell that must succeed, and return its `result`."""
+        """Run a cell that must not raise an error, and return its `result`."""
         reply = self.ask(cell, timeout)
         assert not reply.error, f"{reply.error}: {reply.words}"
         return reply.value
 
     def begin(self, cell: str) -> None:
-        """Start a cell, and do not wait for its end."""
+        """Start a cell, and return without waiting for its end."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
@@ -103,7 +103,7 @@ class Kernel:
         return Reply(**json.loads(self._line(timeout)))
 
     def kill(self) -> None:
-        """Kill the process by SIGKILL, as the operating system does if there is no free memory."""
+        """Kill the process with SIGKILL, as the kernel of Linux does if there is no free memory."""
         self._process.kill()
 
     def interrupt(self) -> None:

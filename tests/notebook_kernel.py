@@ -1,4 +1,4 @@
-"""A real IPython kernel. It receives the id of each cell, as from a front end of Jupyter."""
+"""A real IPython kernel. It receives the id of each cell, as from a front end such as JupyterLab."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Shown:
     ename: str = ""
     evalue: str = ""
     traceback: list[str] = field(default_factory=list)
-    others: str = ""  # the text that other cells printed at the same time
+    others: str = ""  # output that other cells printed at the same time
 
     @property
     def error_lines(self) -> list[str]:
@@ -53,7 +53,7 @@ class NotebookKernel:
         self.manager.shutdown_kernel(now=True)
 
     def begin(self, code: str, cell: str | None = None) -> str:
-        """Send the code of a cell, and its id `cell` if it is not None; return the id of the message."""
+        """Send the code of a cell, with its id `cell` if it is not None; return the id of the message."""
         content = {
             "code": textwrap.dedent(code).strip("\n"),
             "silent": False,
@@ -72,7 +72,7 @@ class NotebookKernel:
         return self.shown(self.begin(code, cell), timeout)
 
     def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
-        """Wait until the cell of the message `number` has ended, and return its outputs.
+        """Wait until the cell that was sent with the message id `number` has ended, and return its outputs.
 
         Raises AssertionError if the cell does not end within `timeout` s.
         """

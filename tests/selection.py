@@ -4,8 +4,8 @@ A test depends on its own folder in tests/, and on the packages of course_pkg th
 layers of import-linter's contract in pyproject.toml list these packages. A test of one chapter depends on the
 folder of this chapter and on the chapters from which it imports, but not on other chapters.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` leaves a group out if the
-group passed before, and all files on which it depends have the same digest as then.
+A group contains the tests of one file, or of one file and one chapter. `--changed` leaves out a group if it
+passed earlier, and all files on which it depends have not changed since then.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class Selection:
-    """The groups of tests that passed, each with the digest of the files on which it depends."""
+    """The groups of tests that passed, each with the digest of the files on which the group depends."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -52,15 +52,15 @@ class Selection:
         self._selected: dict[str, int] = {}
 
     def is_unchanged(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed with the same digest."""
+        """Return whether the group of `item` has passed with the present digest."""
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` passed before with another digest; false in a new clone."""
+        """Return whether the group of `item` has passed with another digest; in a new clone, return False."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
-        """Note the outcome of one phase of a test."""
+        """Record the outcome of one phase of a test."""
         group = group_of(report.nodeid)
         self._outcomes[group] = self._outcomes.get(group, True) and not report.failed
 
@@ -74,7 +74,10 @@ class Selection:
 
 
 class SelectionPlugin:
-    """The hooks of the plug-in: they choose tests before the run, and store and list outcomes after it."""
+    """The hooks of the plug-in.
+
+    They select tests before the run, and they store and list outcomes after it.
+    """
 
     def __init__(self, config: pytest.Config) -> None:
         self._config = config
@@ -82,7 +85,10 @@ class SelectionPlugin:
         self._whole = not config.option.keyword and not any("::" in word for word in config.args)
 
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
-        """Deselect the slow tests, or all others with `--slow`; with `--changed` also unchanged groups."""
+        """Deselect the slow tests, or all other tests with `--slow`.
+
+        With `--changed`, also deselect unchanged groups.
+        """
         named = any("::" in word for word in config.args)
         left = {
             item
@@ -100,14 +106,14 @@ class SelectionPlugin:
         return (item.get_closest_marker("slow") is not None) == slow
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note each outcome, and print a failure at once, because a run that is stopped prints no summary."""
+        """Record each outcome. Print a failure at once, because an interrupted run prints no summary."""
         self._selection.note(report)
         if report.failed and not hasattr(self._config, "workerinput"):
             reporter = self._config.pluginmanager.get_plugin("terminalreporter")
             reporter.write_line(f"\n{report.nodeid} failed ({report.when})")
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Store the groups that passed, if the run was complete: no selection of tests, and no early end."""
+        """Store the groups that passed, if all tests of each file ran and the run was not interrupted."""
         controller = not hasattr(session.config, "workerinput")
         if controller and self._whole and not session.shouldstop and not session.config.option.markexpr:
             self._selection.store()
@@ -128,7 +134,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def group_of(test: str) -> str:
-    """Return the group of the test with the id `test`: its file, and the chapter in its parameter."""
+    """Return the group of a test: the test's file, and the chapter in the test's parameter, if any."""
     found = CHAPTER.search(test)
     return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
 
@@ -148,7 +154,9 @@ def digest_of(group: str) -> str:
 
 
 def _packages_below(folder: str) -> list[str]:
-    """Return the packages on which a folder of tests depends: its own package, and those that it may import.
+    """Return the packages on which a folder of tests depends.
+
+    These are the package of this name, and all packages that it may import.
 
     If no package has the name of the folder, the folder depends on all packages.
     """

@@ -26,7 +26,10 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
 
 @contextmanager
 def stopped(pid: int) -> Iterator[None]:
-    """Stop a process with SIGSTOP during the block. All its threads are stopped when the block begins."""
+    """Stop a process with SIGSTOP during the `with` block.
+
+    All its threads are stopped when the block begins.
+    """
     os.kill(pid, signal.SIGSTOP)
     try:
         eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))
@@ -37,7 +40,7 @@ def stopped(pid: int) -> Iterator[None]:
 
 
 def process_state(pid: int) -> str:
-    """Return the letter for the state of a process, as in ps; return "Z" also if the process has ended."""
+    """Return the letter for the state of a process, as in ps; if the process has ended, return "Z"."""
     return _state(Path(f"/proc/{pid}/stat"))
 
 

@@ -1,4 +1,4 @@
-"""`write_atomically` writes a file completely or not at all."""
+"""Tests of `write_atomically`: it writes a file completely, or does not change it."""
 
 from __future__ import annotations
 

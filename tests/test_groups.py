@@ -1,4 +1,4 @@
-"""Tests that share a master or a JupyterLab are in one group, which stays on one worker."""
+"""Tests that share a master or a JupyterLab are in one group, and each group stays on one worker."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ import pytest
 
 
 def test_a_worker_knows_the_group_of_each_test(request: pytest.FixtureRequest) -> None:
-    """With `--dist loadgroup`, xdist adds the group to the id of a test. With pytest 9.2, it does not."""
+    """With `--dist loadgroup`, pytest-xdist adds the group to the id of a test.
+
+    With pytest 9.2, it does not.
+    """
     grouped = request.config.getoption("loadgroup", default=False)
     assert request.node.nodeid.endswith("@tests/test_groups.py") == grouped

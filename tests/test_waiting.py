@@ -1,4 +1,4 @@
-"""Time limits that grow with the load of the machine."""
+"""Tests of time limits that grow with the load of the machine."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Removes the answer from an exercise cell.
 
-There are three rules. They change nothing else in the cell, not even one byte.
+There are three rules. They change no other byte of the cell.
 
 1. The body of a function or method becomes its docstring, if it has one, and `...`.
 2. `name = value` at the top level becomes `name = ...`. A line stays if its value calls a function or a class
@@ -8,8 +8,8 @@ There are three rules. They change nothing else in the cell, not even one byte.
 3. A cell that begins with `%%writefile` keeps this line. Rules 1 and 2 apply to Python below it. Any other
    text becomes its comment lines at the top, and `...`.
 
-If students have to repair something, these rules do not help. Then the check contains the text with which a
-student begins (`start`, see checking/parts.py). The check reports it if a student has not changed this text.
+These rules are not enough if students have to repair a given text. In this case, the check contains the given
+text (`start`, see checking/parts.py). If a student has not changed this text, the check reports it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 class Edit(NamedTuple):
-    """A replacement: `text` replaces the bytes from `start` to `end`."""
+    """An edit: `text` replaces the bytes from `start` to `end` (without the byte at `end`)."""
 
     start: int
     end: int
@@ -79,7 +79,10 @@ def _blank_python(source: str) -> str:
 
 
 class _Cell:
-    """The source of a cell as bytes and as a syntax tree. `ast` counts columns in bytes."""
+    """The source of a cell as bytes, and its syntax tree; `ast` counts columns in bytes.
+
+    `ast` counts columns in bytes.
+    """
 
     def __init__(self, source: str) -> None:
         self.data = source.encode()
@@ -138,7 +141,7 @@ class _Cell:
         raise AuthoringError(f"The signature of {node.name} has no colon at its end.")
 
     def _end_of_body(self, node: Function) -> int:
-        """Return the end of the body, including the indented comments after it."""
+        """Return the end of the body, including the indented comments after the body."""
         last = node.body[-1].end_lineno or node.lineno
         for number in range(last, len(self._lines)):
             line = self._lines[number]
@@ -153,7 +156,7 @@ class _Cell:
     def _placeholder(self, node: Function, kept: int) -> bytes:
         first = node.body[0]
         line = self._lines[first.lineno - 1][: first.col_offset]
-        if line.strip():  # The body is on the same line as the signature.
+        if line.strip():  # the body is on the same line as the signature
             return b"; ..." if kept == self._end(first) else b" ..."
         return b"\n" + line + b"..."
 
@@ -171,7 +174,10 @@ class _Cell:
 
 
 def _dots(target: ast.expr) -> str:
-    """Return a `...` for each name in `target`; return "" if `target` contains anything else than names."""
+    """Return one `...` for each name in `target`.
+
+    Return "" if `target` contains anything other than names.
+    """
     if isinstance(target, ast.Starred):
         return _dots(target.value)
     if isinstance(target, ast.Tuple | ast.List):
@@ -182,10 +188,10 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Return the syntax tree of `source`, and the text that was parsed, which has the same length.
+    """Return the syntax tree of `source`, and the parsed text; this text has the same length as `source`.
 
-    If `source` is not Python, lines that only IPython understands are masked in the text and in the tree.
-    Raises AuthoringError if the masked text is not Python, either.
+    If `source` is not Python, the function first masks the lines that only IPython understands. Raises
+    AuthoringError if the masked text is not valid Python either.
     """
     try:
         return source, ast.parse(source)
@@ -198,7 +204,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line` with a name of the same length in place of a magic, a shell command or a `name?`."""
+    """Return `line`, but replace a magic, a shell command or `name?` with a name of the same length."""
     found = MAGIC.match(line)
     if not found:
         return line

@@ -25,7 +25,7 @@ class CellMetadata(TypedDict, total=False):
 
     course: CourseMetadata
     tags: list[str]
-    recording: bool  # true for a cell that the site adds while it records panels
+    recording: bool  # true for a cell that the site adds to a notebook while it records panels
 
 
 class Output(TypedDict, total=False):
@@ -85,7 +85,7 @@ class Notebook(TypedDict, total=False):
 
 
 def exercise_of(cell: Cell) -> str:
-    """Return the id of the part whose exercise is this cell, or "" if the cell is not an exercise."""
+    """Return the id of the part to which this exercise cell belongs, or "" if the cell is not an exercise."""
     return str(_course(cell).get("exercise", ""))
 
 
@@ -111,13 +111,13 @@ def code_cells(notebook: Notebook) -> list[Cell]:
 
 
 def not_passed(notebook: Notebook) -> dict[str, str]:
-    """Return the stored report of each check that has not passed, by the id of the part."""
+    """Return the stored report of each check that did not pass; the keys are the ids of the parts."""
     reports = {check: _plain_text(cell) for cell in code_cells(notebook) if (check := check_of(cell))}
     return {check: text for check, text in reports.items() if not text.startswith(f"{check} passed")}
 
 
 def _plain_text(cell: Cell) -> str:
-    """Return the plain text of the cell's results, without the text that the cell printed."""
+    """Return the plain text of the cell's results, without printed text."""
     texts = (output.get("data", {}).get("text/plain", "") for output in cell["outputs"])
     return "\n".join(str(text) for text in texts if text)
 

@@ -1,4 +1,4 @@
-"""Runs notebooks from the top, several at the same time, each in a new kernel, and stores their outputs."""
+"""Runs notebooks from the first to the last cell, several at the same time, and stores their outputs."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.errors import AuthoringError
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # s for one cell; no reader should have to wait longer
-# The notebooks that run at the same time, per core. A notebook mostly waits for nodes and for responses.
+CELL_TIMEOUT = 120  # maximum time for one cell in s; no reader should have to wait longer
+# number of notebooks that run at the same time, per core a notebook mostly waits for nodes and for responses
 PER_CORE = 3
-A_CELL = 2.0  # s; the assumed time of a cell, for the estimate of a notebook's time
+A_CELL = 2.0  # assumed time of one cell in s, for the estimate of a notebook's time
 
 Finished = Callable[[str, Notebook], None]
 
 
 def workers_here(notebooks: int) -> int:
-    """Return how many notebooks to run at the same time on this machine, out of `notebooks` notebooks."""
+    """Return how many of `notebooks` notebooks this machine should run at the same time."""
     return max(1, min(notebooks, PER_CORE * (os.cpu_count() or 1)))
 
 
@@ -41,7 +41,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
     """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
 
     Raises AuthoringError if a solution does not run to its end, or if one of its checks does not pass. The
-    message contains all errors and reports. The files of these solutions do not change.
+    message contains all errors and reports. The files of these solutions are then not changed.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
     stored = {name: read(path) for name, path in paths.items()}
@@ -59,13 +59,13 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run `notebooks`, which are given by name, several at the same time.
+    """Run several of `notebooks` at the same time; the keys are their names.
 
     Calls `finished` with the name and the outputs of each notebook that ran to its end. Returns the errors of
-    all other notebooks, by name. An interrupt (KeyboardInterrupt) ends all kernels.
+    all other notebooks, by name. A KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
-    # In the main thread, nbclient would handle SIGINT itself, and interrupt only one of the kernels.
+    # In the main thread, nbclient would handle SIGINT itself, and it would interrupt only one of the kernels.
     with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
         task = loop.create_task(_run_all(notebooks, finished, progress))
         try:
@@ -94,13 +94,13 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return the message about a check that has not passed, with its report."""
+    """Return the message about a check that did not pass; the message contains its report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 
 
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
-    """Return the names in descending order of the estimated time, so that no long notebook begins last.
+    """Return the names sorted by estimated time, the longest first, so that no long notebook starts last.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -135,10 +135,11 @@ async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
 
 @contextmanager
 def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
-    """Yield an empty folder for a notebook, and an environment that has no state of earlier notebooks.
+    """Yield an empty folder for one notebook, and an environment without the state of earlier notebooks.
 
-    Temporary files, results and logs have separate folders, so that several notebooks can run at the same
-    time. The environment names no master, because the first cell of a notebook starts a private master.
+    Each notebook has separate folders for temporary files, results and logs, because several notebooks can
+    run at the same time. The environment names no master, because the first cell of a notebook starts a
+    private master.
     """
     with tempfile.TemporaryDirectory(prefix="course-notebook-", ignore_cleanup_errors=True) as folder:
         work, temporary = Path(folder, "work"), Path(folder, "tmp")
@@ -158,13 +159,13 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
 def _by_files(folder: Path) -> Config:
     """Return settings for a kernel that uses sockets in `folder`.
 
-    With TCP, another program could open the chosen port before the kernel does.
+    With TCP, another program could take the chosen port before the kernel opens it.
     """
     return Config(KernelManager={"transport": "ipc", "connection_file": str(folder / "kernel.json")})
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
-    """Return a message with the cell that stopped the run, and its error."""
+    """Return a message that contains the cell in which the run stopped, and its error."""
     failed = [
         cell["id"]
         for cell in code_cells(notebook)

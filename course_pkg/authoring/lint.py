@@ -1,4 +1,4 @@
-"""Finds the problems of a solution notebook, and names the notebook and the cell of each."""
+"""Finds the problems of a solution notebook; each message contains the notebook and the cell."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def problems(name: str, notebook: Notebook) -> list[str]:
 
 
 def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
-    """Yield an error if an exercise has no check below it, or if an id is used twice."""
+    """Yield an error if an exercise has no check below it, or if two cells have the same id."""
     exercises: list[str] = []
     checks: list[str] = []
     for cell in notebook["cells"]:
@@ -41,7 +41,7 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
 
 
 def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[str, str]]:
-    """Yield an error if an exercise has no points, no check, or no answer that can be removed."""
+    """Yield an error if an exercise has no points, no check, or no answer that blank.py can remove."""
     for cell in code_cells(notebook):
         if not (exercise := exercise_of(cell)):
             continue

@@ -1,4 +1,4 @@
-"""A plug-in of pytest that makes nbval ignore the SVG of a figure. nbval still compares the figure's text.
+"""A plug-in of pytest: nbval ignores the SVG of a figure, but still compares the figure's text.
 
 A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
 and JPEG.

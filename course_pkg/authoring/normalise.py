@@ -1,6 +1,6 @@
-"""Removes everything from a notebook that differs between runs or between front ends.
+"""Removes from a notebook everything that differs between runs or between front ends.
 
-Addresses, ports, times and process ids in the text of an output stay, because they are part of the chapter.
+Printed addresses, ports, times and process ids stay, because they are part of the chapter.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def strip(notebook: Notebook) -> None:
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id, which is the same after each run."""
+    """Give each cell a valid and unique id; a second run gives the same ids."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)
@@ -81,7 +81,7 @@ def _kept(metadata: CellMetadata) -> CellMetadata:
 
 
 def _number(cell: Cell, number: int) -> None:
-    """Set the execution count of an executed cell to its position, even if cells ran in another order."""
+    """Set the execution count of an executed cell to its position, even if the cells ran in another order."""
     if cell["execution_count"] is None and not cell["outputs"]:
         return
     cell["execution_count"] = number
@@ -92,7 +92,7 @@ def _number(cell: Cell, number: int) -> None:
 
 def _output(output: Output) -> Output:
     if output["output_type"] == "error" and output["traceback"][:1] != [HEADER]:
-        # IPython's own traceback names files of this machine. The course's traceback names only cells.
+        # IPython's own traceback contains paths of this machine. The course's traceback contains only cells.
         output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
     if "data" in output:
         output["data"] = {kind: data for kind, data in output["data"].items() if kind != VIEW}
@@ -101,7 +101,7 @@ def _output(output: Output) -> Output:
 
 
 def _merged(outputs: list[Output]) -> list[Output]:
-    """Join neighbouring chunks of the same stream, because their number differs from run to run."""
+    """Join successive outputs of the same stream, because their number differs from run to run."""
     merged: list[Output] = []
     for output in outputs:
         last = merged[-1] if merged else Output()

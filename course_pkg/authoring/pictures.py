@@ -1,4 +1,4 @@
-"""Adds still pictures to the panels of a stored notebook, and keeps a stored picture if nothing changed."""
+"""Adds still pictures to the panels of a stored notebook; an unchanged picture is kept."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-MADE_BY = "code"  # the key in the metadata of a measured picture; its value is a digest of the code
+# key in the metadata of a measured picture; its value is a digest of the code that drew the picture
+MADE_BY = "code"
 
 
 class _Stored(NamedTuple):
     """A stored picture with measured times.
 
-    `made_by` is the digest of the code that made the picture, and `others` are the data of the same output in
+    `made_by` is the digest of the code that drew the picture, and `others` are the data of the same output in
     other MIME types.
     """
 
@@ -31,9 +32,9 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
     """Add a still picture to each panel of `executed`, in place.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ after each run. Such a picture is taken from the
-    notebook `stored` if three things are the same: the code of the notebook up to this cell, the code that
-    draws the panel, and the output's data in other MIME types.
+    show a recording, contain measured times, so they differ in each run. The function takes such a picture
+    from the notebook `stored` if three things are the same: the code of all cells up to this cell, the code
+    that draws the panel, and the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}
@@ -56,11 +57,15 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 
 
 def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
-    """Store the digest of the code in the output; use the old picture if its digest and data are the same."""
+    """Store the digest `made_by` in the output.
+
+    Use an old picture if its digest and its data are the same.
+    """
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)
     if same:
-        old.remove(same)  # A cell may show several plots with the same text, so use each old plot only once.
+        # a cell may show several plots with the same text, so each old plot is used only once
+        old.remove(same)
         output["data"][SVG] = same.picture
 
 

@@ -19,10 +19,10 @@ OPENED = pytest.StashKey[ExitStack]()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_setup(item: pytest.Item) -> Generator[None]:
-    """Change the environment and the folder before the first cell, because then nbval starts the kernel.
+    """Change the environment and the current folder before the first cell, when nbval starts the kernel.
 
-    nbval starts the kernel in the folder of the notebook. Therefore the notebook has another path during this
-    step.
+    nbval starts the kernel in the folder of the notebook's path. Therefore, the notebook has another path
+    during this step.
     """
     notebook = item.parent
     if not hasattr(item, "cell") or not isinstance(notebook, pytest.File) or OPENED in notebook.stash:

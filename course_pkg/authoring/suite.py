@@ -1,4 +1,4 @@
-"""`course test`: runs the tools that read the code, and at the same time the tests."""
+"""`course test`: runs the tests and, at the same time, the tools that check the code."""
 
 from __future__ import annotations
 
@@ -22,13 +22,14 @@ TOOLS = {
     "imports": "lint-imports",
     "dead code": "vulture",
 }
-SLOWEST = ("--durations", "40", "--durations-min", "4")  # list the slowest tests at the end of a whole run
-A_CORE = 2  # pytest workers per core; two, because most tests wait for nodes, browsers or builds
+# pytest lists the slowest tests at the end of a run of all tests
+SLOWEST = ("--durations", "40", "--durations-min", "4")
+A_CORE = 2  # number of pytest workers per core; most tests wait for nodes, browsers or builds
 
 
 @dataclass
 class Tool:
-    """One tool that reads the code: its command and its result."""
+    """One tool that checks the code: its command and its result."""
 
     name: str
     command: str
@@ -37,7 +38,7 @@ class Tool:
     took: float = 0.0  # s
 
     def run(self, places: Places) -> None:
-        """Run the tool to its end."""
+        """Run the tool, and return when it has ended."""
         started = time.monotonic()
         program, *arguments = self.command.split()
         result = subprocess.run(
@@ -54,12 +55,12 @@ class Tool:
 
 
 def run_suite(arguments: Sequence[str]) -> int:
-    """Run all tools and all tests, even if one of them fails; return 0 if all passed.
+    """Run all tools and all tests, even if some of them fail; return 0 if all passed.
 
     `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
     the slow tests. Other `arguments` are passed to pytest; then no tool runs.
 
-    Raises SetupError if the environment does not contain the tools, such as an environment of conda.
+    Raises SetupError if the environment does not contain the tools; this is the case with conda.
     """
     places = Places.of()
     if not (places.venv / "bin" / "ruff").exists():

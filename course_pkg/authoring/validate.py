@@ -23,12 +23,12 @@ PLUGINS = (
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval with `notebooks` on `workers` workers, and return its exit status and output.
+    """Run nbval with `notebooks` on `workers` workers, and return the exit status and the output.
 
-    Each notebook has its own master. It stays on one worker (`--dist loadfile`), because two workers cannot
-    share a kernel of nbval. nbval starts the kernel in the folder of the notebook, so it gets a copy of the
-    notebook in an empty folder. If `compare` is false, nbval does not compare outputs, and each notebook only
-    has to run to its end. Raises subprocess.TimeoutExpired after `timeout` s.
+    Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
+    because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook,
+    so it gets a copy of the notebook in an empty folder. If `compare` is false, nbval does not compare
+    outputs; then a notebook passes if it runs to its end. Raises subprocess.TimeoutExpired after `timeout` s.
     """
     with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
         copies = [_copied(path, Path(folder)) for path in notebooks]

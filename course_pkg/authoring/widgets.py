@@ -1,4 +1,4 @@
-"""The widgets of an executed notebook: which output shows which panel, and the panel's last state."""
+"""The widgets of an executed notebook: which output shows which panel, and the last state of each panel."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets
 
 
 class SavedPanel(NamedTuple):
-    """A panel of the course: the name of its folder in `course_pkg.panels`, and the traits for a page."""
+    """A panel of the course: the name of its folder in `course_pkg.panels`, and its traits."""
 
     name: str
     state: dict[str, Plain]

@@ -1,1 +1,1 @@
-"""Hand out the course to students as an edition without solutions, and collect their work."""
+"""Hands out the course to students as an edition without solutions, and collects their work."""

@@ -22,14 +22,15 @@ from course_pkg.handout.selection import chosen_chapters
 from course_pkg.setup.stamps import locked
 
 LOCK = ".lock"
-SET_BACK = 60 * 10**9  # ns between a file's time and its last change, from which a person should look
+# ns; if a file was changed on disk this long after its modification time, an instructor should look at it
+SET_BACK = 60 * 10**9
 
 
 @dataclass(frozen=True)
 class Options:
     """The options of the command line."""
 
-    folder: str  # the course's folder in each home
+    folder: str  # the path of the course's folder in each home folder
     out: Path
     homes: Path = Path("/home")
     students: Path | None = None
@@ -38,7 +39,7 @@ class Options:
 
 @dataclass
 class Collected:
-    """What was collected so far, and what the instructor should know."""
+    """The result of the collection so far, with messages for the instructor."""
 
     notebooks: int = 0
     packages: int = 0
@@ -53,7 +54,7 @@ class Wanted:
 
     def __init__(self, chapters: Sequence[str]) -> None:
         self.notebooks = {notebook_of(chapter): chapter for chapter in chapters}
-        self._asking: dict[str, set[str]] = {}  # of the whole course
+        self._asking: dict[str, set[str]] = {}  # the packages that each chapter of the whole course requires
         for chapter in all_chapters():
             for name in (name for part in parts_of(chapter) for name in part.package_files):
                 self._asking.setdefault(name, set()).add(chapter)
@@ -62,7 +63,7 @@ class Wanted:
         )
 
     def chapters_of(self, file: WorkFile) -> list[str]:
-        """Return the chapter of a notebook.
+        """Return the chapter to which a notebook belongs.
 
         For a file of a package, return all chapters that require this package.
         """
@@ -70,14 +71,15 @@ class Wanted:
 
 
 def collect(options: Options) -> int:
-    """Collect the work, print what was found and who had nothing; return 0, or 1 if nobody had anything.
+    """Collect the work, and print what was found and which students had none; return 1 if no student had any.
 
     Raises HandoutError, and collects nothing, if an option is wrong.
     """
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    TimesTable(options.out)  # another folder is refused before it is changed
+    # raises an error if the folder is something else, before anything in it is changed
+    TimesTable(options.out)
     if os.geteuid() != 0:
         sys.stderr.write("You are not root, so only what your own account can read is collected.\n")
     found, out = Collected(), options.out
@@ -85,7 +87,7 @@ def collect(options: Options) -> int:
         out.mkdir(parents=True, exist_ok=True, mode=0o700)
         with locked(out / LOCK, lambda: _note("Another collection is under way; waiting for it.")):
             table = TimesTable(out)
-            table.replace((), ())  # first: an interrupted collection may be repeated
+            table.replace((), ())  # written first, because the user may repeat an interrupted collection
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)
     except OSError as error:
@@ -123,7 +125,7 @@ def _collect_one(
 
 
 def _rows(student: str, files: Sequence[WorkFile], wanted: Wanted) -> Iterator[Row]:
-    """Yield a row for each file, and one for each package: its time is that of its newest file."""
+    """Yield a row for each file, and a row for each package with the time of its newest file."""
     newest: dict[str, WorkFile] = {}
     for file in files:
         for chapter in wanted.chapters_of(file):
@@ -159,7 +161,7 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
 
 
 def _course_folder(given: str) -> str:
-    """Return the path of the course's folder below a home folder."""
+    """Return the path of the course's folder, relative to a home folder."""
     path = Path(given)
     if path.is_absolute() or ".." in path.parts or not path.parts:
         raise HandoutError(

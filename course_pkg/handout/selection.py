@@ -10,9 +10,12 @@ from course_pkg.overview.reading import learning_paths
 
 
 def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return the chapters of the path named `path`, or those `listed`, or all; sorted, such as ("05", "06").
+    """Return the chapters of the path called `path`, the chapters `listed`, or all chapters.
 
-    A path with two ends has the chapters of both. Raises HandoutError for an unknown path or chapter.
+    Sorted, such as ("05", "06").
+
+    For a path with two possible ends, the result contains the chapters of both ends. Raises HandoutError for
+    an unknown path or chapter.
     """
     if path:
         return _of_path(path)

@@ -1,1 +1,1 @@
-"""Starts a ROS master, and with it JupyterLab (`course lab`) or any other command (`course run`)."""
+"""Starts a ROS master, and then JupyterLab (`course lab`) or any other command (`course run`)."""

@@ -1,8 +1,8 @@
 """Starts the unchanged JupyterLab: `python -m course_pkg.lab OPTION…` is the same as `jupyter lab OPTION…`.
 
-If Node.js is installed, this start is half a second faster. At its import, jupyterlab runs `node` to read the
-address of the npm registry from Yarn's configuration. Only a build of the front end needs this address. If
-`node` is not on PATH, jupyterlab uses the default address.
+If Node.js is installed, JupyterLab starts half a second faster this way. When jupyterlab is imported, it runs
+`node` to read the address of the npm registry from Yarn's configuration. Only a build of the front end needs
+this address. If `node` is not on PATH, jupyterlab uses the default address.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import os
 
 
 def main() -> None:
-    """Import jupyterlab with a PATH that contains no programs, and then run it with the usual PATH."""
+    """Import jupyterlab with a PATH that contains no programs, restore PATH, and run jupyterlab."""
     path = os.environ.get("PATH", os.defpath)
     os.environ["PATH"] = os.devnull
     from jupyterlab.labapp import main as run

@@ -13,8 +13,8 @@ from jupyter_server.services.contents.largefilemanager import AsyncLargeFileMana
 from tornado.websocket import WebSocketHandler
 from traitlets import Bool, Unicode
 
-# The file browser hides these files of the repository, because students do not need them. It lists all other
-# files, such as a student's own files and `workspace`.
+# The file browser hides these files of the repository, because students do not need them. The file browser
+# shows all other files, such as a student's own files and `workspace`.
 HIDDEN = (
     *("CHANGELOG.md", "CMakeLists.txt", "CONTRIBUTING.md", "LICENSE", "README.md", "action", "course"),
     *("course_pkg", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml", "setup.py"),
@@ -31,7 +31,7 @@ class Connection(Protocol):
     log: Logger
 
     async def connect(self) -> None:
-        """Begin to pass messages between the page and the kernel."""
+        """Begin to forward messages between the page and the kernel."""
 
 
 class WebApplication(Protocol):
@@ -52,11 +52,12 @@ def _jupyter_server_extension_points() -> list[dict[str, str]]:
 
 
 def _load_jupyter_server_extension(server: Server) -> None:
-    """Set TCP_NODELAY on every kernel websocket, so that a click takes 10 ms instead of 46.
+    """Set TCP_NODELAY on every kernel websocket: a click then takes 10 ms instead of 46 ms.
 
     The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) delays a piece
     until the browser has acknowledged the previous piece. A browser may wait 40 ms before it sends this
-    acknowledgement. A server without a setting for the class of the connection does not change.
+    acknowledgement. If the server has no setting for the class of the connection, this function changes
+    nothing.
     """
     stock = server.web_app.settings.get(CONNECTION_CLASS)
     if stock is None:
@@ -79,18 +80,18 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
 
 
 class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
-    """Stores the checkpoints of notebooks in a folder outside the checkout, each under its notebook's path.
+    """Stores the checkpoints of notebooks in a folder outside the checkout, each at its notebook's path.
 
-    Jupyter's own class can use another folder, too. But then a chapter and its solution would share a
+    Jupyter's own class can also use another folder. But then a chapter and its solution would share one
     checkpoint, because their files have the same name.
     """
 
     folder = Unicode(help="the folder of the checkpoints").tag(config=True)
 
     def checkpoint_path(self, checkpoint_id: str, path: str) -> str:
-        """Return the file for a checkpoint of the notebook at `path`, and create its folder.
+        """Return the file for a checkpoint of the notebook at `path`; create the file's folder.
 
-        Raises tornado.web.HTTPError if `path` leads out of the server's folder.
+        Raises tornado.web.HTTPError if `path` is outside the server's folder.
         """
         self._get_os_path(path.strip("/"))
         notebook = Path(self.folder, path.strip("/"))
@@ -100,9 +101,10 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
 
 
 def kernel_language() -> dict[str, Any]:
-    """Return the same data about the language as ipykernel in its message kernel_info_reply.
+    """Return the same data about the language as ipykernel's message kernel_info_reply.
 
-    The class ipykernel.ipkernel.IPythonKernel has these data, but its import would delay the server's start.
+    The class ipykernel.ipkernel.IPythonKernel has these data, but importing it would delay the server's
+    start.
     """
     return {
         "name": "python",

@@ -1,4 +1,4 @@
-"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both."""
+"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both at the end."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 HERE = Path(__file__).parent
-PORTS = (*range(8888, 8938), 0)  # the ports to try, as in Jupyter; 0 means any free port
-READY = 60.0  # s; the time limit for the start, which takes 2 s, or much longer with an empty disk cache
+PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
+READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
-KEPT_LINES = 12  # lines of the server's log in an error message
-# The file name of the workspace "default" in jupyterlab_server: the name, and the start of its SHA-256.
+KEPT_LINES = 12  # number of lines of the server's log in an error message
+# The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
@@ -48,7 +48,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
         scratch = Path(folder)
         _write_workspace(scratch / "workspaces", notebook)
         settings = _settings(places, ip, chosen, scratch)
-        # An author opens a notebook in solutions/, and needs all files of the checkout.
+        # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
         if port is not None:
             settings["ServerApp.port_retries"] = 0
@@ -89,7 +89,10 @@ def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
 
 
 class _Address(NamedTuple):
-    """The address at which the server listens, and its token, from the server's own file."""
+    """The address at which the server listens, and its token.
+
+    Both come from a file that the server writes.
+    """
 
     url: str
     token: str
@@ -100,13 +103,13 @@ class _Address(NamedTuple):
 
 
 class _Stop(BaseException):
-    """Raised by a signal that ends this command. `except Exception` does not catch it."""
+    """A signal that ends this command raises this exception. `except Exception` does not catch it."""
 
 
 @contextmanager
 def _stopping_on_signals() -> Iterator[None]:
     def stop(number: int, _frame: FrameType | None) -> NoReturn:
-        # This command is already ending, so a second Ctrl-C must change nothing.
+        # This command is already ending, so a second Ctrl-C changes nothing.
         signal.signal(number, signal.SIG_IGN)
         raise _Stop
 
@@ -122,9 +125,12 @@ def _stopping_on_signals() -> Iterator[None]:
 
 @contextmanager
 def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
-    """Run the server during the block. It ends with its kernels and terminals, even if this process dies."""
+    """Run the server during the `with` block.
+
+    The server ends with its kernels and terminals, even if a signal kills this process.
+    """
     folders = {
-        # With these folders, the server does not use the settings and files of another Jupyter of the user.
+        # With these folders, the server does not read the settings and files of the user's other Jupyter.
         "JUPYTER_CONFIG_DIR": str(places.cache / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.cache / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
@@ -160,13 +166,16 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
         "LabApp.app_settings_dir": HERE / "settings",
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": scratch / "workspaces",
-        "LabApp.cache_files": True,  # the names of the front end's files change with their content
+        "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
         "LabApp.extension_manager": "readonly",
     }
 
 
 def _user_settings() -> Path:
-    """Return the folder of the user's own settings for JupyterLab, such as a theme, which are used, too."""
+    """Return the folder of the user's own settings for JupyterLab, such as a theme.
+
+    This Jupyter uses them, too.
+    """
     given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
     config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")
     return Path(given) if given else Path(config) / "lab" / "user-settings"
@@ -175,7 +184,7 @@ def _user_settings() -> Path:
 def _notebook(checkout: Path, asked: str | None) -> str:
     """Return the path of the notebook to open, relative to the checkout.
 
-    This is `asked`, or the first chapter if `asked` is None, or "" if there are no chapters. Raises
+    This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
     SetupError if `asked` is not a file in the checkout.
     """
     if asked is None:
@@ -200,10 +209,12 @@ def _make_workspace() -> None:
 
 
 def _write_workspace(folder: Path, notebook: str) -> None:
-    """Write the workspace that JupyterLab opens: one tab for `notebook`, and no tabs of an earlier start.
+    """Write the workspace that JupyterLab opens.
 
-    Each restored tab would start a kernel before the page is usable. The page's address could also contain
-    the notebook and `?reset`, but JupyterLab reads the address half a second later than the workspace.
+    It has one tab for `notebook`, and no tabs of an earlier start.
+
+    JupyterLab would start a kernel for each restored tab before the page is usable. The page's address could
+    also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s later than the workspace.
     """
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}
@@ -241,9 +252,10 @@ def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
 
 
 def _start_kernel(address: _Address, notebook: str) -> None:
-    """Start the notebook's kernel while the page loads, so that the kernel runs when the page needs it.
+    """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
 
-    If this fails, the page starts the kernel itself. If this fails, too, the page shows the reason.
+    If this fails, the page starts the kernel itself. If the page cannot start it either, the page shows the
+    reason.
     """
     if not notebook:
         return

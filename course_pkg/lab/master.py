@@ -11,7 +11,7 @@ from course_pkg.ros.process.roscore import Roscore
 
 @contextmanager
 def master_of_this_command() -> Iterator[None]:
-    """Run the block with a running master, whose address is in ROS_MASTER_URI."""
+    """Run the block with a running master; ROS_MASTER_URI contains the master's address."""
     if os.environ.get("ROS_MASTER_URI"):
         yield
         return
@@ -28,7 +28,8 @@ def starting_master(port: int) -> Iterator[Callable[[], object]]:
     if os.environ.get("ROS_MASTER_URI"):
         yield lambda: None
         return
-    from concurrent.futures import ThreadPoolExecutor  # here, because it takes 5 ms and `run` needs none
+    # imported here, because the import takes 5 ms and `course run` does not need it
+    from concurrent.futures import ThreadPoolExecutor
 
     master = Roscore(port)
     with ThreadPoolExecutor(max_workers=1) as pool, _named(f"http://localhost:{port}"):
@@ -36,7 +37,7 @@ def starting_master(port: int) -> Iterator[Callable[[], object]]:
         try:
             yield start.result
         finally:
-            start.exception()  # Wait for the end of the start, because stop() works only after it.
+            start.exception()  # wait for the end of the start, because stop() works only after it
             master.stop()
 
 

@@ -11,8 +11,8 @@ from course_pkg.lab.master import master_of_this_command
 from course_pkg.ros.process.supervised import SupervisedProcess
 
 BASHRC = Path(__file__).with_name("bashrc")
-# They give each notebook its own master and folder, compare no pictures, and fail a notebook whose checks did
-# not all pass.
+# These plug-ins give each notebook its own master and folder, ignore pictures, and fail a notebook if a check
+# in it did not pass.
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",
@@ -23,7 +23,7 @@ AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
 
 def run_command(command: Sequence[str]) -> int:
-    """Run `command`, end the processes that it leaves in the background, and return its exit status.
+    """Run `command`, end its background processes, and return its exit status.
 
     The status is 128 + n if signal n ended the command. Raises GraphError if the command cannot be started.
     """
@@ -49,7 +49,10 @@ def _with_plugins(command: Sequence[str]) -> list[str]:
 
 @contextmanager
 def _signals_held_back() -> Iterator[None]:
-    """Block signals until sigwaitinfo() receives them. The command starts later, so no signal is lost."""
+    """Block signals, so that only sigwaitinfo() receives them.
+
+    The command starts after this, so no signal is lost.
+    """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, AWAITED)
     try:
         yield
@@ -58,11 +61,11 @@ def _signals_held_back() -> Iterator[None]:
 
 
 def _wait(process: SupervisedProcess) -> int:
-    """Wait for `process`, and pass on the signals that only this process receives."""
+    """Wait for the end of `process`; forward each signal that `process` does not receive itself."""
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
-        # A signal from the terminal has pid 0. The terminal also sends this signal to the command, so it must
-        # not be passed on.
+        # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,
+        # so it must not be forwarded.
         if received.si_signo != signal.SIGCHLD and received.si_pid:
             process.signal(received.si_signo)
     return status

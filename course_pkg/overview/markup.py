@@ -1,4 +1,4 @@
-"""The progress as HTML, for a notebook's output and for the exported page. Every text in it is escaped."""
+"""The progress as HTML, for a notebook's output and for the exported page. All texts are escaped."""
 
 from __future__ import annotations
 

@@ -24,12 +24,12 @@ class PartProgress:
 
     @property
     def passed(self) -> bool:
-        """Whether a check of the part has passed at least once, even if a later check did not pass."""
+        """Whether a check of the part has passed at least once; a later check may have failed."""
         return bool(self.record and self.record.passed)
 
     @property
     def earned(self) -> int:
-        """The points of the part if it is passed, otherwise 0."""
+        """The points of the part if it has passed, otherwise 0."""
         return self.possible if self.passed else 0
 
     @property
@@ -58,12 +58,12 @@ class ChapterProgress:
 
     @property
     def passed(self) -> int:
-        """The number of passed parts."""
+        """The number of parts that have passed."""
         return sum(part.passed for part in self.parts)
 
     @property
     def complete(self) -> bool:
-        """Whether all parts are passed."""
+        """Whether all parts have passed."""
         return self.passed == len(self.parts)
 
     @property
@@ -73,7 +73,7 @@ class ChapterProgress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """The numbers of correct predictions and of all compared predictions.
+        """The number of correct predictions, and the number of all compared predictions.
 
         Only predictions that were made before the result was known are counted.
         """
@@ -82,7 +82,7 @@ class ChapterProgress:
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The numbers of correct choices and of all compared choices."""
+        """The number of correct choices, and the number of all compared choices."""
         compared = [each for each in self.choices if each.compared]
         return sum(each.fit for each in compared), sum(len(each.first) for each in compared)
 
@@ -95,7 +95,7 @@ class ChapterProgress:
 
     @property
     def next_part(self) -> PartProgress | None:
-        """The first part that is not passed; None if all parts are passed."""
+        """The first part that has not passed; None if all parts have passed."""
         return next((part for part in self.parts if not part.passed), None)
 
 
@@ -109,7 +109,7 @@ class LearningPath:
 
 @dataclass(frozen=True)
 class Progress:
-    """The progress in all chapters, or in some chapters.
+    """The progress in all chapters, or in selected chapters.
 
     `problems` are messages about records that cannot be read.
     """
@@ -120,7 +120,7 @@ class Progress:
 
     @property
     def passed(self) -> tuple[int, int]:
-        """The numbers of passed parts and of all parts."""
+        """The number of parts that have passed, and the number of all parts."""
         return sum(each.passed for each in self.chapters), sum(len(each.parts) for each in self.chapters)
 
     @property
@@ -130,17 +130,20 @@ class Progress:
 
     @property
     def right(self) -> tuple[int, int]:
-        """The numbers of correct predictions and of all compared predictions; see ChapterProgress.right."""
+        """The number of correct predictions, and of all compared predictions; see ChapterProgress.right."""
         return _sum([each.right for each in self.chapters])
 
     @property
     def chosen(self) -> tuple[int, int]:
-        """The numbers of correct choices and of all compared choices."""
+        """The number of correct choices, and the number of all compared choices."""
         return _sum([each.chosen for each in self.chapters])
 
     @property
     def current(self) -> ChapterProgress | None:
-        """The chapter in which the student worked last; None before the first check or prediction."""
+        """The chapter in which the student worked last.
+
+        None if there is no check, prediction or choice yet.
+        """
         begun = [each for each in self.chapters if each.latest]
         return max(begun, key=lambda each: each.latest, default=None)
 

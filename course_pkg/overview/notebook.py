@@ -32,10 +32,10 @@ class Overview:
 
 
 def progress(chapter: str = "") -> Overview:
-    """Return your progress and the next steps, in the whole course or in a chapter such as "05".
+    """Return your progress and the next steps, for the whole course or for one chapter, such as "05".
 
     The overview shows your own record of the checks, the predictions and the choices. You can change this
-    record, and it is never a grade. Raises UnknownCheck if there is no such chapter.
+    record, so it is never a grade. Raises UnknownCheck if there is no such chapter.
     """
     every = read_progress()
     if not chapter:
@@ -51,15 +51,15 @@ def progress(chapter: str = "") -> Overview:
 
 
 def predictions(chapter: str = "") -> Predictions:
-    """Return a table of your predictions and the real results, for one chapter or for all chapters.
+    """Return a table that compares your predictions with the results, for one chapter or for all chapters.
 
-    The table of one chapter ends with your progress in this chapter.
+    The table of one chapter also shows your progress in this chapter.
     """
     return Predictions(chapter, row=_row(chapter) if chapter else None)
 
 
 def _row(number: str) -> ChapterRow | None:
-    """Return the progress in a chapter, or None if its checks cannot be read, as in a graded notebook."""
+    """Return the progress in a chapter; None if its checks cannot be read, for example during grading."""
     try:
         progress = read_progress([number])
     except (UnknownCheck, ImportError):

@@ -16,7 +16,8 @@ from course_pkg.overview.model import NO_GRADE, Progress
 from course_pkg.overview.steps import next_steps
 from course_pkg.overview.text import headline
 
-POLICY = "default-src 'none'; style-src 'unsafe-inline'"  # forbids the page to load anything
+# this policy forbids the page to load any other file
+POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 PAGE_STYLE = """
 :root { color-scheme: light dark; }
 body { margin: 0 auto; max-width: 60rem; padding: 1rem; font: 1rem/1.5 system-ui, sans-serif;

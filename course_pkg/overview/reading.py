@@ -23,8 +23,8 @@ PATHS = Path(__file__).parents[1] / "chapters" / "paths.json"
 def read_progress(chapters: Sequence[str] = ()) -> Progress:
     """Return the progress in `chapters`, such as ["05"], or in all chapters.
 
-    The result leaves out records that cannot be read, and names them in `problems`. Raises UnknownCheck if
-    there is no such chapter.
+    If a record cannot be read, the result does not contain it, and `problems` contains a message about it.
+    Raises UnknownCheck if there is no such chapter.
     """
     parts = {number: parts_of(number) for number in chapters or _present()}
     records, message = StudentRecord().read(part.check for each in parts.values() for part in each)
@@ -44,13 +44,16 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
 
 
 def _present() -> Sequence[str]:
-    """Return the chapters of this edition: those that were released to students, or else all."""
+    """Return the chapters of this edition: the chapters that were released to students, or all chapters."""
     released = released_chapters(Places.of().checkout)
     return [number for number in all_chapters() if released is None or number in released]
 
 
 def learning_paths() -> tuple[LearningPath, ...]:
-    """Return the paths through the course. A path with two possible ends is returned twice."""
+    """Return the paths through the course.
+
+    A path that has two possible ends is returned twice, once for each end.
+    """
     every = tuple(all_chapters())
     text = PATHS.read_text("utf-8")
     return tuple(

@@ -1,4 +1,4 @@
-"""The next steps of a student: the first part that is not passed, or the next chapter of each path."""
+"""The next steps of a student: the first part that has not passed, or the next chapter of each path."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from course_pkg.overview.model import ChapterProgress, Progress
 
 @dataclass(frozen=True)
 class Step:
-    """The next step in a notebook. `notebook` is its file name, or "" if there is nothing left to do."""
+    """The next step in a notebook.
+
+    `notebook` is the file name of the notebook, or "" if the student has done everything.
+    """
 
     text: str
     notebook: str = ""
@@ -18,7 +21,8 @@ class Step:
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
     """Return the next steps in `chapter`, or in the chapter in which the student worked last.
 
-    If this chapter is complete, each path may have a different next step. There is always at least one step.
+    If this chapter is complete, there may be a different next step on each path. There is always at least one
+    step.
     """
     by_number = {each.number: each for each in progress.chapters}
     current = by_number.get(chapter) or progress.current
@@ -42,7 +46,7 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return the numbers of the next chapters that are not complete, and the paths that lead to each."""
+    """Return the numbers of the next incomplete chapters, and for each the paths that lead to it."""
     found: dict[str, list[str]] = {}
     for path in progress.paths:
         chapters = [by_number[number] for number in path.chapters if number in by_number]

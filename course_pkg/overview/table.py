@@ -13,11 +13,15 @@ HEAD = (
     *("chapter", "title", "kind", "id", "text", "state", "points", "possible"),
     *("checks", "last_result", "last_time", "first_passed"),
 )
-FORMULA = ("=", "+", "-", "@")  # A spreadsheet program would run a cell that begins with one of these.
+# a spreadsheet program would run a cell that begins with one of these as a formula
+FORMULA = ("=", "+", "-", "@")
 
 
 def table(progress: Progress) -> str:
-    """Return the table as CSV text. Times are ISO 8601 in UTC. A cell is empty if it has no meaning there."""
+    """Return the table as CSV text. Times are ISO 8601 in UTC.
+
+    A cell is empty if its column does not apply to its row.
+    """
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEAD)
@@ -51,7 +55,7 @@ def _state(prediction: Prediction) -> str:
 
 
 def _cell(value: str | int) -> str | int:
-    """Return the value on one line, with a quote before a text that could be a formula."""
+    """Return the value on one line; a text that could be a formula begins with a quote."""
     if isinstance(value, int):
         return value
     line = " ".join(value.split())

@@ -44,12 +44,15 @@ def chapter_text(progress: Progress, steps: Sequence[Step]) -> str:
 
 
 def of(pair: tuple[int, int]) -> str:
-    """Return a pair of numbers as text, such as "3 of 5"."""
+    """Return a pair of numbers as text; (3, 5) becomes "3 of 5"."""
     return f"{pair[0]} of {pair[1]}"
 
 
 def answers(chapter: ChapterProgress) -> str:
-    """Return the numbers of correct predictions and choices of a chapter; "" if none were compared."""
+    """Return the numbers of correct predictions and choices of a chapter as text.
+
+    "" if none were compared.
+    """
     predicted = of(chapter.right) if chapter.right[1] else ""
     chosen = f"{of(chapter.chosen)} choices" if chapter.chosen[1] else ""
     return ", ".join(filter(None, (predicted, chosen)))
@@ -84,7 +87,10 @@ def _end(progress: Progress) -> Iterator[str]:
 
 
 def _wrapped(label: str, text: str) -> list[str]:
-    """Return `label` and `text` in lines of at most WIDTH characters, indented from the second line on."""
+    """Return `label` and `text` in lines of at most WIDTH characters.
+
+    All lines after the first are indented.
+    """
     space = " " * len(label)
     return textwrap.wrap(
         text, WIDTH, initial_indent=label, subsequent_indent=space, break_on_hyphens=False

@@ -1,6 +1,9 @@
-"""The panels of the notebooks. Each panel consists of a pure model, a widget and one ES module.
+"""The panels of the notebooks.
 
-A name is imported on its first use. So a model can be imported where widgets or ROS are not installed.
+Each panel has a model that needs no page, a widget, and one ES module for the page.
+
+A name is imported on its first use. Therefore, a program can import a model on a machine without ipywidgets
+or ROS.
 """
 
 from typing import TYPE_CHECKING

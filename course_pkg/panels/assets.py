@@ -1,7 +1,7 @@
-"""The files of a panel's front end, joined into the one ES module and the one style sheet of its widget.
+"""Joins the files of a panel's front end into one ES module and one style sheet for its widget.
 
-A widget sends its code to the page as a single string. Therefore, an ES module of a widget cannot import its
-neighbours in the browser. The sources stay ordinary modules, which editors and Node understand. This module
+A widget sends its code to the page as a single string. Therefore, the browser cannot import the other files
+that the module needs. The sources are ordinary modules, which editors and Node.js understand. This module
 joins them: it inserts the imported files and removes the import statements.
 """
 
@@ -18,9 +18,9 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 
 @cache
 def module(path: Path, frame: Path | None = None) -> str:
-    """Return the ES module at `path`, in which each relative module that it imports is inserted once.
+    """Return the ES module at `path`; each relative module that it imports is inserted once.
 
-    `frame` is a module with a function `framed`. The panel's render function is wrapped in this function.
+    `frame` is the path of a module with a function `framed`. This function wraps the panel's render function.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""

@@ -1,4 +1,4 @@
-"""The base class of all panels: a widget with one ES module. Its errors never stop the kernel."""
+"""The base class of all panels: a widget with one ES module. An error in a panel never stops the kernel."""
 
 from __future__ import annotations
 
@@ -20,17 +20,18 @@ PageMessage: TypeAlias = dict[str, Any]
 
 
 class Panel(anywidget.AnyWidget):
-    """A widget that any thread may update, and that knows whether a page shows it.
+    """A widget that any thread may update; it knows whether a page shows it.
 
-    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. It handles the
-    messages of the page in `received`. If a panel works only while a page shows it, it overrides `shown` and
-    `hidden`.
+    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. It overrides
+    `received` to handle the messages of the page. If it works only while a page shows it, it also overrides
+    `shown` and `hidden`.
     """
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
-    errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")  # traits that hold an error message
-    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # style sheets that other panels use, too
+    # names of the traits that hold an error message
+    errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")
+    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # style sheets that several panels use
 
     notice = Unicode(help="an error inside the panel itself, in one line").tag(sync=True)
     explained = Dict(help="the explanation of the error that the panel shows, if the course has one").tag(
@@ -38,9 +39,8 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # A thread holds this lock while it handles a message from the page, and while it changes a trait.
-        # ipywidgets replaces methods of the instance while it handles a message. A change by another thread
-        # would be lost during that time.
+        # A thread holds this lock while it handles a message from the page, and while it changes a trait. A
+        # change by another thread would be lost during that time.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()
@@ -64,22 +64,25 @@ class Panel(anywidget.AnyWidget):
         return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Start the work that is needed only while a page shows the panel; called for each new view."""
+        """Start the work that the panel does only while a page shows it. It is called for each new view."""
 
     def hidden(self) -> None:
         """Stop the work that shown() started; called after the last view was closed."""
 
     def received(self, kind: str, content: PageMessage) -> None:
-        """Handle a message of the page."""
+        """Handle a message from the page."""
 
     def publish(self, **traits: object) -> None:
-        """Set traits; any thread may call this. The page gets all of them in one message."""
+        """Set several traits; any thread may call this method.
+
+        The page receives all of them in one message.
+        """
         with self.turn, self.hold_sync():
             for name, value in traits.items():
                 setattr(self, name, value)
 
     def complain(self, error: Exception) -> None:
-        """Show an error of the panel itself; any thread may call this."""
+        """Show an error of the panel itself; any thread may call this method."""
         self.publish(notice=f"{type(error).__name__}: {error}")
 
     def close(self) -> None:
@@ -93,7 +96,7 @@ class Panel(anywidget.AnyWidget):
             super().close()
 
     def _explain(self, _change: Bunch) -> None:
-        """Publish an explanation of the error message that the panel shows, if the course has one."""
+        """Send the page the course's explanation, if there is one, of the error message of the panel."""
         message = self.error_message()
         meaning = explain(message) if message else None
         self.explained = meaning.as_dict() if meaning and meaning.known else {}

@@ -1,4 +1,4 @@
-"""A thread that reads a value repeatedly, and reports the value when it has changed."""
+"""A thread that reads a value repeatedly, and reports each change."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Value = TypeVar("Value")
 
 
 class Poller(Generic[Value]):
-    """Calls `read` every `every` s on its own thread, between start() and stop().
+    """Calls `read` every `every` s on a separate thread, from start() to stop().
 
-    `changed` is called with each value that differs from the previous one. `failed` is called with an error
-    if its text differs from the previous error's text. The poller's thread makes both calls.
+    It calls `changed` with each value that differs from the previous value. It calls `failed` with an error,
+    unless the text of the error is the same as before. Both are called on the separate thread.
     """
 
     def __init__(
@@ -38,9 +38,10 @@ class Poller(Generic[Value]):
             thread.start()
 
     def stop(self) -> None:
-        """Stop the thread after at most one more read.
+        """Stop the thread; it may call `read` once more.
 
-        This does not wait for the thread, because `read` may need a lock that the caller holds.
+        This method does not wait for the end of the thread, because `read` may need a lock that the caller
+        holds.
         """
         if self._stop is not None:
             self._stop.set()

@@ -16,20 +16,20 @@ if TYPE_CHECKING:
 
 
 class Keyed(Protocol):
-    """A dataclass with a key such as "05.reply_none"."""
+    """A dataclass with the attribute `key`, such as "05.reply_none"."""
 
     __dataclass_fields__: ClassVar[dict[str, Field[object]]]
 
     @property
     def key(self) -> str:
-        """The chapter and the name, with a dot between them."""
+        """The chapter and a name, separated by a dot."""
 
 
 Record = TypeVar("Record", bound=Keyed)
 
 
 class Store(Generic[Record]):
-    """The records of one kind, by key, in the file `path`; by default in the state folder of the course."""
+    """All records of one class in the file `path`, which is by default in the course's state folder."""
 
     record: type[Record]
     file: ClassVar[str]
@@ -59,10 +59,11 @@ class Store(Generic[Record]):
         return record
 
     def write(self, record: Record) -> Record:
-        """Store a record in place of the record with the same key, and return it.
+        """Store a record, and return it; it replaces the record with the same key.
 
-        The whole file is replaced while a lock is held. So a record that another kernel writes at the same
-        time is not lost. Raises the same errors as `read`, and OSError if the file cannot be written.
+        The method holds a lock of the file while it reads and replaces the whole file. Therefore, a record
+        that another kernel stores at the same time is not lost. Raises the same errors as `read`, and OSError
+        if the file cannot be written.
         """
         with locked(self.path.parent):
             records = {**self.read(), record.key: record}
@@ -73,7 +74,7 @@ class Store(Generic[Record]):
 def of_chapter(records: Iterable[Record], chapter: str) -> list[Record]:
     """Return the records of a chapter, or all records if `chapter` is "", sorted by key.
 
-    The chapter `05` has, for example, the record `05.reply_none`.
+    For example, the record `05.reply_none` belongs to the chapter `05`.
     """
     chosen = (each for each in records if not chapter or each.key.startswith(f"{chapter}."))
     return sorted(chosen, key=lambda each: each.key)

@@ -1,4 +1,6 @@
-"""The sandbox in which submissions run. For each part, it forks a process that has done all imports.
+"""The sandbox in which submissions run.
+
+Each part runs in a new process, which is forked from a process with all imports.
 
     course grade                    outside the sandbox; trusts only the records of check runners
     └─ bwrap                        no network, no home, no solutions, a read-only root

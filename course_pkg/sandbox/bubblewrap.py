@@ -1,8 +1,8 @@
 """The outer sandbox: the files of the machine that a submission and its processes can see.
 
-bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts
-it, the command runs as an unprivileged user in the sandbox. If another user starts it, the machine must
-allow user namespaces.
+bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts it,
+the command runs as an unprivileged user in the sandbox. If another user starts it, the machine must allow
+unprivileged user namespaces.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from course_pkg.errors import SandboxUnavailable
 from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
-NOBODY = 65534  # uid and gid without own files; the command runs as this user if root starts it
+# uid and gid of a user without files; if root starts the sandbox, the command runs as this user
+NOBODY = 65534
 READABLE = (
     "/usr",
     "/etc/alternatives",
@@ -37,8 +38,9 @@ INVENTED = {
     "/etc/hosts": "127.0.0.1 localhost\n",
     "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
 }
-WRITABLE = 512 << 20  # bytes that the trusted processes may write
-# The inner sandboxes can mount their own /proc only if this one is complete. After that, drop all privileges.
+WRITABLE = 512 << 20  # maximum number of bytes that the trusted processes can write
+# The inner sandboxes can mount their own /proc only if nothing covers a part of this /proc. After this, the
+# process drops all privileges.
 AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'
@@ -46,7 +48,7 @@ AS_ROOT = (
 
 
 def refusal() -> str:
-    """Return why this machine cannot create a sandbox, and what to do; an empty string if it can."""
+    """Return why this machine cannot create a sandbox, and what the user can do; "" if it can create one."""
     if sys.platform != "linux" or not (found := shutil.which("bwrap")):
         return (
             "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
@@ -99,10 +101,10 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 
 
 def _root_capabilities() -> Iterator[str]:
-    """Yield the options that allow root to mount /proc, and then to become nobody.
+    """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap covers parts of its own /proc. The kernel then does not allow the inner sandboxes to mount their
-    own /proc.
+    bwrap covers some parts of the /proc that it mounts. As a result, the kernel does not allow the inner
+    sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -125,9 +127,9 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shadows(shown: Sequence[Path]) -> Iterator[str]:
-    """Yield options that copy the shown paths in /tmp and /dev/shm to another place.
+    """Yield options that copy the visible paths in /tmp and /dev/shm to another folder.
 
-    Each part mounts its own folders at /tmp and /dev/shm, and shows these paths there again, from the copies.
+    Each part mounts new folders at /tmp and /dev/shm, and mounts the copies of these paths in them.
     """
     inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]
     for number, path in enumerate(inside):
@@ -137,7 +139,7 @@ def _shadows(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:
-    """Yield the options that show `source` at `target`, in folders that every user can read."""
+    """Yield the options that make `source` visible at `target`; every user can read the folders above it."""
     for parent in reversed(target.parents[:-1]):
         yield from ("--perms", "0755", "--dir", str(parent))
     yield from ("--ro-bind", str(source), str(target))
@@ -166,7 +168,7 @@ def _variables() -> Iterator[str]:
 
 
 def _invented(path: str, text: str) -> Path:
-    """Return a file with `text`; all sandboxes of this checkout share it."""
+    """Return a file that contains `text`; all sandboxes of this checkout share this file."""
     file = Places.of().cache / "sandbox" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,7 @@
-"""Messages between the trusted processes of a sandbox worker: JSON and open files, as whole messages."""
+"""Messages between the trusted processes of a sandbox worker: each is JSON text with optional open files.
+
+JSON and open files, as whole messages.
+"""
 
 from __future__ import annotations
 
@@ -16,16 +19,16 @@ import psutil
 
 from course_pkg.waiting import Deadline
 
-LONGEST = 65536  # bytes; the largest message
+LONGEST = 65536  # bytes; maximum size of a message
 
 
 class Message(TypedDict, total=False):
     """A message between the worker, the fork server and a supervisor."""
 
-    ready: bool  # the fork server has imported everything
+    ready: bool  # the fork server has imported all modules
     job: bool  # the worker sends a job
     supervisor: int  # the process id of a supervisor that has started its processes
-    port: int  # the port of the part's master
+    port: int  # a supervisor's wait status; the supervisor and all its descendants have ended
     over: int  # a supervisor's wait status, after it and all its descendants have ended
 
 
@@ -35,12 +38,12 @@ def pair() -> tuple[socket.socket, socket.socket]:
 
 
 def send(sock: socket.socket, message: Message, descriptors: Sequence[int] = ()) -> None:
-    """Send `message` together with open files."""
+    """Send `message` together with open file descriptors."""
     socket.send_fds(sock, [json.dumps(message).encode()], descriptors)
 
 
 def receive(sock: socket.socket, timeout: float | None = None) -> tuple[Message, list[int]]:
-    """Return the next message and its open files.
+    """Return the next message and its open file descriptors.
 
     Raises EOFError if the other end is closed, and TimeoutError after `timeout` s.
     """
@@ -53,7 +56,7 @@ def receive(sock: socket.socket, timeout: float | None = None) -> tuple[Message,
 
 
 def fork(work: Callable[[], None]) -> int:
-    """Run `work` in a child without standard input and output, and return its process id."""
+    """Run `work` in a forked process without standard input and output, and return its process id."""
     if pid := os.fork():
         return pid
     try:
@@ -69,15 +72,15 @@ def fork(work: Callable[[], None]) -> int:
 def share_memory_with_children() -> None:
     """Exclude all existing objects from garbage collection.
 
-    The garbage collector writes to each object, so every fork would copy its memory. Without these copies, a
-    part needs 20 % less processor time.
+    The garbage collector writes to each object; without this function, each fork would copy the memory of all
+    objects. A part then needs 20 % less CPU time.
     """
     gc.collect()
     gc.freeze()
 
 
 def descendants(pid: int) -> list[int]:
-    """Return the descendants of the process `pid`, its children first; empty if it has ended."""
+    """Return the ids of all descendants of the process `pid`, its children first; empty if it has ended."""
     try:
         return [process.pid for process in psutil.Process(pid).children(recursive=True)]
     except psutil.NoSuchProcess:
@@ -85,7 +88,10 @@ def descendants(pid: int) -> list[int]:
 
 
 def end_all_below(timeout: float) -> None:
-    """Kill all descendants of this process within `timeout` s, also those that it adopts in that time."""
+    """Kill all descendants of this process within `timeout` s.
+
+    It also kills processes that this process adopts meanwhile.
+    """
     deadline = Deadline(timeout)
     while (left := descendants(os.getpid())) and not deadline.passed:
         end(left)

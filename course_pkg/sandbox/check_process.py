@@ -1,4 +1,4 @@
-"""The check runner of one part: a trusted process in the part's network, forked for this check only."""
+"""The check runner of one part: a trusted process in the part's network. It is forked for one check."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Runs the commands of a check during grading; the student's kernel cannot change their results.
+"""Runs the commands of a check during grading, because the student's kernel must not change their results.
 
-In class, the kernel runs these commands. In grading, a student's kernel could report a false result, for
-example that a failed build succeeded. Another process in a separate sandbox therefore runs the commands and
-reads the part's folder.
+When a student runs a check, the student's kernel runs these commands. During grading, a student's kernel
+could report a false result, for example that a failed build succeeded. Therefore, a process in another
+sandbox runs the commands and reads the part's folder.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ class SplitChannel(Channel):
         self._commands = Channel(commands)
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
-        """Send a request to the command runner or to the kernel, and return the answer."""
+        """Send a request to the command runner or to the kernel, and return the response."""
         if is_command(do, arguments.get("name")):
             return self._commands.ask(do, timeout=timeout, **arguments)
         return super().ask(do, timeout=timeout, **arguments)
 
 
 def run_commands(sock: socket.socket, folder: str, *, sandboxed: bool) -> None:
-    """Answer the requests of the check runner until it closes the channel."""
+    """Execute the requests of the check runner until the check runner closes the channel."""
     if sandboxed:
         be_unreadable()
         os.environ.update(ROS_LOG_DIR=OWN, ROS_HOME=OWN)  # the student's folder is read-only here

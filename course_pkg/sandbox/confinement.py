@@ -11,17 +11,18 @@ from typing import Any, NoReturn
 from course_pkg.sandbox import namespaces
 
 STUDENT = 1000  # uid and gid of the student's code inside the sandbox
-MEMORY = 1 << 30  # bytes of address space for each process
-CHECK_RUNNER = 2 << 30  # bytes of address space of a check runner; its threads' stacks need most of it
-TOGETHER = 768 << 20  # bytes of memory for all processes of a part together
-PROCESSES = 200  # processes and threads; a launch file with three nodes has about 60
-DISK = 128 << 20  # bytes of files in /student, and the same limit for /tmp
+MEMORY = 1 << 30  # maximum address space of each process (bytes)
+# maximum address space of a check runner (bytes); the stacks of its threads need most of it
+CHECK_RUNNER = 2 << 30
+TOGETHER = 768 << 20  # maximum memory of all processes of a part together (bytes)
+PROCESSES = 200  # maximum number of processes and threads; a launch file with three nodes has about 60
+DISK = 128 << 20  # maximum size of all files in /student, and of all files in /tmp (bytes)
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"  # a folder with copies of paths, and the list of these paths
-FILES = 20_000  # the number of files in each of these folders
-FILE = 64 << 20  # bytes of one file
-OPEN = 256  # open files and sockets; no other limit counts the buffers of sockets
-PROCESSOR = 120  # s of processor time
+FILES = 20_000  # maximum number of files in each of these folders
+FILE = 64 << 20  # maximum size of one file (bytes)
+OPEN = 256  # maximum number of open files and sockets; no other limit applies to the buffers of sockets
+PROCESSOR = 120  # maximum CPU time (s)
 
 TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: they write input into another user's terminal
 # fmt: off
@@ -39,11 +40,10 @@ FORBIDDEN = (
 
 
 def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
-    """Run `work` without privileges, in separate user and process namespaces with separate memory folders.
+    """Run `work` without privileges, in new user and process namespaces, and with new folders in memory.
 
-    Call this function in a fork of a trusted process that is root of its user namespace. It never returns:
-    after the end of `work`, it also ends all processes that `work` started. Without `may_write`, /student is
-    read-only.
+    Call this function in a forked process that is root in its user namespace. It never returns: after the end
+    of `work`, it also ends all processes that `work` started. Without `may_write`, /student is read-only.
     """
     namespaces.die_with_parent()
     namespaces.unshare(
@@ -72,7 +72,10 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount empty folders only for this sandbox, and show the paths of the outer sandbox in them again."""
+    """Mount empty folders for this sandbox only.
+
+    The visible paths of the outer sandbox are visible in them, too.
+    """
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):
@@ -87,7 +90,7 @@ def _mount_memory_folders() -> None:
 
 
 def shadowed_paths() -> list[str]:
-    """Return the paths in /tmp and /dev/shm that the outer sandbox shows, such as a checkout in /tmp."""
+    """Return the visible paths of the outer sandbox in /tmp and /dev/shm, such as a checkout in /tmp."""
     return [path for path in os.environ.get(SHADOWED, "").split(os.pathsep) if path]
 
 
@@ -124,7 +127,7 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read clone3's flags
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read the flags of clone3
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
     return rules
@@ -136,7 +139,7 @@ def _wait_and_exit(child: int) -> NoReturn:
 
 
 def _reap_until(child: int) -> NoReturn:
-    """Do the work of a namespace's first process: reap orphans, and end when `child` has ended."""
+    """Be the first process of a process namespace: reap orphans, and exit when `child` has ended."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while os.wait()[0] != child:
         pass

@@ -1,4 +1,4 @@
-"""The process that forks a new process for each part; it has imported everything except the checks."""
+"""The process that forks a new process for each part; it has imported all modules except the checks."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoRetu
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
-            end_all_below(CLEAR_TIMEOUT)  # in a sandbox, there are no other processes left
+            end_all_below(CLEAR_TIMEOUT)  # in a sandbox, no other process is left now
             send(sock, {"over": status})
     except (EOFError, OSError):
         os._exit(0)
 
 
 def _hide_checks(private: str) -> None:
-    """Hide the files of all checks, so that no process that is forked from here can read them."""
+    """Hide the files of all checks, so that the processes that are forked later cannot read them."""
     namespaces.unshare(namespaces.MOUNT)
     for path in [*secret_paths(), *([Path(private)] if private else [])]:
         namespaces.hide(str(path))

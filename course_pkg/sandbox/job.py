@@ -1,4 +1,4 @@
-"""The data that enter and leave the sandbox: the job to check one part, and its result."""
+"""The data that enter and leave the sandbox: a job, which checks one part, and its result."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-SETUP_TIMEOUT = 25.0  # s for the cells before and after the answer, which may start nodes
-ANSWER_TIMEOUT = 20.0  # s for a student's cell
+SETUP_TIMEOUT = 25.0  # time limit for the cells before and after the answer (s); they may start nodes
+ANSWER_TIMEOUT = 20.0  # time limit for a student's cell (s)
 
 LONGEST_PATH = 500  # characters
 
-Record = dict[str, Plain]  # the record of a check runner: its report, and the seed of its inputs
+Record = dict[str, Plain]  # the record of a check runner: its report, and the seed of its random inputs
 
 
 @dataclass(frozen=True)
 class WorkFile:
     """A file of a package that a student submitted; `content` is in base64."""
 
-    path: str  # relative, with / between the folders
+    path: str  # relative path, with / between the folders
     content: str
     executable: bool
 
@@ -57,8 +57,7 @@ class PartJob:
     """One part: the cells to run, and the check to run after them.
 
     `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last one
-    is the cell of this part. `files` are packages that the student submitted; they are written to the work
-    folder before any cell runs.
+    is the cell of this part. time limit for the check (s)
     """
 
     check: str
@@ -73,7 +72,7 @@ class PartJob:
 
     @property
     def limit(self) -> float:
-        """The time limit (s) for this part; after it, all processes of the part are ended."""
+        """The time limit for this part (s); after this time, all processes of the part are ended."""
         return at_this_load(self.setup_timeout + self.answer_timeout * len(self.answers) + self.deadline)
 
     def as_json(self) -> str:
@@ -90,17 +89,18 @@ def job_from(text: str | bytes) -> PartJob:
 
 @dataclass(frozen=True)
 class PartResult:
-    """The result of a part: the check runner's record, if any, and the messages of the student's process."""
+    """The result of a part: the check runner's record, if any, and the student process's messages."""
 
     record: Record | None
-    ending: str  # the reason if there is no record, else ""
-    messages: tuple[dict[str, str], ...] = ()  # errors of cells, only for feedback because they may be false
+    ending: str  # the reason why there is no record, or "" if there is one
+    # error messages of cells; they may be false, so they are only used as feedback
+    messages: tuple[dict[str, str], ...] = ()
     took: float = 0.0  # s
-    lost: bool = False  # True if the sandbox worker itself failed, so the result of the answer is unknown
+    lost: bool = False  # true if the sandbox worker itself failed; then the result of the answer is unknown
 
     @property
     def report(self) -> Report | None:
-        """The check runner's report, or None without a record."""
+        """The check runner's report, or None if there is no record."""
         if self.record is None:
             return None
         fields = Report.__dataclass_fields__

@@ -1,7 +1,8 @@
 """Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
-Each function changes the calling process, which must have only one thread. It raises OSError with the name of
-the system call if the kernel refuses the call. The comments name the kernel headers that define the numbers.
+Each function changes the calling process. This process must have only one thread. It raises OSError with the
+name of the system call if the kernel refuses the call. The comments contain the names of the kernel headers
+that define the numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32,
 MS_REC, MS_PRIVATE = 16384, 1 << 18
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # linux/prctl.h
 PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 36, 38
-CAPABILITIES = 64  # more than any current kernel has
+CAPABILITIES = 64  # more capabilities than any current kernel has
 CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522  # asm/unistd.h, linux/capability.h
 SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64  # linux/sockios.h, linux/if.h
 
@@ -35,7 +36,10 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def unshare(kinds: int) -> None:
-    """Create and enter namespaces of these `kinds`; a PROCESS namespace contains only later forks."""
+    """Create and enter namespaces of these `kinds`.
+
+    Only processes that are forked later are in a new PROCESS namespace.
+    """
     _done(_libc.unshare(ctypes.c_int(kinds)), "unshare")
 
 
@@ -45,14 +49,17 @@ def enter(descriptor: int, kind: int) -> None:
 
 
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
-    """Become `uid` and `gid` in a new user namespace; `outside` are this process's uid and gid outside it."""
+    """Get the user id `uid` and the group id `gid` in a new user namespace.
+
+    `outside` are the ids outside it.
+    """
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
     Path("/proc/self/uid_map").write_text(f"{uid} {outside[0]} 1")
 
 
 def become_root() -> None:
-    """Become root in new user and mount namespaces; this gives no rights outside of them."""
+    """Become root in a new user namespace and a new mount namespace; this gives no rights outside them."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)
@@ -60,7 +67,10 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate the mounts of this namespace from its parent: a new mount appears only in one of the two."""
+    """Separate the mounts of this namespace from those of its parent.
+
+    A new mount in one of them is not visible in the other.
+    """
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
@@ -87,7 +97,7 @@ def mount_processes() -> None:
 
 
 def bind(source: str, target: str) -> None:
-    """Also show `source` at `target`, with everything that is mounted inside it."""
+    """Make `source` also visible at `target`, including everything that is mounted inside it."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
@@ -97,7 +107,7 @@ def make_read_only(target: str) -> None:
 
 
 def start_loopback() -> None:
-    """Start the interface 127.0.0.1 of a new network namespace, which has no other interface."""
+    """Start the interface 127.0.0.1 of a new network namespace; the namespace has no other interface."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         asked = struct.pack("16sh14x", b"lo", 0)
         (flags,) = struct.unpack_from("h", fcntl.ioctl(sock, SIOCGIFFLAGS, asked), 16)
@@ -105,24 +115,30 @@ def start_loopback() -> None:
 
 
 def die_with_parent() -> None:
-    """Make the kernel kill this process when its parent ends, until a change of user or capabilities."""
+    """Make the kernel kill this process when its parent ends.
+
+    This holds until the process changes its user or capabilities.
+    """
     _done(_libc.prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0), "prctl")
 
 
 def adopt_orphans() -> None:
-    """Become the parent of all descendants whose parents have ended; this process can then find them."""
+    """Become the parent of all descendants whose parents have ended, so that this process can find them."""
     _done(_libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0), "prctl")
 
 
 def be_unreadable() -> None:
-    """Prevent other processes of this user from reading this one (ptrace, /proc/PID/mem, /proc/PID/fd)."""
+    """Prevent other processes of this user from reading this process.
+
+    They could use ptrace, /proc/PID/mem and /proc/PID/fd.
+    """
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 
 
 def give_up_privileges() -> None:
     """Drop all capabilities; programs that this process executes cannot get them back."""
     for number in range(CAPABILITIES):
-        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)  # fails if this kernel has no such capability
+        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)  # fails if this kernel does not have this capability
     header = (ctypes.c_uint32 * 2)(CAPABILITY_VERSION_3, 0)
     nothing = (ctypes.c_uint32 * 6)()
     _done(_libc.syscall(CAPSET[os.uname().machine], header, nothing), "capset")
@@ -130,7 +146,7 @@ def give_up_privileges() -> None:
 
 
 def limit(**soft_and_hard: int) -> None:
-    """Set limits for this process and its children, for example NPROC=64 for RLIMIT_NPROC."""
+    """Set limits for this process and its children; for example, NPROC=64 sets RLIMIT_NPROC."""
     for name, value in soft_and_hard.items():
         which = getattr(resource, f"RLIMIT_{name}")
         _, hard = resource.getrlimit(which)

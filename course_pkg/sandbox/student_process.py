@@ -1,6 +1,6 @@
-"""The student's process of one part: it runs the cells as a kernel does, and then the check client.
+"""The student's process of one part: it runs the cells as a kernel does, and then runs the check client.
 
-The student's code controls this process, so its reports earn no points.
+The student's code controls this process, so messages from this process earn no points.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from course_pkg.waiting import interrupt_after
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
-REPEAT = 0.5  # s between alarms, because a cell may catch the first one
-LONGEST = 2000  # characters; a longer error message is cut
+REPEAT = 0.5  # s between alarms; a cell may catch the first alarm
+LONGEST = 2000  # maximum length of an error message (characters)
 
 Send = Callable[[Mapping[str, str]], None]
 
@@ -30,7 +30,10 @@ class CellTooSlow(BaseException):
 
 
 def prepare() -> InteractiveShell:
-    """Import what submissions use, and return the shell that runs them; forks then need no imports."""
+    """Import the modules that submissions use, and return the shell that runs them.
+
+    Forked processes then need no imports.
+    """
     import rosmaster.master  # noqa: F401
     import rospy  # noqa: F401
     from IPython.core.history import HistoryManager
@@ -51,8 +54,11 @@ def prepare() -> InteractiveShell:
 
 
 def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
-    """Run the cells of `job`, then its check. An error is sent as a message, and the next cell still runs."""
-    random.seed()  # otherwise, every fork would begin with the same numbers
+    """Run the cells of `job`, and then its check.
+
+    If a cell raises an error, a message is sent, and the next cell still runs.
+    """
+    random.seed()  # otherwise, every forked process would draw the same random numbers
     _run(shell, "before", job.before, job.setup_timeout, send)
     for number, source in enumerate(job.answers, 1):
         _run(shell, f"answer {number}", source, job.answer_timeout, send)
@@ -63,7 +69,7 @@ def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
 
 
 def message_writer(descriptor: int) -> Send:
-    """Return a function that writes messages to `descriptor` as lines of JSON, and never waits."""
+    """Return a function that writes messages to `descriptor` as lines of JSON, and never blocks."""
     os.set_blocking(descriptor, False)
 
     def send(message: Mapping[str, str]) -> None:
@@ -87,7 +93,10 @@ def _run(shell: InteractiveShell, name: str, source: str, seconds: float, send: 
 
 
 def _make_folder(source: str) -> None:
-    """Create the folder of the file that a cell writes; in the notebook, an earlier cell creates it."""
+    """Create the folder of the file that a cell writes.
+
+    In the notebook, an earlier cell creates this folder.
+    """
     first, _, _ = source.partition("\n")
     if first.startswith("%%writefile "):
         with suppress(OSError):

@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 MASTER_PORT = 11311
 MASTER_TIMEOUT = 5.0  # s
 CLEAR_TIMEOUT = 5.0  # s
-MEMORY_INTERVAL = 0.1  # s between two checks of the memory
-COUNTED = ("RssAnon:", "RssShmem:")  # proc(5): private memory, and shared memory without a file, in KiB
+MEMORY_INTERVAL = 0.1  # s between two measurements of the memory
+# proc(5): private memory, and shared memory that belongs to no file (KiB)
+COUNTED = ("RssAnon:", "RssShmem:")
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # exit statuses of a supervisor
 
@@ -42,7 +43,7 @@ def supervise(
 ) -> NoReturn:
     """Start the master, the command runner and the student's process, and wait for the student's process.
 
-    SIGTERM ends the wait earlier. All processes of the part end with this process.
+    SIGTERM ends this wait. All processes of the part end together with this process.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
@@ -67,7 +68,10 @@ def supervise(
 
 
 def _make_folder(*, sandboxed: bool) -> str:
-    """Return the part's work folder; in a sandbox, enter a network and a hostname for this part only."""
+    """Return the part's work folder.
+
+    In a sandbox, first create a network and a hostname for this part only.
+    """
     if not sandboxed:
         return tempfile.mkdtemp(prefix="course-grading-")
     namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)
@@ -94,7 +98,7 @@ def _set_environment(folder: str, port: int, listener: int) -> None:
 
 
 def _start(work: Callable[[], None]) -> int:
-    """Fork a process that ends when this one ends, with unblocked signals; return its process id."""
+    """Fork a process that ends when this process ends, and unblock its signals; return its process id."""
 
     def run() -> None:
         namespaces.die_with_parent()
@@ -106,7 +110,7 @@ def _start(work: Callable[[], None]) -> int:
 
 
 def run_master(port: int) -> None:
-    """Run a master at `port` until this process ends."""
+    """Run a ROS master on `port` until this process ends."""
     import rosmaster.master
 
     rosmaster.master.Master(port, num_workers=3).start()
@@ -130,20 +134,23 @@ def _confine(work: Callable[[], None], *, sandboxed: bool, may_write: bool) -> N
     folder = os.getcwd()
 
     def run() -> None:
-        os.chdir(folder)  # in a sandbox, the same path now belongs to another mount
+        os.chdir(folder)  # in a sandbox, another mount is now visible at this path
         work()
 
     confinement.run_confined(run, may_write=may_write) if sandboxed else run()
 
 
 def _close_all_but(descriptor: int) -> None:
-    """Close all files except `descriptor` and 0 to 2, because the sandboxed process would inherit them."""
+    """Close all files except `descriptor` and 0 to 2, because the sandboxed process must not inherit them."""
     os.closerange(3, descriptor)
     os.closerange(descriptor + 1, 4096)
 
 
 def _watch(student: int) -> int:
-    """Wait for the end of the student's process, too much memory, or SIGTERM; return the exit status."""
+    """Wait until the student's process ends, uses too much memory, or SIGTERM arrives.
+
+    Return the exit status.
+    """
     while True:
         came = signal.sigtimedwait(SIGNALS, MEMORY_INTERVAL)
         if came is not None and came.si_signo == signal.SIGTERM:
@@ -167,7 +174,10 @@ def memory_below(ancestor: int) -> int:
 
 
 def _end_all(folder: str, *, sandboxed: bool) -> None:
-    """Kill all descendants, wait for their end, and remove the folder; a namespace removes its own mounts."""
+    """Kill all descendants, wait for their end, and remove the folder.
+
+    In a namespace, the mounts end with it.
+    """
     end_all_below(CLEAR_TIMEOUT)
     if not sandboxed:
         shutil.rmtree(folder, ignore_errors=True)

@@ -1,7 +1,7 @@
-"""The trusted process of a sandbox worker: it reads jobs, one per line, and prints a line with each result.
+"""The trusted process of a sandbox worker: it reads one job per line, and prints one result per line.
 
-It needs two arguments. The first is "sandboxed" if bubblewrap runs it, or "unsafe" without a sandbox. The
-second is the folder of an instructor's private parts, or an empty string.
+It needs two arguments. The first is "sandboxed" if bubblewrap runs this process, or "unsafe" if there is no
+sandbox. The second is the folder of an instructor's private parts, or an empty string.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor
 from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_memory_with_children
 from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
 
-START_TIMEOUT = 60.0  # s for the fork server to import everything
-PLACE_TIMEOUT = 15.0  # s for a supervisor to start its processes
-END_TIMEOUT = 8.0  # s for a supervisor to end all its descendants
-KILLED_TIMEOUT = 30.0  # s for the fork server to report that a supervisor was killed
-VERDICT_TIMEOUT = 3.0  # s for a check runner to finish its verdict after the student's process has ended
-CHUNK = 65536  # bytes; also the limit for the messages of the student's process
+START_TIMEOUT = 60.0  # time limit for the imports of the fork server (s)
+PLACE_TIMEOUT = 15.0  # time limit for a supervisor to start its processes (s)
+END_TIMEOUT = 8.0  # time limit for a supervisor to end all its descendants (s)
+KILLED_TIMEOUT = 30.0  # time limit for the fork server to report that a supervisor was killed (s)
+VERDICT_TIMEOUT = 3.0  # time limit for a check runner to finish after the student's process has ended (s)
+CHUNK = 65536  # bytes of one read; also the maximum for all messages of the student's process
 
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process in which the answer ran ended before its check was done",
@@ -62,9 +62,9 @@ def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, *, sa
 
 
 def _import_checks(private: str) -> None:
-    """Import every check: a check runner then needs no imports, only a fork.
+    """Import every check, so that a check runner is only a forked process and needs no imports.
 
-    The fork server was forked before this, so it does not have the checks in its memory.
+    The fork server was forked earlier, so its memory does not contain the checks.
     """
     from course_pkg.checking.parts import add_private, every_part
 
@@ -74,7 +74,7 @@ def _import_checks(private: str) -> None:
 
 
 class Session:
-    """One job, from the start of its supervisor to its end."""
+    """One job, from the start to the end of its supervisor."""
 
     def __init__(self, fork_server: socket.socket, job: PartJob, *, sandboxed: bool) -> None:
         self._fork_server = fork_server
@@ -88,7 +88,8 @@ class Session:
     def run(self) -> PartResult:
         """Run the job, and end all processes that it started.
 
-        Raises TimeoutError if the fork server does not answer; after this, the worker is unusable.
+        Raises TimeoutError if the fork server does not answer; after this error, the worker cannot be used
+        any more.
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)
@@ -97,7 +98,7 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                raise  # The next message of the fork server may belong to this job or to the next one.
+                raise  # the next message of the fork server may belong to this job or to the next job
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_supervisor()
@@ -133,7 +134,10 @@ class Session:
     def _checked(
         self, network: int, port: int, listener: socket.socket, commands: socket.socket
     ) -> tuple[Record | None, str]:
-        """Wait for the check client, run the check, and return the record, or the reason without a record."""
+        """Wait for the check client, and run the check.
+
+        Return the record, or the reason why there is no record.
+        """
         if listener not in self._wait([listener]):
             return None, self._reason()
         client, _ = listener.accept()
@@ -165,7 +169,7 @@ class Session:
         check_part(self._job, network, port, client, commands, out, sandboxed=self._sandboxed)
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
-        """Wait until one of `files` is ready, the supervisor has ended, or the job's time is over."""
+        """Wait for one of `files` to be ready, the end of the supervisor, or the job's time limit."""
         left = self._began + self._limit - time.monotonic()
         ready = select.select([*files, self._fork_server], [], [], max(left, 0.0))[0]
         if self._fork_server in ready:
@@ -186,7 +190,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message; if it does not come, the worker is unusable.
+                # The next job must not receive this message. If the message does not come, the worker cannot
+                # be used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

@@ -1,4 +1,7 @@
-"""The grader's end of a sandbox worker, a process that runs parts in a sandbox, one at a time."""
+"""The grader's side of a sandbox worker.
+
+The worker is a process that runs one part at a time in a sandbox.
+"""
 
 from __future__ import annotations
 
@@ -17,15 +20,18 @@ from course_pkg.sandbox.job import PartJob, PartResult, result_from
 from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
-START_TIMEOUT = 90.0  # s; a machine without load needs 2 s
-SLACK = 45.0  # s after a part's own limit; after this time, the worker itself has failed
+START_TIMEOUT = 90.0  # s; the start takes 2 s on a machine without load
+SLACK = 45.0  # s after a part's own limit; if there is no result by then, the worker itself has failed
 
 
 class SandboxWorker:
-    """A context manager that runs parts. After WorkerFailed, the next part starts the worker again.
+    """A context manager that runs parts.
 
-    The processes in the sandbox end when the thread that called `run` first ends. `private` is the folder of
-    an instructor's private parts, which no submission can read. With `sandboxed=False` there is no sandbox.
+    After a WorkerFailed error, the next call of `run` starts the worker again.
+
+    When the thread that first called `run` ends, the processes in the sandbox end, too. `private` is the
+    folder of an instructor's private parts, which no submission can read. With `sandboxed=False` there is no
+    sandbox.
     """
 
     def __init__(self, *, sandboxed: bool = True, private: str = "") -> None:
@@ -55,7 +61,7 @@ class SandboxWorker:
         return result_from(self._line(job.limit + SLACK))
 
     def close(self) -> None:
-        """End the worker, and all processes in its sandbox."""
+        """End the worker and all processes in its sandbox."""
         process, self._process = self._process, None
         if process is not None:
             process.kill()

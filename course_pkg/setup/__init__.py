@@ -1,6 +1,6 @@
 """Set up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
 
-The set-up runs before these exist, so it uses only the standard library.
+The other libraries are installed by the set-up, so this package uses only the standard library.
 """
 
 from course_pkg.setup import environment

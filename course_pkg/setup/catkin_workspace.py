@@ -27,14 +27,14 @@ def workspace_key(places: Places) -> str:
 
 
 def workspace_intact(places: Places) -> bool:
-    """Return whether the results of the build still exist."""
+    """Return whether the files that the build made still exist."""
     return places.environment.exists() and (places.workspace / "devel" / "setup.bash").exists()
 
 
 def build_workspace(places: Places, journal: Journal) -> None:
     """Build the workspace in an empty folder; raises SetupError if the build fails.
 
-    In a used folder, the generated modules of deleted definitions would remain.
+    A used folder would still contain the generated modules of deleted definitions.
     """
     source = places.workspace / "src"
     shutil.rmtree(places.workspace, ignore_errors=True)
@@ -60,10 +60,10 @@ def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
 
 
 def _link(package: Path, folder: Path) -> None:
-    """Link `package` to the files of the catkin package in `folder`, but not to other files of the checkout.
+    """Link `package` to the files of the catkin package in `folder`, but not to the checkout's other files.
 
     rosrun searches a package's whole folder for a program, and follows links. With a link to the whole
-    checkout, it would also find the programs in the student's own packages.
+    checkout, rosrun would also find the programs in the student's own packages.
     """
     if (folder / "course_pkg").is_dir():
         package.mkdir()
@@ -92,14 +92,14 @@ def _tool(places: Places, name: str) -> Path:
 
 
 def _build_environment(places: Places) -> dict[str, str]:
-    """Return an environment without the user's settings, because these could break the build."""
+    """Return an environment without those of the user's settings that could break the build."""
     if places.conda:  # catkin finds the compilers through variables that `conda activate` sets
         return {**os.environ, "PATH": f"{places.conda}/bin:{SYSTEM_PATH}"}
     return {"PATH": SYSTEM_PATH, "HOME": os.path.expanduser("~"), "LANG": "C.UTF-8"}
 
 
 def _write_path_file(places: Places) -> None:
-    """Let programs that know only the interpreter, such as editors, import the package and its types."""
+    """Let programs that know only the interpreter, such as editors, find the package and its types."""
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))

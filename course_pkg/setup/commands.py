@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-UNSAFE = "--unsafe-no-sandbox"  # with this option, `course grade` needs no packages for grading
+UNSAFE = "--unsafe-no-sandbox"  # `course grade` with this option needs no packages for grading
 
 
 class Command(NamedTuple):
-    """A subcommand. It exists before the set-up, so only `run` may import other modules.
+    """A subcommand. One command; the object exists before the set-up, so only `run` may import other modules.
 
-    `needs` lists what has to be set up first: "course", and also "grade" or "test". A command that imports
-    libraries needs "libraries" and runs with the interpreter of the virtual environment. A command that needs
-    "solutions" is refused, with one message, in the students' edition. If `rest` is not empty, all arguments
-    are for another program, and `rest` is their text in the usage.
+    `needs` lists what the set-up must provide first: "course", and also "grade" or "test". A command that
+    imports libraries needs "libraries" and runs with the interpreter of the virtual environment. In the
+    students' edition, a command that needs "solutions" ends with one message. If `rest` is not empty, all
+    arguments are passed to another program, and `rest` describes them in the usage.
     """
 
     summary: str

@@ -1,4 +1,4 @@
-"""`course doctor`: show what is installed, missing or outdated, and what to do about it."""
+"""`course doctor`: show what is installed, missing or outdated, and how the user can correct it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.steps import Step, steps_of
 from course_pkg.waiting import wait_until
 
-ENDING = 5.0  # s; a process ends within this time after its owner was killed
-NEEDED = 1 << 30  # bytes; a complete set-up needs a little less
+ENDING = 5.0  # s; when a process was killed, its children end within this time
+NEEDED = 1 << 30  # bytes of free disk space; a complete set-up needs a little less
 
 
 class Finding(NamedTuple):
-    """The result of one examination; `advice` tells the user what to do, and is empty if all is well."""
+    """The result of one examination.
+
+    `advice` says what the user can do, and is empty if there is no problem.
+    """
 
     what: str
     seen: str
@@ -29,7 +32,7 @@ class Finding(NamedTuple):
 
 
 def examine() -> int:
-    """Print the findings; return 0 if all is well, else 1."""
+    """Print the findings; return 0 if there is no problem, otherwise 1."""
     findings = list(_findings(Places.of()))
     for what, seen, advice in findings:
         sys.stdout.write(f"{'to do' if advice else 'ok':6}{what}: {seen}\n")
@@ -119,7 +122,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 def _leftovers(places: Places) -> Iterator[Finding]:
     """Find processes of this checkout that are still running although their parent has ended.
 
-    If the owner of a process is killed by SIGKILL, its supervisor normally ends the process within seconds.
+    If SIGKILL ends the owner of a process, the process's supervisor normally ends the process within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)
@@ -129,7 +132,7 @@ def _leftovers(places: Places) -> Iterator[Finding]:
 
 
 def _orphans(places: Places) -> set[str]:
-    """Return the ids of the processes of this checkout whose parent has ended."""
+    """Return the ids of this checkout's processes whose parent has ended."""
     found = set()
     for status in Path("/proc").glob("[0-9]*/stat"):
         try:

@@ -1,4 +1,4 @@
-"""Which edition of the course a folder holds: the instructors', or a students' one from `course release`."""
+"""The edition of the course in a folder: the instructors' or the students' edition (`course release`)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-RECORD = ".course-release.json"  # in a students' edition: which chapters and files it consists of
+RECORD = ".course-release.json"  # a file of the students' edition: a list of its chapters and files
 
 
 def released_chapters(checkout: Path) -> tuple[str, ...] | None:
@@ -19,7 +19,7 @@ def released_chapters(checkout: Path) -> tuple[str, ...] | None:
 
 
 def require_solutions(checkout: Path, command: str) -> None:
-    """Raise SetupError if `command` cannot work in `checkout`, because there are no solutions."""
+    """Raise SetupError if `checkout` has no solutions, because `command` needs them."""
     if (checkout / RECORD).exists():
         raise SetupError(
             f"`course {command}` needs the solutions, and {checkout} is the students' edition, which has "

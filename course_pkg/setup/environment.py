@@ -1,4 +1,7 @@
-"""The environment of ROS: it is read once from the workspace's setup.bash, and then stored in a file."""
+"""The environment variables of ROS.
+
+They are read once from the workspace's setup.bash and then stored in a file.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,8 @@ from pathlib import Path
 from course_pkg.files import write_atomically
 from course_pkg.setup.places import Places
 
-# Settings of the user that the course does not use. The first three could break it. With the last one, Python
-# would compile all of JupyterLab at every start (2 s).
+# Settings of the user that the course does not use. The first three could break it. The last one would make
+# Python compile all modules of JupyterLab at every start (2 s).
 REMOVED = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
 LOOPBACK = "devel/lib/libcourse_loopback.so"  # built from ros/process/loopback.c
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")
@@ -37,9 +40,9 @@ def write(places: Places) -> None:
 def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     """Return `environ` with the course's environment added; the course's values replace the user's.
 
-    On PATH, the folders of the interpreter and of the system come before the user's other folders.
-    ROS_MASTER_URI, ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD names a library: if
-    ROS_HOSTNAME is localhost, it makes C++ nodes listen only on 127.0.0.1.
+    In PATH, the folders of the interpreter and of the system come before all other folders. ROS_MASTER_URI,
+    ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD contains a library of the course: if
+    ROS_HOSTNAME is localhost, C++ nodes listen only on 127.0.0.1.
     """
     result = {name: value for name, value in environ.items() if name not in REMOVED}
     result.update(json.loads(places.environment.read_text()))
@@ -49,12 +52,12 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     if not any(environ.get(name) for name in NETWORK):
         result["ROS_HOSTNAME"] = "localhost"
     library = places.workspace / LOOPBACK
-    if library.exists():  # it is built only on Linux
+    if library.exists():  # the set-up builds it only on Linux
         preloaded = environ.get("LD_PRELOAD", "").replace(":", " ").split()
         result["LD_PRELOAD"] = ":".join(dict.fromkeys([*preloaded, str(library)]))
     result.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
-    # rospy's messages import numpy, which starts threads. They would receive signals that a node blocks, and
-    # a process with several threads cannot enter a user namespace.
+    # rospy's messages import numpy, and numpy starts threads. These threads would receive signals that the
+    # main thread blocks, and a process with several threads cannot enter a user namespace.
     result.setdefault("OPENBLAS_NUM_THREADS", "1")
     return result
 

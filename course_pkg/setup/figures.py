@@ -1,4 +1,4 @@
-"""Make a kernel show figures of matplotlib as SVG, with the same SVG for the same data.
+"""Make a kernel show matplotlib's figures as SVG; the same data always give the same SVG.
 
 nbval compares the text of a figure's output, but not the SVG: see authoring/nbval_figures.py.
 """
@@ -8,9 +8,9 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. Unless "Date" is None, its metadata contain the time of the
-# run. With "none", letters are stored as text, not as shapes: the SVG is smaller, and a screen reader can
-# read it.
+# Without a salt, the ids in an SVG are random. Without "Date": None, the metadata of an SVG contain the time
+# of the run. With "none", letters are stored as text, not as shapes: the SVG is smaller, and a screen reader
+# can read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},
@@ -22,15 +22,15 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    The function imports nothing: matplotlib's inline backend reads the settings before its first figure. If
-    it has already drawn a figure, the settings apply to the next one.
+    The function imports nothing: matplotlib's inline backend reads the settings before it draws the first
+    figure. If the backend has already drawn a figure, the settings apply to the next figure.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     if shell is None:
         return
     shell.config.InlineBackend.update(SETTINGS)
-    # On a new machine, matplotlib logs that it builds its cache of fonts, and a cell would show this message.
+    # On a new machine, matplotlib logs that it builds its font cache; a cell would show this message.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     config = sys.modules.get("matplotlib_inline.config")
     if config and config.InlineBackend.initialized():

@@ -13,12 +13,12 @@ from course_pkg.errors import SetupError
 KEPT_LOGS = 10
 TAIL_LINES = 8
 WATCH_INTERVAL = 0.5  # s
-LEAST_FREE = 1 << 20  # bytes; a disk with less free space counts as full
+LEAST_FREE = 1 << 20  # bytes; a disk with less free space is treated as full
 FULL = ("No space left on device", "not enough free space")
 
 
 class Journal:
-    """One run of the set-up: its log file, and its lock, which its tools inherit."""
+    """One run of the set-up: its log file, and the lock that its tools inherit."""
 
     def __init__(self, folder: Path, lock: int) -> None:
         self._lock = lock
@@ -33,11 +33,13 @@ class Journal:
         env: Mapping[str, str] | None = None,
         watch: Callable[[str], None] | None = None,
     ) -> None:
-        """Run `command` to its end; call `watch` with the last line of its output twice per second.
+        """Run `command`, and wait for its end.
 
-        If the set-up is killed, a package manager can still finish, because its output goes to a file, not
-        through a pipe. The command inherits the lock, so the next set-up waits for its end. Raises
-        SetupError, with the last lines of the output, if the command fails.
+        Call `watch` twice per second with the last line of the output.
+
+        The output goes to a file, not through a pipe: a package manager can finish even if the set-up is
+        killed. The command inherits the lock; therefore, the next set-up waits until the command has ended.
+        Raises SetupError, with the last lines of the output, if the command fails.
         """
         with self.path.open("ab") as log:
             log.write(f"$ {' '.join(map(str, command))}\n".encode())
@@ -69,7 +71,7 @@ class Journal:
         return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole output: {self.path}")
 
     def _is_full(self) -> bool:
-        """Return whether the cache's disk is full, because not every tool reports this."""
+        """Return whether the cache's disk is full, because some tools do not report this."""
         disk = os.statvfs(self.path)
         return disk.f_bavail * disk.f_frsize < LEAST_FREE
 

@@ -18,7 +18,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-SLOW_STARTER = "a1_coverage.pth"  # it delays every start of Python by 30 ms, also for nodes and kernels
+SLOW_STARTER = "a1_coverage.pth"  # this file delays every start of Python by 30 ms, also in nodes and kernels
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -33,7 +33,8 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    "UV_INDEX_STRATEGY": "unsafe-best-match",  # pip's strategy; it is safe because the lock file has hashes
+    # this is pip's strategy; it is safe because the lock file contains hashes
+    "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 
 
@@ -43,7 +44,7 @@ def lock_file(extra: str) -> Path:
 
 
 def libraries_key(extra: str) -> str:
-    """Return a hash of the environment's inputs: the lock file and the interpreter."""
+    """Return a hash of the lock file and the interpreter, which determine the environment."""
     return digest([lock_file(extra).read_bytes(), base_python(), sys.version])
 
 
@@ -62,7 +63,8 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # --no-deps: a lock lists all libraries, but intentionally omits some unused dependencies (see lock.py).
+    # --no-deps: the lock lists all libraries that are needed; some dependencies are omitted on purpose (see
+    # lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     journal.run([uv, "pip", "install", "--python", places.python, *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{SLOW_STARTER}"):
@@ -70,7 +72,7 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
 
 
 def uv_program(places: Places) -> Path:
-    """Return the path of uv after its installation; each version has its own folder."""
+    """Return the path at which uv is installed; each version of uv has its own folder."""
     return places.tools / f"uv-{digest([lock_file('uv').read_bytes()])}" / "bin" / "uv"
 
 
@@ -91,18 +93,18 @@ def installed_uv(places: Places, journal: Journal) -> Path:
             lock_file("uv"),
         ]
         journal.run(command, env=_clean_environment())
-        with suppress(OSError):  # the set-up of another checkout may have installed it meanwhile
+        with suppress(OSError):  # the set-up of another checkout may have installed uv in the meantime
             fresh.rename(folder)
     return uv
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment, with the user's pip settings translated to uv's variables."""
+    """Return this process's environment, and add the user's pip settings as variables of uv."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 
 def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return pip's `settings` as variables for uv, because uv does not read pip.conf.
+    """Return pip's `settings` as variables of uv, because uv does not read pip.conf.
 
     The result omits variables that are already set in `environ`.
     """
@@ -115,7 +117,7 @@ def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str
 
 
 def pip_command() -> list[str]:
-    """Return the command of an installed pip: the distribution's wheel, or the interpreter's own pip.
+    """Return the command that runs pip: from the distribution's wheel, or from the interpreter.
 
     Raises SetupError if this machine has no pip.
     """
@@ -134,7 +136,7 @@ def _exists(place: str) -> bool:
 
 
 def _pip_settings() -> dict[str, list[str]]:
-    """Return pip's settings from its files and from the variables PIP_…, which have priority."""
+    """Return pip's settings from its files and from the variables PIP_…; the variables have priority."""
     listing = subprocess.run(
         [*pip_command(), "config", "list"],
         capture_output=True,
@@ -162,7 +164,7 @@ def base_python() -> str:
 
 
 def _is_on_base(places: Places) -> bool:
-    """Return whether the environment exists, and was created in this folder with this interpreter."""
+    """Return whether the environment exists in the folder in which it was created, with this interpreter."""
     if not environment_works(places):
         return False
     program = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"

@@ -26,18 +26,18 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    "Dpkg::Options::=--force-unsafe-io",  # faster; a failed set-up is repeated
+    "Dpkg::Options::=--force-unsafe-io",  # faster; this is safe, because a failed set-up is repeated
     "-o",
     "Dpkg::Options::=--force-confold",
 )
 LISTS = Path("/var/lib/apt/lists")
 STATUS = Path("/var/lib/dpkg/status")
-FRESH = 24 * 3600  # s; apt's lists are up to date for this time
+FRESH = 24 * 3600  # s; apt's package lists are considered up to date for this time
 APT = "/usr/bin/apt-get"
 # The messages have to be in English, because LOCKED matches English messages.
 UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")
 LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
-LOCK_TIMEOUT = 600.0  # s; `apt-get install` can wait for a lock, but `apt-get update` and dpkg cannot
+LOCK_TIMEOUT = 600.0  # s; the set-up waits for a lock, because `apt-get update` and dpkg cannot wait for it
 RETRY_INTERVAL = 2.0  # s between two attempts
 WAITING = "Another program is installing packages. Waiting for its end, for at most 10 minutes."
 
@@ -53,7 +53,7 @@ class Platform(NamedTuple):
 
 
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
-    """Return the platform that the file `os_release` names, also for systems that are based on it.
+    """Return the platform for the distribution in `os_release`, or for the distribution on which it is based.
 
     Raises SetupError on all other systems; its message contains the commands for conda.
     """
@@ -80,7 +80,10 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
 
 
 def missing_packages(wanted: Iterable[str]) -> list[str]:
-    """Return the packages in `wanted` that are not completely installed; raises SetupError without dpkg."""
+    """Return the packages in `wanted` that are not completely installed.
+
+    Raises SetupError if dpkg is missing.
+    """
     wanted = list(wanted)
     command = ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Abbrev}\n", *wanted]
     try:
@@ -100,10 +103,10 @@ def database_state() -> str:
 
 
 def install_packages(names: Sequence[str], journal: Journal, report: Callable[[str], None]) -> None:
-    """Install `names`; if another package manager is running, wait for its end.
+    """Install `names`; if another package manager is running, wait until it has ended.
 
-    `report` is called with a message during the wait. Raises SetupError if only an administrator can install
-    packages, or if a tool fails.
+    `report` is called with a message during the wait. Raises SetupError if the user cannot install packages,
+    or if a tool fails.
     """
     root = [*become_root(names), *UNATTENDED]
 
@@ -119,12 +122,12 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        run(APT, "update", "-q")  # the lists may contain files that were replaced on the server
+        run(APT, "update", "-q")  # the lists may refer to files that the server has replaced
         run(APT, "install", *APT_OPTIONS, *names)
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`, and repeat it while another program holds a lock that it needs."""
+    """Run `command`; repeat it as long as another program holds a lock that the command needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:
@@ -137,7 +140,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return the prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
+    """Return the start of a command that runs as root, such as sudo; raises SetupError if there is none."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )

@@ -10,13 +10,16 @@ from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
-# The folders of the catkin package in addition to course_pkg, and all parts of the catkin package.
+# The first tuple: the folders of the catkin package other than course_pkg; the second one: all its files.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
 class Places(NamedTuple):
-    """The folders of one checkout. Created files are outside the checkout, because rosrun searches it."""
+    """The folders of one checkout.
+
+    Created files are outside the checkout, because rosrun searches the checkout.
+    """
 
     checkout: Path
     cache: Path
@@ -31,7 +34,7 @@ class Places(NamedTuple):
 
     @property
     def conda(self) -> Path | None:
-        """The active conda environment if it contains this interpreter and ROS, else None."""
+        """The active conda environment if it contains this interpreter and ROS, otherwise None."""
         prefix = os.environ.get("CONDA_PREFIX")
         if not prefix or Path(prefix).resolve() != Path(sys.prefix).resolve():
             return None
@@ -54,7 +57,7 @@ class Places(NamedTuple):
 
     @property
     def stamps(self) -> Path:
-        """The folder that records which steps of the set-up are done, and with which inputs."""
+        """The folder that records the finished steps of the set-up, and the inputs of each step."""
         return self.cache / "done"
 
     @property

@@ -1,4 +1,4 @@
-"""Show the progress of long steps: one live line on a terminal, or a few lines in other outputs."""
+"""Shows the progress of long steps: one updated line on a terminal, or some lines in other outputs."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-LIVE_INTERVAL = 0.2  # s between two updates of the live line
-LINE_INTERVAL = 10.0  # s between two lines about the count, if the output is not a terminal
+LIVE_INTERVAL = 0.2  # s between two updates of the line on a terminal
+LINE_INTERVAL = 10.0  # s between two lines with the count, if the output is not a terminal
 BAR = 20  # characters
 GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
 
 
 class Progress:
-    """Shows the running steps on stderr, because stdout is for the output of a command.
+    """Shows the running steps on stderr, because stdout is for the command's output.
 
-    With a `total`, it also shows how many of the `unit` (such as "cells") are done, and the estimated time
-    that is left.
+    With a `total`, it also shows how many of the `unit` (such as "cells") are done, and the estimated
+    remaining time.
     """
 
     def __init__(self, stream: TextIO | None = None, *, total: int = 0, unit: str = "") -> None:
@@ -37,7 +37,7 @@ class Progress:
 
     @contextmanager
     def step(self, title: str) -> Iterator[None]:
-        """Show that the step `title` is running, its duration, and at the end its result."""
+        """Show the step `title` and its duration while it runs, and its result at the end."""
         started = time.monotonic()
         with self._lock:
             self._running[title] = started
@@ -55,7 +55,7 @@ class Progress:
 
     @contextmanager
     def painting(self) -> Iterator[None]:
-        """Update the live line until the end of the block."""
+        """Update the line on the terminal during the `with` block."""
         over = threading.Event()
         painter = threading.Thread(target=self._paint_until, args=(over,), daemon=True)
         if self._live:
@@ -69,7 +69,10 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Add `count` to the items that are done; with `kept`, an earlier run did them, so they took 0 s."""
+        """Add `count` to the items that are done.
+
+        With `kept`, an earlier run did them, so they take no time.
+        """
         with self._lock:
             self._done += count
             self._kept += count if kept else 0
@@ -80,7 +83,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which says what the user waits for; the same text is not shown twice in a row."""
+        """Show `text`, which explains a wait; the same text is not shown twice in succession."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:
@@ -100,7 +103,7 @@ class Progress:
         return f"[{'#' * filled}{'.' * (BAR - filled)}] "
 
     def _counted(self, now: float) -> str:
-        """Return how much is done, and the estimated time for all that is left."""
+        """Return the number of items that are done, and the estimated remaining time."""
         counted = f"{self._done} of {self._total} {self._unit}"
         left, here = self._total - self._done, self._done - self._kept
         if not left or not here:

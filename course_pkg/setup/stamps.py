@@ -1,4 +1,7 @@
-"""Record which steps are done, in one small file per step; with a lock, one set-up at a time changes them."""
+"""Records the steps that are done, in one small file per step.
+
+A lock prevents changes by two set-ups at a time.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from course_pkg.files import write_atomically
 
 
 class Stamps:
-    """The steps that are done; each has a file with a hash of the step's inputs."""
+    """The steps that are done; the file of each step contains a hash of the step's inputs."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -44,7 +47,10 @@ def digest(parts: Iterable[str | bytes]) -> str:
 
 @contextmanager
 def locked(path: Path, on_wait: Callable[[], None]) -> Iterator[int]:
-    """Hold the lock at `path`, and yield its descriptor; call `on_wait` if another process holds it."""
+    """Hold the lock at `path`, and yield its file descriptor.
+
+    Call `on_wait` if another process holds the lock.
+    """
     with path.open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -17,7 +17,10 @@ from course_pkg.setup.stamps import Stamps, digest, locked
 
 
 class Step(NamedTuple):
-    """A part of the set-up. `is_done` runs at every start, so it must be fast; `makes` is the new folder."""
+    """One step of the set-up. `is_done` runs at every start, so it must be fast.
+
+    `makes` is the folder that it creates.
+    """
 
     title: str
     is_done: Callable[[], bool]
@@ -26,7 +29,7 @@ class Step(NamedTuple):
 
 
 def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
-    """Set up what is missing; if nothing is missing, this takes a few milliseconds and prints nothing.
+    """Set up what is missing. If nothing is missing, this takes a few milliseconds and prints nothing.
 
     Raises SetupError, with the next step for the user, if a step fails.
     """
@@ -49,11 +52,11 @@ def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
 
 
 def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
-    """Return the steps in stages; the steps of one stage do not depend on each other."""
+    """Return the steps in stages; the steps of a stage do not depend on each other."""
     stamps = Stamps(places.stamps)
     library_step = _library_step(places, stamps, "test" if test else "course")
     catkin = _workspace_step(places, stamps)
-    if places.conda:  # environment.yml lists the packages and the libraries
+    if places.conda:  # environment.yml lists the packages and the libraries for conda
         return [[catkin]]
     platform = packages.read_platform(places.checkout)
     wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
@@ -83,7 +86,8 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        with suppress(OSError):  # the stamp only makes the next start faster, because it need not call dpkg
+        # with this stamp, the next start is faster, because it does not have to call dpkg
+        with suppress(OSError):
             stamps.write(name, state)
         return True
 
@@ -96,7 +100,8 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in (extra, "test"))
-        return libraries.environment_works(places) and any(made)  # the lock of "test" includes "course"
+        # the lock file of "test" also contains all libraries of "course"
+        return libraries.environment_works(places) and any(made)
 
     def make(journal: Journal, _progress: Progress) -> None:
         stamps.clear(f"python-{extra}")
@@ -124,7 +129,8 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
         with progress.step(step.title):
             step.make(journal, progress)
 
-    from concurrent.futures import ThreadPoolExecutor  # imported here: 5 ms, and most starts do not need it
+    # imported here, because it takes 5 ms and most starts do not need it
+    from concurrent.futures import ThreadPoolExecutor
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:
         for finished in [pool.submit(run, step) for step in steps]:

@@ -1,4 +1,4 @@
-"""The whole course as one document, which the Chromium of this machine prints to a PDF file."""
+"""The whole course as one document; this machine's Chromium prints it to a PDF file."""
 
 from __future__ import annotations
 
@@ -35,7 +35,10 @@ LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 
 
 def prefix(chapter: Chapter) -> str:
-    """Return the prefix of a chapter's anchors. The book needs it because it has all chapters on one page."""
+    """Return the prefix of the anchors of a chapter.
+
+    The book needs prefixes, because all chapters are on one page.
+    """
     return f"c{chapter.number}-"
 
 

@@ -25,7 +25,7 @@ from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
 from course_pkg.site.search_index import Section, script, sections
 
-LIST = ".course-site"  # a file in the site's folder that lists the files of the site
+LIST = ".course-site"  # this file in the site's folder lists all files of the site
 ASSETS = Path(__file__).with_name("assets")
 FOOTER = (
     "These pages use no network: all files that they load are in the same folder. "
@@ -36,7 +36,10 @@ PANEL_CLASS = 'class="panel"'
 
 
 class PageSource(NamedTuple):
-    """One chapter that becomes a page. `trouble` says why the page does not show the latest run, if so."""
+    """A chapter for which the site has a page.
+
+    `trouble` is the reason why the page does not show the latest run, or "" if it does.
+    """
 
     chapter: Chapter
     source: Path
@@ -46,7 +49,7 @@ class PageSource(NamedTuple):
 
 
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
-    """Write the site, and return a text for each chapter whose run failed.
+    """Write the site, and return a message for each chapter whose run failed.
 
     The pages of these chapters show the stored outputs.
     """
@@ -108,7 +111,7 @@ def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) 
 
 
 def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
-    """Return the links to the notebook itself: (label, address, whether it is a file of the site)."""
+    """Return the links to the notebook file: (label, address, whether the file is a part of the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
         place = quote(f"notebooks/{each.source.name}", safe="")
@@ -132,10 +135,11 @@ def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapt
 class Settings(NamedTuple):
     """The options of `course site`.
 
-    `out` is the folder to write to. If `student` is true, the pages show the notebooks that students get;
-    otherwise they show the solutions. `chapters` are the chapters to run if they changed. The site shows the
-    last run of all other chapters, and of all chapters if `execute` is false. `binder` is the address that
-    opens the repository, without the query. If `book` is true, one more page contains all chapters.
+    `out` is the folder to write to. If `student` is true, the pages show the students' notebooks; otherwise
+    they show the solutions. `chapters` are the chapters to run again if they have changed. For all other
+    chapters, and if `execute` is false for all chapters, the site shows the last run. `binder` is the address
+    that opens the repository in Binder, without the query. If `book` is true, the site has one more page,
+    which contains all chapters.
     """
 
     out: Path
@@ -147,9 +151,10 @@ class Settings(NamedTuple):
 
 
 class Folder:
-    """The folder of a site that is being written, as a context manager.
+    """The folder of a site while it is written; it is a context manager.
 
-    If the block ends without an exception, `Folder` removes the files that only an earlier site had.
+    If the block ends without an exception, it removes the files of the earlier site that were not written
+    again.
     """
 
     def __init__(self, path: Path) -> None:
@@ -158,7 +163,10 @@ class Folder:
         self._written: set[str] = set()
 
     def __enter__(self) -> Folder:
-        """Prepare the folder. Raises SiteError if it is not usable, or contains files that are not a site."""
+        """Prepare the folder.
+
+        Raises SiteError if the folder cannot be used, or if it contains files that are not part of a site.
+        """
         try:
             self._path.mkdir(parents=True, exist_ok=True)
             foreign = not self._list.exists() and any(self._path.iterdir())

@@ -1,4 +1,7 @@
-"""What the landing page says about each chapter: its title, time, goals and points, from the notebook."""
+"""The data of each chapter on the landing page: its title, time, goals and points.
+
+They come from the notebook.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,12 @@ MINUTES = re.compile(r"(?P<minutes>\d+) minutes")
 
 
 class Chapter(NamedTuple):
-    """A chapter as the syllabus lists it.
+    """A chapter in the syllabus.
 
-    `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not state its time.
+    `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not contain a time.
     """
 
-    name: str  # the name of its files without their ending, such as 05_write_a_server
+    name: str  # the name of the chapter's files without the extension, such as 05_write_a_server
     title: str
     lead: str
     will: str
@@ -39,7 +42,7 @@ class Chapter(NamedTuple):
 
     @property
     def full_title(self) -> str:
-        """The chapter's number and title, as they stand in links."""
+        """The chapter's number and title, as links show them."""
         return f"{self.number} {self.title}"
 
 

@@ -1,4 +1,4 @@
-"""Checks a site: links have targets, figures have descriptions, and pages load only files of the site."""
+"""Checks a site: links need targets, figures need descriptions, and pages may load only files of the site."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ VERBATIM = ("pre", "code", "script", "style", "title")
 
 
 def faults(folder: Path) -> list[str]:
-    """Return every fault of the site in `folder`; each text begins with the name of the page."""
+    """Return all faults of the site in `folder`; each message begins with the name of the page."""
     pages = {path.name: _read(path) for path in sorted(folder.glob("*.html"))}
     return [
         f"{name}: {fault}"
@@ -60,7 +60,7 @@ class _Reader(HTMLParser):
         self._fronts = fronts()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note the ids, links and figures of a page, and the files that it loads."""
+        """Record the ids, links and figures of a page, and the files that the page loads."""
         given = {name: value or "" for name, value in attrs}
         if "id" in given:
             self.ids[given["id"]] += 1
@@ -72,12 +72,15 @@ class _Reader(HTMLParser):
             self._inside.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Note the end of an element whose text is not prose, such as <pre>."""
+        """Record the end of an element whose text is not prose, such as <pre>."""
         if self._inside and self._inside[-1] == tag:
             self._inside.pop()
 
     def handle_data(self, data: str) -> None:
-        """Note formulas that are still LaTeX, as in a cell's output: only prose has its formulas rendered."""
+        """Record formulas that are still LaTeX.
+
+        Only formulas in prose become MathML, not those in a cell's output.
+        """
         if not self._inside and (found := FORMULA.search(data)):
             self.faults.append(f"{found[0]} looks like a formula, but is not rendered")
 

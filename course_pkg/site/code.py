@@ -13,7 +13,8 @@ from pygments.lexers import get_lexer_by_name
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
-# The kinds of token that get a colour; a subtype stands before its type. The letters are classes in site.css.
+# The kinds of tokens that get a colour; a subtype comes before its parent type. The letters are classes in
+# site.css.
 COLOURS = (
     (Comment, "c"),
     (String.Doc, "c"),
@@ -42,7 +43,10 @@ FILES = {
 
 
 class Highlighter:
-    """Adds colours to cells and to fenced blocks. It creates the lexer of each language only once."""
+    """Adds colours to cells and to fenced blocks.
+
+    It creates the lexer of each language only when it is first needed.
+    """
 
     def __init__(self) -> None:
         self._lexers: dict[str, Lexer] = {}
@@ -90,7 +94,7 @@ def _colour(kind: _TokenType) -> str:
 
 
 def _runs(coloured: Iterator[tuple[str, str]]) -> Iterator[str]:
-    """Join neighbouring tokens of the same colour into one element; blanks get no element."""
+    """Join adjacent tokens of the same colour into one element; white space gets no element."""
     for name, run in groupby(coloured, key=lambda pair: pair[0]):
         text = escape("".join(text for _, text in run), quote=False)
         yield f"<i class={name}>{text}</i>" if name else text

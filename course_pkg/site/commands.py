@@ -1,4 +1,4 @@
-"""`course site`: it writes the site, checks it, prints it as a book, and lists the problems."""
+"""`course site`: it writes the site, checks it, prints the book, and lists the problems."""
 
 from __future__ import annotations
 
@@ -52,7 +52,8 @@ COMMANDS = {
 }
 
 
-BINDER = "COURSE_BINDER"  # the variable with the address that opens the repository, including the branch
+# the environment variable with the address that opens the repository and its branch in Binder
+BINDER = "COURSE_BINDER"
 
 
 def run_site(

@@ -1,4 +1,4 @@
-"""A notebook as the body of a page, rendered by nbconvert's exporter with the course's own template."""
+"""A notebook as the body of a page: nbconvert renders it with the course's own template."""
 
 from __future__ import annotations
 
@@ -60,20 +60,20 @@ SOMEWHERE = {
     "td": {"colspan", "rowspan"},
     "th": {"colspan", "rowspan", "scope"},
 }
-VERDICT = ["border-left"]  # the CSS property with which a report shows whether the check passed
-PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style without a CSS function such as url()
+VERDICT = ["border-left"]  # the CSS property by which a report shows whether the check has passed
+PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style without a function of CSS, such as url()
 PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/=\s]*")
 HERE = Path(__file__).parent
 PARTS = {"include_code": True, "include_input": True, "include_output": True, "include_markdown": True}
 SHOWN = [PANEL, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
 TITLE = re.compile(r"\s*<svg\b[^>]*>\s*<title>([^<]+)</title>")
 TEXT = re.compile(r"<text\b[^>]*>([^<]+)</text>")
-NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # a label at a tick of an axis
+NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # a number at an axis of a plot
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
 
 
 class Body(NamedTuple):
-    """The body of a page, and the headings in it: (level, anchor, text)."""
+    """The body of a page, and the headings in this body: (level, anchor, text)."""
 
     html: str
     headings: list[tuple[int, str, str]]
@@ -103,17 +103,17 @@ class Exporter(HTMLExporter):
 
     @property
     def default_config(self) -> Config:
-        """The settings with the MIME types that a page can show, the best first. Scripts are excluded."""
+        """The settings: the MIME types that a page can show, in order of preference. Scripts are excluded."""
         own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)
         return inherited
 
     def body(self, notebook: Notebook, prefix: str = "", folder: Path = Path()) -> Body:
-        """Return the cells of `notebook` as HTML; anchors begin with `prefix`.
+        """Return the cells of `notebook` as HTML; all anchors begin with `prefix`.
 
-        `folder` is the folder of the notebook. The paths of its figures are relative to this folder. Raises
-        SiteError if a figure is missing.
+        `folder` is the folder of the notebook. The paths of the notebook's figures are relative to this
+        folder. Raises SiteError if a figure is missing.
         """
         numbers = count(1)
 
@@ -129,7 +129,10 @@ class Exporter(HTMLExporter):
 
 
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
-    """Return a copy of `notebook` without outputs that no page can show; nbconvert would warn about them."""
+    """Return a copy of `notebook` without the outputs that a page cannot show.
+
+    nbconvert would warn about these outputs.
+    """
     node: nbformat.NotebookNode = nbformat.from_dict(notebook)
     for cell in (cell for cell in node["cells"] if cell["cell_type"] == "code"):
         cell["outputs"] = [each for each in cell["outputs"] if _has_a_form(each)]
@@ -141,13 +144,19 @@ def _has_a_form(output: Output) -> bool:
 
 
 def packed(states: Sequence[Mapping[str, Plain]]) -> str:
-    """Return the states of a page's panels, in their order: as JSON, compressed by zlib, in base64."""
+    """Return the states of a page's panels, in their order.
+
+    They are JSON, compressed with zlib, in base64.
+    """
     text = json.dumps(states, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> str:
-    """Return a picture as an <img> whose data are in the page. A script in such an SVG cannot run."""
+    """Return a picture as an <img> element that contains the picture's data.
+
+    A script in an SVG cannot run there.
+    """
     code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
     about = metadata.get(kind, {})
     size = "".join(f' {name}="{int(about[name])}"' for name in ("width", "height") if name in about)
@@ -157,9 +166,9 @@ def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> 
 
 
 def description(svg: str) -> str:
-    """Return the title of a panel's picture, or the labels of a plot, for a reader who cannot see it.
+    """Return the title of a panel's picture, or the labels of a plot, for readers who cannot see it.
 
-    The labels of a plot are its title and the labels of its axes and its legend, without the numbers.
+    The labels of a plot are its title and the labels of its axes and legend, but not the numbers at its axes.
     """
     if title := TITLE.match(svg):
         return html.unescape(title[1]).strip()
@@ -171,14 +180,14 @@ def description(svg: str) -> str:
 def terminal(text: str) -> str:
     """Return the output of a terminal as HTML.
 
-    Colours stay. A carriage return overwrites its line, as in a terminal. Other control codes are removed.
+    Colours stay. A carriage return overwrites the line, as in a terminal. Other control codes are removed.
     """
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")
 
 
 class Sanitizer:
-    """Removes all HTML except text, its structure, pictures whose data are in the page, and links."""
+    """Removes everything from HTML except text, its structure, links, and pictures with their own data."""
 
     def __init__(self) -> None:
         self._cleaner = Cleaner(
@@ -191,7 +200,7 @@ class Sanitizer:
         )
 
     def __call__(self, html: str) -> str:
-        """Return `html` without anything that could run code, load a file or look like a part of the page."""
+        """Return `html` without anything that could run code, load a file, or look like the site's page."""
         return str(self._cleaner.clean(html))
 
 

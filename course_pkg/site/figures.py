@@ -1,9 +1,10 @@
-"""The figures of a notebook's Markdown as HTML. The page contains their data, because it loads no other file.
+"""The figures in the Markdown of a notebook, as HTML.
 
-A drawing (SVG) becomes a part of the page, so that a reader can select and find its text. A drawing uses the
-page's colours if it draws its text with `currentColor` and its white background as
-`<rect class="ground" …>`, which the page leaves empty. Any other drawing keeps a white background, even in
-dark mode.
+The HTML contains the data of the figures, because a page loads no other file.
+
+A drawing (SVG) becomes part of the page's HTML, so that a reader can select and find its text. A drawing uses
+the page's colours if its text has the colour `currentColor` and its white background is `<rect class="ground"
+…>`; the page does not fill this rectangle. Any other drawing keeps a white background, even in dark mode.
 """
 
 from __future__ import annotations
@@ -22,20 +23,20 @@ SHAPES = ("circle", "ellipse", "line", "path", "polygon", "polyline", "rect", "t
 DRAWN = frozenset(
     (*SHAPES, "svg", "g", "defs", "marker", "clipPath", "linearGradient", "radialGradient", "stop")
 )
-SAID = ("title", "desc")  # The description in the Markdown replaces these elements.
+SAID = ("title", "desc")  # the description in the Markdown replaces these elements
 WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the same drawing
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
-# The least width of a drawing, as a part of its own width. In a narrower window it gets a scroll bar, because
-# its text would become too small.
+# The minimum width of a drawing, divided by the drawing's own width. In a narrower window, the drawing gets a
+# scroll bar, because its text would be too small.
 SMALLEST = 0.75
 
 
 def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
-    """Return the figure `url` of a notebook in `folder` as HTML.
+    """Return the figure `url` of a notebook as HTML; `folder` is the folder of the notebook.
 
-    The ids in a drawing begin with `prefix`, so that the ids of a page's drawings differ. Raises SiteError if
-    the figure's file is missing or has another format, if the figure has no description (`alt`), or if a
-    drawing contains a script or another element that a page does not allow.
+    All ids in a drawing begin with `prefix`, so that two drawings of a page have no id in common. Raises
+    SiteError if the figure's file is missing or has another format, if the figure has no description (`alt`),
+    or if a drawing contains a script or another element that a page does not allow.
     """
     if not alt.strip():
         raise SiteError(f"The figure {url} has no description. Write one: ![description]({url}).")
@@ -71,7 +72,7 @@ def _drawing(path: Path, content: bytes, alt: str, prefix: str) -> str:
 
 
 def _width(root: ElementTree.Element) -> float:
-    """Return a drawing's own width in pixels; 0 if it has none."""
+    """Return the width of a drawing in pixels, or 0 if the drawing does not define it."""
     box = re.fullmatch(r"\s*\S+\s+\S+\s+([\d.]+)\s+\S+\s*", root.get("viewBox", ""))
     return float(box[1]) if box else 0.0
 
@@ -79,8 +80,8 @@ def _width(root: ElementTree.Element) -> float:
 def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
     """Give an element its HTML name and an id that is unique on the page.
 
-    Raises SiteError if a page does not allow this element, such as a script, or if one of its attributes runs
-    code or loads a file.
+    Raises SiteError if a page must not contain this element, such as a script, or if an attribute runs code
+    or loads a file.
     """
     element.tag = element.tag.removeprefix(NAMESPACE)
     if element.tag not in DRAWN:

@@ -1,4 +1,4 @@
-"""The glossary: the terms of the course, each with a link to its first explanation."""
+"""The glossary: the terms of the course, each with a link to the section that first explains it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ HERE = Path(__file__).parent
 
 
 class Entry(NamedTuple):
-    """A term, its meaning, its anchor, and where a chapter explains it.
+    """A term, its meaning, its anchor, and the place where a chapter explains it.
 
     `page` is the address of the section that explains the term, and `where` names its chapter. Both are empty
     if no chapter explains the term.
@@ -40,7 +40,7 @@ class Glossary:
 
     @classmethod
     def of(cls, texts: Sequence[tuple[Chapter, Notebook, Sequence[Heading]]]) -> Glossary:
-        """Return the glossary, whose links lead to the chapters in `texts`."""
+        """Return the glossary; its links lead to the chapters in `texts`."""
         written: dict[str, str] = json.loads((HERE / "glossary.json").read_text("utf-8"))
         return cls([_entry(term, meaning, texts) for term, meaning in written.items()])
 
@@ -49,11 +49,11 @@ class Glossary:
         return Page("glossary.html", "glossary", "Glossary", "The terms of the course.", self.text(renderer))
 
     def text(self, renderer: Renderer) -> Markup:
-        """Return the text of the glossary, without the frame of a page."""
+        """Return the glossary as HTML, without the frame of a page."""
         return renderer.part("glossary.html.j2", entries=self.entries)
 
     def sections(self) -> Iterator[Section]:
-        """Yield the entries as sections for the search index."""
+        """Yield the glossary's entries as sections for the search index."""
         for entry in self.entries:
             yield Section("Glossary", f"glossary.html#{entry.anchor}", entry.term, entry.meaning)
 
@@ -67,7 +67,7 @@ def _entry(term: str, meaning: str, texts: Sequence[tuple[Chapter, Notebook, Seq
 
 
 def _explained(term: str, notebook: Notebook, headings: Sequence[Heading]) -> Heading | None:
-    """Return the heading of the first section that has `term` in bold or italics, or None."""
+    """Return the heading of the first section with `term` in bold or italics, or None."""
     coming = iter(headings)
     current = None
     marked = re.compile(rf"\*{{1,2}}{re.escape(term)}s?\*{{1,2}}", re.IGNORECASE)

@@ -1,4 +1,4 @@
-"""Complete pages: each has the same frame around its own text."""
+"""Complete pages: all pages have the same frame."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from course_pkg.site.search_index import Heading
 HERE = Path(__file__).parent
 PATHS = HERE.parent / "chapters" / "paths.json"
 COURSE = "Who waits for whom?"
-# A page loads only scripts and style sheets that have its nonce, and it opens no connections. Styles in
-# attributes are allowed, because the panels and their drawings use them.
+# A page loads only scripts and style sheets with its nonce, and it opens no connections. Styles in attributes
+# are allowed, because the panels and their drawings use them.
 POLICY = (
     "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; "
     "style-src-attr 'unsafe-inline'; img-src data:; font-src data:; "
@@ -29,7 +29,7 @@ POLICY = (
 
 
 class Page(NamedTuple):
-    """The parts of a page that differ from page to page; `html` is the part between header and footer."""
+    """The parts that differ between pages; `html` is the part between the header and the footer."""
 
     file: str
     kind: str  # chapter, landing, glossary or book
@@ -51,7 +51,10 @@ class Choice(NamedTuple):
 
 
 class LearningPath(NamedTuple):
-    """A selection of chapters that needs no other chapter. A path with two possible ends has two choices."""
+    """A selection of chapters; they require no chapter outside the selection.
+
+    A path with two possible ends has two choices.
+    """
 
     name: str
     about: str
@@ -60,7 +63,7 @@ class LearningPath(NamedTuple):
 
 
 class Renderer:
-    """Renders pages from the same templates and with the same list of chapters."""
+    """Renders all pages with the same templates and the same list of chapters."""
 
     def __init__(self, chapters: Sequence[Chapter], assets: str, footer: str) -> None:
         self._environment = Environment(
@@ -83,19 +86,20 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return the template filled with `values`; a str is escaped, Markup is not."""
+        """Return the template filled with `values`; it escapes a str, but not Markup."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
-        """Return the HTML of the whole page, with its frame."""
-        # The nonce is computed from the whole page, so code in a stored output cannot contain it.
+        """Return the HTML of the complete page."""
+        # The nonce is computed from the whole page; therefore, code in a stored output cannot contain the
+        # nonce.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
         return str(self.part("frame.html.j2", page=page, nonce=nonce, policy=policy))
 
 
 def _inline(html: str) -> Markup:
-    """Remove the <p> tags from a text that has only one paragraph."""
+    """Remove the <p> tags if the text has only one paragraph."""
     one = html.count("<p>") == 1
     return Markup(html.removeprefix("<p>").removesuffix("</p>") if one else html)  # noqa: S704 -- Prose escapes
 
@@ -118,7 +122,7 @@ def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
 
 
 def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
-    """Return the learning paths through `chapters`; a path that lists no chapters contains all of them."""
+    """Return the learning paths through `chapters`; if a path lists no chapters, it contains all chapters."""
     by_number = {chapter.number: chapter for chapter in chapters}
     found = []
     for path in json.loads(PATHS.read_text("utf-8")):
@@ -136,5 +140,5 @@ def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
 
 
 def drawing() -> Markup:
-    """Return the drawing that compares a topic with a service."""
+    """Return the drawing of the landing page, which compares a topic with a service."""
     return Markup((HERE / "template" / "waiting.svg").read_text("utf-8"))  # noqa: S704 -- a file of ours

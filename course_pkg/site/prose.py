@@ -1,4 +1,7 @@
-"""Markdown as HTML for the pages: raw HTML is escaped, headings get anchors, and links lead to pages."""
+"""Converts Markdown to HTML.
+
+It escapes raw HTML, adds anchors to headings, and changes links into the site's links.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +22,8 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 class Prose:
     """Renders the Markdown of one page, and gives each heading an anchor.
 
-    `highlight` receives code and its language, and returns HTML. `figure` receives the address and the
-    description of a figure, and returns HTML. Anchors begin with `prefix`.
+    `highlight` converts code and the name of its language into HTML. `figure` converts the address and the
+    description of a figure into HTML. All anchors begin with `prefix`.
     """
 
     def __init__(
@@ -36,11 +39,11 @@ class Prose:
         self._prefix = prefix
 
     def __call__(self, source: str) -> str:
-        """Return `source` as HTML."""
+        """Return the Markdown `source` as HTML."""
         return str(self._render(source)).strip()
 
     def heading(self, html: str, level: int) -> str:
-        """Add a heading to `headings`, and return its anchor, which is unique on the page."""
+        """Add a heading to `headings`, and return its anchor; each anchor of a page is different."""
         text = words(html)
         anchor = self._prefix + _anchor(text)
         anchor = next(name for name in _numbered(anchor) if name not in self._taken)
@@ -64,7 +67,8 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        tag = "th" if head and text.strip() else "td"  # An empty corner cell is not a header.
+        # an empty cell in the corner of a table is not a header
+        tag = "th" if head and text.strip() else "td"
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"
 
@@ -91,28 +95,34 @@ def _no_figure(url: str, _alt: str) -> str:
 
 
 def page_of(url: str) -> str:
-    """Return the address on the site for a link of a notebook: a link to a chapter leads to its page."""
+    """Return the site's address for a link in a notebook.
+
+    A link to another chapter becomes a link to its page.
+    """
     notebook = NOTEBOOK.fullmatch(url)
     return f"{notebook['name']}.html{notebook['anchor'] or ''}" if notebook else url
 
 
 def mathml(formula: str, display: Literal["inline", "block"]) -> str:
-    """Return a LaTeX formula as MathML, which needs no script. Raises SiteError for an invalid formula."""
+    """Return a LaTeX formula as MathML, which a browser shows without a script.
+
+    Raises SiteError for an invalid formula.
+    """
     from latex2mathml.converter import convert  # imported here, because few pages have a formula
 
     try:
         return str(convert(formula.strip(), display=display))
-    except Exception as error:  # latex2mathml's exceptions have no common base class.
+    except Exception as error:  # latex2mathml's exceptions have no common base class
         raise SiteError(f"The formula ${formula}$ cannot be read: {type(error).__name__} {error}") from error
 
 
 def words(html: str) -> str:
-    """Return the text of a piece of HTML, without its tags."""
+    """Return the text of an HTML fragment, without tags."""
     return unescape(TAG.sub("", html))
 
 
 def attribute(text: str) -> str:
-    """Return `text` escaped for the value of an HTML attribute in quotes."""
+    """Return `text`, escaped for an HTML attribute in quotes."""
     return escape(text, quote=True)
 
 

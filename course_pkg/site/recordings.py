@@ -1,6 +1,7 @@
-"""Records panels while their notebook runs, so that the page of the site can show real responses.
+"""Records panels while a notebook runs, so that the site can show real responses without a kernel.
 
-The file `recordings.json` of a chapter has plans for some cells, by the id of the cell. The keys of a plan:
+A chapter's file `recordings.json` contains plans for some cells; each key is the id of a cell. The keys of a
+plan:
 
 - `record`: the requests that a service panel sends, or the cases of BreakIt with the tools to use in each
   case. The page answers with the recorded responses.
@@ -29,7 +30,7 @@ PANEL = "application/vnd.course-panel+json"
 
 
 class Plan(TypedDict, total=False):
-    """What to record of one panel."""
+    """The plan for the recording of one panel."""
 
     pick: str
     record: Sequence[Plain]
@@ -38,30 +39,30 @@ class Plan(TypedDict, total=False):
 
 
 class Panel(Protocol):
-    """The methods of a panel that a plan may use; each panel has only the methods that its plans need."""
+    """The methods of a panel that a plan may call; a panel has only the methods that its plan needs."""
 
     def received(self, kind: str, content: Mapping[str, Plain]) -> None:
-        """Handle a message that the front end would send."""
+        """Handle a message in the same way as a message from the front end."""
 
     def record(self, requests: Sequence[Plain]) -> None:
-        """Send the requests, and record their responses."""
+        """Send the requests to the service, and record the responses."""
 
     def shown(self) -> None:
-        """Start the work that a panel does while a page shows it."""
+        """Start the work that the panel does while a page shows it."""
 
     def hidden(self) -> None:
-        """Stop the work that `shown` started."""
+        """Stop the work that `shown` has started."""
 
 
 def plans(name: str) -> dict[str, Plan]:
-    """Return the plans of the notebook called `name`, by the id of the cell."""
+    """Return the plans for the notebook called `name`; the keys are the ids of cells."""
     path = folder_of(name[:2]) / "recordings.json"
     planned: dict[str, Plan] = json.loads(path.read_text("utf-8")) if path.exists() else {}
     return planned
 
 
 def with_recordings(name: str, notebook: Notebook) -> Notebook:
-    """Return `notebook` with a cell for each plan, below the cell that shows the panel."""
+    """Return a copy of `notebook` with one more cell for each plan, below the cell that shows the panel."""
     planned = plans(name)
     cells: list[Cell] = []
     for cell in notebook["cells"]:
@@ -72,16 +73,19 @@ def with_recordings(name: str, notebook: Notebook) -> Notebook:
 
 
 def without_recordings(notebook: Notebook) -> Notebook:
-    """Return `notebook` without the cells that `with_recordings` added."""
+    """Return a copy of `notebook` without the cells that `with_recordings` added."""
     return {**notebook, "cells": [cell for cell in notebook["cells"] if "recording" not in cell["metadata"]]}
 
 
 def record_panel(panel: Panel, plan: Plan) -> None:
-    """Carry out `plan` in the notebook's kernel. A call of a service without a server is not recorded."""
+    """Record a panel as `plan` says; this runs in the notebook's kernel.
+
+    If a service has no server, its call is not recorded.
+    """
     if "pick" in plan:
         panel.received("pick", {"service": plan["pick"]})
     if "record" in plan:
-        with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
+        with suppress(CourseError):  # in a student's notebook, the server is often not written yet
             panel.record(plan["record"])
     if "watch" in plan:
         panel.shown()
@@ -90,22 +94,22 @@ def record_panel(panel: Panel, plan: Plan) -> None:
 
 
 def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, float]]]) -> None:
-    """Wait for `seconds`, and make the calls at equal intervals in this time."""
+    """Make the calls at equal intervals during `seconds` s."""
     from course_pkg.ros import this_node  # imported here, because only a recording with calls needs rospy
 
     for name, kind, fields in calls:
         time.sleep(seconds / (len(calls) + 1))
         if node := this_node():
-            with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
+            with suppress(CourseError):  # in a student's notebook, the server is often not written yet
                 node.call(name, kind, **fields)
     time.sleep(seconds / (len(calls) + 1))
 
 
 def _recording(shown: Cell, plan: Plan) -> Cell:
-    """Return a cell that records the panel of the cell above it, and that defines no variable.
+    """Return a cell that records the panel of the cell above; it defines no variable.
 
-    The new cell gets the panel from IPython's list of results, `_oh`. It cannot use `_`, because a notebook
-    may have a variable called `_`.
+    The new cell reads the panel from `_oh`, IPython's list of results. It cannot use `_`, because a notebook
+    may define a variable called `_`.
     """
     added = copy.deepcopy(shown)
     added["id"] = f"recording-{shown['id']}"[:64]
@@ -117,7 +121,7 @@ def _recording(shown: Cell, plan: Plan) -> Cell:
 
 
 def embed_states(notebook: Notebook) -> None:
-    """Replace each view of a panel in `notebook` by the panel and its last state; remove all other views."""
+    """Replace each output that shows a panel by the panel's last state; remove all other widgets."""
     panels = SavedPanels(notebook)
     notebook["metadata"].pop("widgets", None)
     for cell in code_cells(notebook):

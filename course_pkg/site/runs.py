@@ -1,7 +1,7 @@
 """Runs notebooks for the site, and keeps their outputs.
 
-A notebook runs again only if its code changed, or a file that its code uses. The site cannot use the outputs
-of the stored notebooks: they contain no states of panels, because these differ from run to run.
+A notebook runs again only if its code has changed, or a file that its code uses. The site cannot use the
+outputs of the stored notebooks: they do not contain the states of panels, which differ in each run.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from course_pkg.setup import CATKIN_FOLDERS, Places
 from course_pkg.setup.stamps import digest
 from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
-# No notebook runs the modules in these folders, so a change in them is no reason to run a notebook again.
+# No notebook runs the modules in these folders, so no notebook has to run again if they change.
 IDLE = ("chapters", "site", "grading", "lab", "authoring", "setup")
 RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/setup/locks/course.txt")
 
 
 class Shown(TypedDict):
-    """The outputs of a code cell, and its execution count."""
+    """The stored outputs and the execution count of a code cell."""
 
     outputs: list[Output]
     execution_count: int | None
@@ -41,7 +41,7 @@ class Runs:
         self._shared = digest(self._package())
 
     def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
-        """Run the notebooks whose code, or a file that it needs, changed, and keep their outputs.
+        """Run the notebooks whose code, or a file that the code uses, has changed, and keep the outputs.
 
         Several notebooks run at the same time. Returns the errors of the notebooks that did not run to their
         end.
@@ -65,9 +65,11 @@ class Runs:
         return {new[name]: error for name, error in errors.items()}
 
     def latest(self, path: Path) -> Notebook | None:
-        """Return the notebook with the outputs of its last run, or None if its present code never ran.
+        """Return the notebook with the outputs of its last run.
 
-        The package may have changed since this run.
+        If there is no run with the present code, return None.
+
+        The package may have changed after this run.
         """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))
@@ -110,7 +112,10 @@ def _contents(files: Iterable[Path]) -> Iterator[str | bytes]:
 
 
 def _code(notebook: Notebook) -> str:
-    """Return a digest of the code cells. A change of prose does not change it, and needs no new run."""
+    """Return a digest of the code cells, because a change of prose needs no new run.
+
+    A change of prose does not change it, and needs no new run.
+    """
     return digest(cell["source"] for cell in code_cells(notebook))
 
 

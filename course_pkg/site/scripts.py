@@ -1,4 +1,7 @@
-"""The front ends of all panels as one classic script, because a page in a folder cannot load a module."""
+"""Joins the front ends of all panels into one classic script.
+
+A page in a local folder cannot load modules.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +19,10 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 
 
 def panels_script(folder: Path = PANELS) -> str:
-    """Return a script that sets `coursePanels`: an object that maps the name of each panel to `{ render }`.
+    """Return a script that sets `coursePanels`, an object that maps the name of each panel to `{ render }`.
 
-    Each module of the panels becomes the body of one function. It comes after the modules that it imports.
+    Each module of the panels becomes the body of one function. The function comes after the functions of the
+    modules that it imports.
     """
     modules = _Modules(folder)
     found = _fronts(folder)
@@ -28,7 +32,7 @@ def panels_script(folder: Path = PANELS) -> str:
 
 
 def panels_sheet(folder: Path = PANELS) -> str:
-    """Return the style sheets of all panels, and before them the one that all panels share."""
+    """Return the style sheets of all panels; the style sheet that all panels share comes first."""
     return "\n".join(_text(path) for path in (folder / "look.css", *sorted(folder.glob("*/*.css"))))
 
 
@@ -53,7 +57,10 @@ class _Modules:
         return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
 
     def needed(self, path: Path) -> Iterator[str]:
-        """Yield the modules that the module at `path` imports, and then this module; none a second time."""
+        """Yield the modules that the module at `path` imports, and then this module.
+
+        Each module is yielded only once.
+        """
         path = path.resolve()
         if path in self._given:
             return

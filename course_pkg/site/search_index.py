@@ -28,9 +28,9 @@ class Section(NamedTuple):
 
 
 def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading]) -> Iterator[Section]:
-    """Yield the sections of a chapter with prose and code.
+    """Yield the sections of a chapter, with their prose and code.
 
-    `headings` are the headings of this chapter, in their order.
+    `headings` are the chapter's headings, in their order.
     """
     coming = iter(headings)
     anchor, title, words = "", page, ""
@@ -47,12 +47,12 @@ def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading
 
 
 def script(found: Iterable[Section]) -> str:
-    """Return the script that passes the texts to the search."""
+    """Return the script that gives the texts to the search."""
     return f"courseTexts({json.dumps(list(found), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def plain(markdown: str) -> str:
-    """Return Markdown or code as one line without marks such as `#`, `*` and links."""
+    """Return Markdown or code as one line, without marks such as `#`, `*` and links."""
     return " ".join(MARKS.sub(" ", LINK.sub(r"\1", markdown)).split())
 
 

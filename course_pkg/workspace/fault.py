@@ -1,4 +1,4 @@
-"""A fault in a package, and its line in a package.xml, even if the file is not well-formed XML."""
+"""A fault in a package. Its line in a package.xml is found even if the file is not well-formed XML."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Fault:
 
     @property
     def place(self) -> str:
-        """Return the place, such as "my_services/CMakeLists.txt, line 6"; empty if it is not known."""
+        """Return the place, such as "my_services/CMakeLists.txt, line 6", or "" if it is not known."""
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def __str__(self) -> str:
@@ -59,7 +59,7 @@ def dependencies(text: str, purpose: str) -> set[str]:
 
 
 def locate(fault: Fault, text: str) -> Fault:
-    """Return a fault of a package.xml with the line of its tag, if the tag can be found."""
+    """Return a fault of a package.xml, with the line of the wrong tag if this tag can be found."""
     if "not closed" in fault.problem and (tag := _unclosed(text)):
         return replace(fault, problem=f"The tag {tag.name} is not closed.", line=tag.line)
     if fault.line or not fault.file.endswith("package.xml"):

@@ -1,4 +1,7 @@
-"""The errors of catkin, genmsg and the tools of ROS about a package; rows as in cmake_messages."""
+"""The errors of catkin, genmsg and the tools of ROS about a package.
+
+The rows have the same form as in cmake_messages.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The three rules that remove the answer, and only the answer, from an exercise cell."""
+"""Tests of the three rules that remove the answer, and nothing else, from an exercise cell."""
 
 # ruff: noqa: E501 -- each source stands above its result, so that a reader can compare the two lines
 
@@ -86,7 +86,7 @@ def test_rules(source: str, expected: str) -> None:
 
 @pytest.mark.parametrize("source", [source for source, _ in CASES.values()], ids=CASES)
 def test_blanking_twice_changes_nothing_more(source: str) -> None:
-    """A blank exercise does not change any more."""
+    """A second call of `blank` changes nothing."""
     assert blank(blank(source)) == blank(source)
 
 
@@ -98,6 +98,6 @@ def test_a_blank_exercise_is_valid_python(name: str) -> None:
 
 @pytest.mark.parametrize("source", ["def f(:\n    return", "%%bash\nls", "%%script true\nx = 1"])
 def test_a_cell_without_a_rule_is_refused(source: str) -> None:
-    """`blank` raises an error for invalid Python, and for a magic that no rule covers."""
+    """`blank` raises an error for invalid Python, and for a magic to which no rule applies."""
     with pytest.raises(AuthoringError):
         blank(source)

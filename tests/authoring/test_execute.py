@@ -44,7 +44,7 @@ def solution(root: Path, *cells: Cell) -> Path:
 def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A second run does not change the file, the check passes, and nbval passes.
 
-    Each run has its own master, although the environment names another one.
+    Each run has its own master, although ROS_MASTER_URI contains the address of another one.
     """
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=SERVER), check())
@@ -60,7 +60,7 @@ def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: p
 def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) -> None:
     """The SVG contains its labels as text, and is the same in every run. nbval compares only the plain text.
 
-    This is also true if matplotlib drew a figure before the kernel joined the graph.
+    This is also true if matplotlib has drawn a figure before the kernel becomes a node.
     """
     set_up = code('from course_pkg import join\nnode = join("chapter_05")', id="set-up")
     path = solution(tmp_path, code(PLOT, id="early"), set_up, code(PLOT, id="plot"))
@@ -92,7 +92,10 @@ def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
 
 
 def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """`course sync --execute` names the chapter and the part, prints the report, and ends with status 1."""
+    """The message of `course sync --execute` contains the chapter, the part and the report.
+
+    The status is 1.
+    """
     wrong = SERVER.replace("request.width * request.length", "request.width + request.length")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=wrong), check())
     before = path.read_text()
@@ -101,7 +104,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
     with pytest.raises(SystemExit) as ended:
         main(["sync", "--execute", "05"])
     assert path.read_text() == before
-    # sys.exit with a text prints the text, and the exit status is 1.
+    # sys.exit with a text prints this text, and sets the exit status to 1
     first, headline, *report = str(ended.value.code).splitlines()
     assert first.startswith("course: 05_write_a_server: check 05.1 has not passed")
     assert headline == "  05.1 not yet: 0 of 2 points"
@@ -109,7 +112,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """A check passes only with a report of its own part; printed text does not count."""
+    """A check has passed only if its output is a report of its own part; printed text does not count."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}
@@ -132,7 +135,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """After Ctrl-C, the command and the kernel that it started end."""
+    """After Ctrl-C, the command and its kernel end."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

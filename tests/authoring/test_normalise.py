@@ -14,7 +14,7 @@ from tests.authoring.books import book, check, code, exercise, text
 
 
 def stream(words: str, name: str = "stdout") -> dict[str, str]:
-    """Return a chunk of a stream."""
+    """Return an output of a stream."""
     return {"output_type": "stream", "name": name, "text": words}
 
 
@@ -40,7 +40,7 @@ def test_a_second_normalisation_changes_nothing() -> None:
 
 
 def test_only_parts_that_differ_between_runs_are_removed() -> None:
-    """Widget ids and timings are removed, and chunks are joined; the text of outputs and the tags stay."""
+    """Widget ids and timings are removed, and outputs of a stream are joined; texts and tags stay."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "display_data", "data": data, "metadata": {}}
     cell = code("panel", outputs=[stream("a"), stream("b\n"), shown], execution_count=77, tags=["x"])
@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """A traceback of the course names cells and no files, so the notebook keeps it."""
+    """The course's traceback names cells but no files, so the notebook keeps it."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))
@@ -65,7 +65,7 @@ def test_a_readable_traceback_stays() -> None:
 
 
 def test_another_traceback_is_reduced_to_its_last_line() -> None:
-    """An error keeps its message. Its frames are removed, because they name files of this machine."""
+    """An error keeps its message. Its traceback is removed, because it contains paths of this machine."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))
@@ -73,7 +73,10 @@ def test_another_traceback_is_reduced_to_its_last_line() -> None:
 
 
 def test_every_cell_gets_a_unique_id() -> None:
-    """Exercises and checks get the id of their part. Valid ids stay, and duplicates get a number."""
+    """The id of an exercise or of a check contains the id of its part.
+
+    Valid ids stay, and duplicates get a number as a suffix.
+    """
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
     notebook["cells"][3]["id"] = "whatever"
     tidy(notebook)

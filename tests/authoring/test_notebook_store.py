@@ -16,7 +16,7 @@ from tests.authoring.books import book, check, code, exercise, text
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """Create a checkout with one chapter, which has all parts that its checks declare."""
+    """Create a checkout with one chapter; it has all parts that the chapter's checks declare."""
     cells = [text("# Write a server")]
     for part in parts_of("05"):
         answer = [f"{part.start}\nanswered = True"] if part.start else []
@@ -32,7 +32,7 @@ def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> No
 
 
 def test_sync_updates_the_notebooks(root: Path) -> None:
-    """Before a sync, `check` lists the missing notebook. After it, `check` passes.
+    """Before the first sync, `check` lists the missing notebook. After the sync, `check` passes.
 
     A second sync writes nothing.
     """
@@ -68,7 +68,7 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
     """The student's cell contains the broken file from the check, and is not blank."""
     path = "src/lamp_services/CMakeLists.txt"
     write(tmp_path, book(*repair(f"%%writefile {path}\nproject(lamp_services)")), "04_define_a_service")
-    with pytest.raises(AuthoringError):  # The other parts of the chapter should write other files.
+    with pytest.raises(AuthoringError):  # the other parts of the chapter have to write other files
         sync(root=tmp_path)
     derived = json.loads((tmp_path / "notebooks" / "04_define_a_service.ipynb").read_text())
     cell = next(cell for cell in derived["cells"] if cell["id"] == "exercise-04-4")
@@ -85,7 +85,7 @@ def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) ->
 
 
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
-    """`check` finds a change of one byte in a derived notebook, and a sync removes the change."""
+    """`check` finds a changed byte in a derived notebook, and a sync restores the byte."""
     sync(root=root)
     path = root / "notebooks" / "05_write_a_server.ipynb"
     path.write_text(path.read_text() + "\n")
@@ -96,7 +96,7 @@ def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
 
 
 def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
-    """If a chapter is renamed, `check` names its old notebook, and a sync deletes it."""
+    """If a chapter is renamed, `check` lists the notebook with the old name, and a sync deletes it."""
     sync(root=root)
     (root / "notebooks" / "05_old_name.ipynb").write_text("{}")
     with pytest.raises(AuthoringError, match="05_old_name"):
@@ -134,14 +134,14 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """The message contains the name of the notebook and the problem."""
+    """The message contains the notebook's name and the problem."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)
 
 
 def test_a_file_that_is_not_a_notebook_is_refused(tmp_path: Path) -> None:
-    """The error for a truncated file names the file."""
+    """The error for a truncated file contains the name of the file."""
     (tmp_path / "solutions").mkdir()
     (tmp_path / "solutions" / "05_x.ipynb").write_text('{"cells": [')
     with pytest.raises(AuthoringError, match=r"05_x\.ipynb is not a notebook"):

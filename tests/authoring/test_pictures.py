@@ -1,4 +1,7 @@
-"""Panels get still pictures when a solution is stored; a measured picture stays if its code is the same."""
+"""When a solution is stored, panels get still pictures.
+
+A measured picture stays if its code has not changed.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +31,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as it is stored if the stored notebook was `before`."""
+    """Return `notebook` as it is stored when the earlier stored notebook is `before`."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)
@@ -36,7 +39,10 @@ def stored(notebook: Notebook, before: Notebook) -> Notebook:
 
 
 def test_a_panel_gets_a_picture_beside_its_text() -> None:
-    """The text stays, and a picture is added. The view is removed, because its widget has ended."""
+    """The output keeps its text and gets a picture.
+
+    The widget's view is removed, because the kernel has ended.
+    """
     notebook = stored(executed("<svg>1</svg>"), book())
     (output,) = notebook["cells"][0]["outputs"]
     assert set(output["data"]) == {"text/plain", SVG}
@@ -45,7 +51,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """A second run of the same code keeps the stored plot, even if its measured times differ."""
+    """After a second run of the same code, the stored plot stays, even if the measured times differ."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first
@@ -53,7 +59,7 @@ def test_a_plot_stays_while_nothing_changed() -> None:
 
 @pytest.mark.parametrize("change", ["source", "text", "earlier cell", "no digest"])
 def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
-    """The new plot replaces the stored plot after a change of the output's text or of the code."""
+    """After a change of the output's text or of the code, the new plot replaces the stored plot."""
     first = stored(executed("<svg>1</svg>"), book())
     again = executed("<svg>2</svg>", source="plot(2)" if change == "source" else "plot()")
     if change == "text":
@@ -66,7 +72,7 @@ def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
 
 
 def test_only_a_measured_picture_of_a_panel_stays() -> None:
-    """The picture of a question is always new. The picture of a recording of turtles stays."""
+    """The picture of a question is drawn again each time. The picture of a recording of turtles is kept."""
     for panel, stays in (("prediction", False), ("turtles", True)):
         first = stored(executed("<svg>1</svg>", panel=panel), book())
         first["cells"][0]["outputs"][0]["data"][SVG] = "<svg>old</svg>"
@@ -75,7 +81,7 @@ def test_only_a_measured_picture_of_a_panel_stays() -> None:
 
 
 def test_a_widget_of_another_library_gets_no_picture() -> None:
-    """The course can draw only its own panels."""
+    """The course draws pictures of its own panels only."""
     notebook = executed("<svg>1</svg>")
     notebook["metadata"]["widgets"][STATES]["state"]["m"]["state"]["_anywidget_id"] = "another.Widget"
     assert set(stored(notebook, book())["cells"][0]["outputs"][0]["data"]) == {"text/plain"}

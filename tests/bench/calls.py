@@ -1,4 +1,4 @@
-"""Calls: the cost of bounded calls, of the service panel, of the robust client and of the recorder.
+"""Measures calls: those with a timeout, those of the service panel, the robust client, and the recorder.
 
 usage: ./course run python tests/bench/calls.py bounded|panel|robust|recorder [OPTION …]
 """
@@ -31,12 +31,13 @@ from course_pkg.panels import ServicePanel
 from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look, prepare_node
 from course_pkg.ros.trace.recorder import Recorder
 
-# bounded: compares the time of a call through BoundedProxy with that of a call through rospy.ServiceProxy.
-# Both call the same server, alternately in blocks of 20 calls. It prints the medians and their ratio.
+# bounded: compares the duration of a call through BoundedProxy with that of a call through
+# rospy.ServiceProxy. Both call the same server; they alternate in blocks of 20 calls. It prints the medians
+# and their ratio.
 
 
 def bounded_main() -> None:
-    """Measure calls with new connections, calls with persistent connections, and snapshots of the graph."""
+    """Measure calls on new connections, calls on persistent connections, and snapshots of the graph."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     calls = parser.parse_args().calls
@@ -54,7 +55,10 @@ def bounded_main() -> None:
 
 
 def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy, calls: int) -> None:
-    """Print the medians of both proxies in ms, and their ratio. The proxies alternate."""
+    """Print the median duration of a call through each proxy in ms, and the ratio of the medians.
+
+    The proxies alternate.
+    """
     for proxy in (bare, bounded):
         times_of(partial(proxy, 1.2, 5.2, 8.9), 50)
     blocks: tuple[list[float], list[float]] = ([], [])
@@ -66,7 +70,7 @@ def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy,
 
 
 def looks(count: int) -> None:
-    """Print the time of a snapshot of a graph with `count` nodes."""
+    """Print the duration of a snapshot of a graph with `count` nodes."""
     processes = [NodeProcess.rosrun("course_pkg", "pulse", name=f"pulse_{number}") for number in range(count)]
     for number, process in enumerate(processes):
         process.wait_for_service(f"/pulse_{number}/get_loggers", timeout=60)
@@ -79,15 +83,16 @@ def looks(count: int) -> None:
         process.stop()
 
 
-# panel: compares the time of a call through the service panel with that of a rospy proxy, both without a
-# persistent connection. The panel converts the strings of the form to values, makes the call, and converts
-# the response to lines. Client and server each use one core, and panel and proxy alternate.
+# panel: compares the duration of a call through the service panel with that of a call through a rospy proxy,
+# both on new connections. The panel converts the strings of the form to values, makes the call, and converts
+# the response to rows of a table. The client and the server use one core each; calls of the panel and of the
+# proxy alternate.
 
 PANEL_BAR = 1.15
 
 
 def panel_compare(calls: int) -> tuple[float, float]:
-    """Return the medians of the rospy proxy and of the panel in ms."""
+    """Return the median durations of a call through the rospy proxy and through the panel, in ms."""
     node = join("bench_panel_call")
     server = node.run("course_pkg", "server")
     server.wait_for_service("/getGeometry", timeout=20)
@@ -108,7 +113,7 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print the ratio of each run; return 1 if the median of the ratios misses the bar."""
+    """Print the ratio of each run; return 1 if the median of the ratios does not meet the bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=3)
@@ -125,15 +130,15 @@ def panel_main() -> int:
     return int(ratio > PANEL_BAR)
 
 
-# robust: pays 200 times with the solution of 12.3, and counts the errors. The till has a fault at every third
-# payment. The till is a separate process that is really stopped, killed and restarted. It writes each payment
-# to a file before it sends its response. These are errors: a receipt without an entry in the file, a payment
-# that is missing or made twice, a refusal that is not reported, or no receipt at all. A hang is a call that
-# has not ended 2 s after its deadline.
+# robust: makes 200 payments with the solution of 12.3, and counts the errors. The till causes a fault at
+# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. It writes
+# each payment to a file before it sends its response. These count as errors: a receipt without an entry in
+# the file, a payment that is missing or was made twice, a refusal that pay() does not report, and a missing
+# receipt. A payment that has not ended 2 s after its time limit counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # s for one payment; a killed till needs about 1 s to restart
-GRACE = 2.0  # s after the deadline; a call that still runs then is a hang
+DEADLINE = 15.0  # time limit for one payment (s); a killed till needs about 1 s for its restart
+GRACE = 2.0  # s after the time limit; a payment that has not ended by then is a hang
 IN_THE_TILL = (
     "dies before it charges",
     "charges and dies",
@@ -147,7 +152,7 @@ FAULTS = (*IN_THE_TILL, *FROM_OUTSIDE)
 
 
 def robust_main() -> int:
-    """Pay many times, and print the numbers of errors and of hangs; return 1 if there are any."""
+    """Make many payments, and print the numbers of errors and hangs; return 1 if there are any."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=200)
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -175,7 +180,7 @@ def robust_main() -> int:
 
 
 def reference() -> Callable[[str, int, float], int | None]:
-    """Return the function pay() from the solution of the chapter."""
+    """Return the function pay() of the chapter's solution."""
     cells = json.loads(SOLUTION.read_text("utf-8"))["cells"]
     names: dict[str, Any] = {
         "rospy": rospy,
@@ -192,7 +197,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A till in a separate process, which is restarted whenever it has ended."""
+    """A till in a separate process; when the process ends, it is started again."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -203,7 +208,7 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Pay while the till has `fault`, and return "right", "hang", or a description of the error."""
+        """Pay while the till causes `fault`, and return "right", "hang", or a description of the error."""
         self._cause(fault, dice)
         results: list[object] = []
 
@@ -236,7 +241,8 @@ class Street:
         elif fault == "is shut down":
             self._till.interrupt()
         elif fault == "is killed while it is asked":
-            delay = dice.uniform(0.0, 0.004)  # a call takes about 3 ms
+            # a call takes about 3 ms, so the fault comes at a random moment of it
+            delay = dice.uniform(0.0, 0.004)
             threading.Timer(delay, self._signal, [self._till.pid, signal.SIGKILL]).start()
 
     def _signal(self, pid: int, number: int) -> None:
@@ -244,7 +250,7 @@ class Street:
             os.kill(pid, number)
 
     def _recover(self) -> None:
-        """Wait until the till works again and has no planned fault."""
+        """Wait until the till works again and no fault is planned."""
         (self._folder / "plan").write_text("")
         deadline = time.monotonic() + 30
         while time.monotonic() < deadline:
@@ -275,14 +281,14 @@ class Street:
 
 
 def books(folder: Path) -> list[dict[str, Any]]:
-    """Return all payments in the till's file, without an incomplete last line."""
+    """Return all payments in the till's file; an incomplete last line is left out."""
     path = folder / "books"
     lines = path.read_text("utf-8").splitlines() if path.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]
 
 
 class Till:
-    """The till in its own process. It writes each request to a file once, before it sends the response."""
+    """The till in its process. It writes each request to a file once, before it sends the response."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -290,7 +296,7 @@ class Till:
         self._receipts = {entry["id"]: entry["receipt"] for entry in books(folder)}
 
     def charge(self, request: Any) -> ChargeResponse:  # noqa: ANN401 -- a class that catkin generates
-        """Handle a payment, with the planned fault."""
+        """Handle a payment, and cause the planned fault."""
         with self._lock:
             plan = (self._folder / "plan").read_text("utf-8")
             (self._folder / "plan").write_text("")
@@ -328,13 +334,14 @@ def serve(folder: Path) -> None:
     rospy.spin()
 
 
-# recorder: the cost of the recorder. It measures a call with a new connection, a call over a persistent
-# connection, and a published message, with and without recording in both nodes. It also measures a single
-# event. The clients with and without recording alternate, and clients and servers each use one core. The
-# result of a run is the lower quartile of its times, and the best run is printed, because other load makes
-# times longer and never shorter.
+# recorder: measures the cost of the recorder. It measures a call on a new connection, a call on a persistent
+# connection, and a published message, each with and without recording in both nodes. It also measures a
+# single event. The clients with and without recording alternate; clients and servers use one core each. The
+# result of a run is the lower quartile of its durations. The best run is printed, because other load makes
+# durations only longer.
 
-RECORDER_BAR, EVENT_BAR = 1.03, 5.0  # the ratio for a call with a new connection; the time of an event in µs
+# maximum ratio for a call on a new connection; maximum duration of an event (µs)
+RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time
 import rospy
@@ -381,7 +388,7 @@ Figures = dict[str, float]
 
 
 def recorder_main() -> int:
-    """Print all results; return 1 if one misses its bar."""
+    """Print all results; return 1 if one of them does not meet its bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=7)
@@ -410,7 +417,7 @@ def started(way: str, core: int) -> subprocess.Popen[bytes]:
 
 
 def figures(way: str, core: int, calls: int) -> Figures:
-    """Run one client, and return its times in s."""
+    """Run one client, and return its durations in s."""
     command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     found: Figures = json.loads(done.stdout.splitlines()[-1])
@@ -418,7 +425,7 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the best times; return the ratio for a call with a new connection."""
+    """Print the best durations; return the ratio for a call on a new connection."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
@@ -429,7 +436,7 @@ def shown(runs: list[tuple[Figures, Figures]]) -> float:
 
 
 def event() -> float:
-    """Return the time in µs to record the beginning and the end of an event."""
+    """Return the duration in µs of recording the beginning and the end of an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):
@@ -447,6 +454,6 @@ if __name__ == "__main__":
             "panel": panel_main,
             "robust": robust_main,
             "recorder": recorder_main,
-            "till": lambda: serve(Path(sys.argv[1])),  # a process that `robust` starts
+            "till": lambda: serve(Path(sys.argv[1])),  # the benchmark `robust` starts this process
         }
     )

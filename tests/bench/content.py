@@ -1,4 +1,6 @@
-"""Counts objects, names, parts, errors and words in the chapters, and compares each number with its bar.
+"""Counts objects, names, parts, lines of errors and words in the chapters.
+
+It compares each count with its bar.
 
 usage: ./course run python tests/bench/content.py objects|names|parts|errors|prose|all
 
@@ -22,7 +24,8 @@ from course_pkg.checking.parts import every_part
 
 ROOT = Path(__file__).parents[2]
 ROSPY = {"Service", "ServiceProxy", "Publisher", "Subscriber"}
-OURS = {"serve", "proxy", "call", "advertise", "subscribe"}  # methods of join's result for the same tasks
+# methods of the object that join() returns; they do the same as rospy's classes
+OURS = {"serve", "proxy", "call", "advertise", "subscribe"}
 TYPES = ("course_pkg.srv", "course_pkg.msg", "course_pkg.action")
 COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 NAMES_BAR, PARTS_BAR, ERROR_BAR, WORDS_BAR = 18, 95, 12, 38_000
@@ -30,7 +33,7 @@ NAMES_BAR, PARTS_BAR, ERROR_BAR, WORDS_BAR = 18, 95, 12, 38_000
 
 @dataclass(frozen=True)
 class Code:
-    """One code cell: its place, its source without magics, its magics, and whether it is an exercise."""
+    """A code cell: its place, its source without magics, its magics, and whether it is an exercise."""
 
     place: str
     tree: ast.Module
@@ -39,9 +42,9 @@ class Code:
 
 
 def objects_main() -> bool:
-    """Print how many objects in exercises rospy creates, and how many the course creates.
+    """Print how many objects in exercises are created by rospy, and how many by the course.
 
-    Returns whether the course creates any.
+    Returns whether any is created by the course.
     """
     created = Counter(
         "rospy" if owner == "rospy" else f"the course ({code.place})"
@@ -57,7 +60,7 @@ def objects_main() -> bool:
 
 
 def names_main() -> bool:
-    """Print the names of course_pkg in code cells, except types; return whether there are too many."""
+    """Print the names from course_pkg in code cells, except types; return whether there are too many."""
     found: dict[str, set[str]] = {}
     for code in code_cells():
         for name in {*imported(code.tree), *methods(code.tree), *code.magics}:
@@ -77,7 +80,7 @@ def parts_main() -> bool:
 
 
 def errors_main() -> bool:
-    """Print the number of lines of the stored errors; return whether an error has too many lines."""
+    """Print the number of lines of each stored error; return whether an error has too many lines."""
     lines = {
         f"{path.stem[:2]}[{number}]": len(COLOURS.sub("", "\n".join(output.traceback)).splitlines())
         for path, number, cell in cells("code")
@@ -92,7 +95,7 @@ def errors_main() -> bool:
 
 
 def prose_main() -> bool:
-    """Print the number of words of prose in each chapter; return whether the total is too high."""
+    """Print the number of words of prose in each chapter; return whether the sum is too high."""
     words = Counter[str]()
     for path, _, cell in cells("markdown"):
         words[path.stem[:2]] += len(re.findall(r"[^\W_]+", cell.source))
@@ -102,12 +105,12 @@ def prose_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all numbers; return whether any bar is missed."""
+    """Print all counts; return whether any of them does not meet its bar."""
     return any([objects_main(), names_main(), parts_main(), errors_main(), prose_main()])
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield the notebook's path, the cell's number and the cell, for each cell of this kind."""
+    """Yield the path of the notebook, the number of the cell and the cell, for each cell of this kind."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:
@@ -115,7 +118,7 @@ def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
 
 
 def code_cells() -> Iterator[Code]:
-    """Yield the code cells that contain Python, including the cells that write a program."""
+    """Yield the code cells with Python, including the cells that write a program."""
     for path, number, cell in cells("code"):
         first = cell.source.partition("\n")[0]
         if first.startswith("%%") and not re.match(r"%%writefile .*\.py$", first):
@@ -145,7 +148,7 @@ def owners(tree: ast.AST) -> Iterator[str]:
 
 
 def imported(tree: ast.AST) -> Iterator[str]:
-    """Yield the names that code imports from course_pkg, except service and message types."""
+    """Yield the names that the code imports from course_pkg, except service and message types."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "course_pkg":
             if not (node.module or "").startswith(TYPES):
@@ -155,7 +158,10 @@ def imported(tree: ast.AST) -> Iterator[str]:
 
 
 def methods(tree: ast.AST) -> Iterator[str]:
-    """Yield the methods and properties of `node` that code uses. In the chapters, `node` is join's result."""
+    """Yield the methods and properties of `node` that the code uses.
+
+    In the chapters, `node` is the object that join() returns.
+    """
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "node":
             yield f"node.{node.attr}"

@@ -1,9 +1,9 @@
-"""Similar answers: whether the flags find all copies, and only copies, in a class of 300.
+"""Tests whether the flags find all copies, and nothing else, in a class of 300 students.
 
-`grading.py copies [SEED …]` writes a class of chapter 05: each of 280 students takes one of the independently
-written answers for each exercise (from independent_05.txt and from the chapter's example answers) and writes
-it in a style of their own. The 20 others copy answers of a student and disguise them: other names, another
-order, other comments. Ten of them copy everything, ten only two of four exercises.
+`grading.py copies [SEED …]` writes a class of chapter 05: for each exercise, each of 280 students takes one
+of the independently written answers (from independent_05.txt and from the chapter's example answers) and
+changes its style. The 20 other students copy answers of a student and disguise the copies with other names,
+another order and other comments. Ten of them copy all exercises, and ten copy only two of four exercises.
 """
 
 from __future__ import annotations
@@ -33,11 +33,14 @@ SECONDS, FALSE_ALARMS, WRITTEN = 20.0, 2, 60
 HANDLERS = {"handle_count", "handle_reset", "handle_switch", "handle_checked_geometry"}
 SERVICES = {"count_service", "reset_service", "switch_service", "checked_service"}
 KEPT = {"Counter", "Switch", "counter", "switch", *HANDLERS, *SERVICES}
-Answers = dict[str, str]  # sources, by the part
+Answers = dict[str, str]  # the source of the answer to each part
 
 
 def copies_main() -> int:
-    """Measure with each seed, and print one line for each; return the number of missed bars."""
+    """Measure with each seed, and print one line for each seed.
+
+    Return the number of bars that are not met.
+    """
     written = independent_answers()
     count = sum(map(len, written.values()))
     print(f"{count} independently written answers of at least {STATEMENTS} statements (bar {WRITTEN})")
@@ -48,7 +51,7 @@ def copies_main() -> int:
 
 
 def measured(written: dict[str, list[str]], seed: int) -> bool:
-    """Print what the flags find in the class of this seed; return whether the bars are met."""
+    """Print the result of the flags for the class of this seed; return whether the bars are met."""
     students, pairs = a_class(written, random.Random(seed))  # noqa: S311 -- a class that can be repeated
     submissions = [handed_in(number, answers) for number, answers in enumerate(students)]
     grades = [Grade(each.student, CHAPTER, (), origin=each.origin) for each in submissions]
@@ -71,7 +74,7 @@ def measured(written: dict[str, list[str]], seed: int) -> bool:
 
 
 def independent_answers() -> dict[str, list[str]]:
-    """Return the sources by part; answers with too few statements are left out."""
+    """Return the sources of the answers to each part; answers with too few statements are left out."""
     found: dict[str, list[str]] = {}
     own = Path(__file__).with_name("independent_05.txt").read_text("utf-8")
     for header, source, _ in percent_cells(own):
@@ -88,7 +91,7 @@ def independent_answers() -> dict[str, list[str]]:
 def a_class(
     written: dict[str, list[str]], draw: random.Random
 ) -> tuple[list[Answers], list[tuple[int, int]]]:
-    """Return the answers of all students, and the pairs (original, copy) by their numbers."""
+    """Return the answers of all students, and the pairs (original, copy) as numbers of students."""
     students: list[Answers] = []
     for _ in range(STUDENTS - COPIES):
         style = a_style(draw)
@@ -108,12 +111,12 @@ def a_class(
 
 
 def styled(source: str, style: list[Rule], draw: random.Random) -> str:
-    """Return an answer in a student's style."""
+    """Return an answer in the style of a student."""
     return in_style(source, style, draw)
 
 
 def handed_in(number: int, answers: Answers) -> Submission:
-    """Return a submission of the handed-out notebook with these answers."""
+    """Return a submission: the handed-out notebook with these answers."""
     notebook = json.loads(json.dumps(derived(read(NotebookStore().solutions([CHAPTER])[0]))))
     for cell in code_cells(notebook):
         cell["source"] = answers.get(exercise_of(cell), cell["source"])

@@ -1,8 +1,8 @@
-"""Change programs as students do: rewrite an answer in a style of one's own, or disguise a copy.
+"""Changes programs as students do: writes an answer in another style, or disguises a copy.
 
-A style changes the structure: other statements, in other places. A disguise changes only what a copy can
-change without understanding the program: names, comments, and the order of functions and of independent
-statements.
+A style changes the structure of a program: it uses other statements in other places. A disguise changes only
+what a student can change without understanding the program: names, comments, and the order of functions and
+of independent statements.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ Rule = Callable[[ast.Module, random.Random], None]
 
 
 def in_style(source: str, style: Sequence[Rule], draw: random.Random) -> str:
-    """Return a program with the same purpose, after the rules of a style."""
+    """Return a program that does the same and follows the rules of a style."""
     magic, module = _parsed(source)
     for rule in style:
         rule(module, draw)
@@ -55,7 +55,7 @@ def a_style(draw: random.Random) -> list[Rule]:
 
 
 def disguised(source: str, keep: set[str], draw: random.Random) -> str:
-    """Return a copy with other names, another order and other comments; names in `keep` stay."""
+    """Return a copy with other names, another order and other comments; the names in `keep` do not change."""
     magic, module = _parsed(source)
     _without_docstrings(module)
     _renamed(module, keep, draw)
@@ -86,7 +86,7 @@ def _without_docstrings(module: ast.Module) -> None:
 
 
 def _renamed(module: ast.Module, keep: set[str], draw: random.Random) -> None:
-    """Give new names to functions, methods, parameters, variables and attributes of the program."""
+    """Rename the functions, methods, parameters, variables and attributes of the program."""
     listed = [alias for node in ast.walk(module) for alias in getattr(node, "names", [])]
     imported = {alias.asname or alias.name for alias in listed if isinstance(alias, ast.alias)}
     fixed = {"success", "message", "area", "volume", "self", *keep, *imported}
@@ -147,7 +147,7 @@ def _members(module: ast.Module) -> set[str]:
 
 
 def _reordered(module: ast.Module, draw: random.Random) -> None:
-    """Shuffle methods, neighbouring functions and classes, and neighbouring independent assignments."""
+    """Shuffle methods, adjacent functions and classes, and adjacent independent assignments."""
     for node in ast.walk(module):
         body = getattr(node, "body", None)
         if not isinstance(body, list):
@@ -215,7 +215,7 @@ def _statement(text: str) -> ast.stmt:
 
 
 def name_results(module: ast.Module, draw: random.Random) -> None:
-    """Give a name to each returned response, and set its fields one by one in some of them."""
+    """Assign each returned response to a variable; in some cases, assign its fields one by one."""
     name, one_by_one = draw.choice(RESULTS), draw.random() < 0.5
     for body in _blocks(module):
         for place in range(len(body) - 1, -1, -1):
@@ -235,7 +235,7 @@ def name_results(module: ast.Module, draw: random.Random) -> None:
 
 
 def log_calls(module: ast.Module, draw: random.Random) -> None:
-    """Write a line to the log at the beginning of functions."""
+    """Add a log message at the beginning of functions."""
     level = draw.choice(["loginfo", "logdebug", "logwarn", "loginfo_once"])
     for function in _functions(module):
         if draw.random() < 0.7:
@@ -245,7 +245,7 @@ def log_calls(module: ast.Module, draw: random.Random) -> None:
 
 
 def print_results(module: ast.Module, draw: random.Random) -> None:
-    """Print something before a function returns."""
+    """Add a print() before each return."""
     text = draw.choice(['print("done")', 'print("ok", flush=True)', "rospy.sleep(0)"])
     for body in _blocks(module):
         if body and isinstance(body[-1], ast.Return) and draw.random() < 0.6:
@@ -253,7 +253,7 @@ def print_results(module: ast.Module, draw: random.Random) -> None:
 
 
 def format_texts(module: ast.Module, draw: random.Random) -> None:
-    """Write f-strings and str() in another way."""
+    """Rewrite f-strings and calls of str() in another form."""
     style = draw.choice(["{}", "%"])
 
     class Change(ast.NodeTransformer):
@@ -277,7 +277,7 @@ def turn_conditions(module: ast.Module, draw: random.Random) -> None:
 
 
 def leave_else_out(module: ast.Module, draw: random.Random) -> None:
-    """Put what follows a branch that returns into an else branch."""
+    """Move the statements after a branch that returns into an else branch."""
     for body in _blocks(module):
         for place, node in enumerate(body):
             ends = isinstance(node, ast.If) and isinstance(node.body[-1], ast.Return | ast.Raise)
@@ -302,7 +302,7 @@ def spread_conditional_values(module: ast.Module, draw: random.Random) -> None:
 
 
 def name_arguments(module: ast.Module, draw: random.Random) -> None:
-    """Give a name to the arguments of calls that are calculated."""
+    """Assign calculated arguments of calls to variables first."""
     name = draw.choice(WORDS)
     for body in _blocks(module):
         for place in range(len(body) - 1, -1, -1):
@@ -329,7 +329,7 @@ def compare_with_true(module: ast.Module, draw: random.Random) -> None:
 
 
 def guard(module: ast.Module, draw: random.Random) -> None:
-    """Check the argument of handlers first."""
+    """Check the argument at the beginning of handlers."""
     test = draw.choice(["{} is None", "not hasattr({}, '__slots__')", "rospy.is_shutdown()"])
     for function in _functions(module):
         if function.args.args and draw.random() < 0.8:
@@ -338,7 +338,7 @@ def guard(module: ast.Module, draw: random.Random) -> None:
 
 
 def protect(module: ast.Module, draw: random.Random) -> None:
-    """Put the bodies of handlers into a try statement, or below a lock."""
+    """Put the body of each handler into a try statement, or into a `with` statement with a lock."""
     error = draw.choice(["ValueError", "TypeError", "Exception"])
     if draw.random() < 0.5:
         for function in _functions(module):
@@ -358,7 +358,7 @@ def protect(module: ast.Module, draw: random.Random) -> None:
 
 
 def annotate_steps(module: ast.Module, draw: random.Random) -> None:
-    """Copy the fields of the request into variables first."""
+    """Assign the fields of the request to variables first."""
     for function in _functions(module):
         fields = sorted(
             {node.attr for node in ast.walk(function) if isinstance(node, ast.Attribute)
@@ -374,7 +374,7 @@ def annotate_steps(module: ast.Module, draw: random.Random) -> None:
 
 
 def slip(module: ast.Module, draw: random.Random) -> None:
-    """Make a mistake: another number, another comparison, or a sum in place of a product."""
+    """Add a mistake: another number, another comparison, or a sum in place of a product."""
     for node in ast.walk(module):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and draw.random() < 0.5:
             node.op = ast.Add()
@@ -385,7 +385,7 @@ def slip(module: ast.Module, draw: random.Random) -> None:
 
 
 def serve_in_main(module: ast.Module, draw: random.Random) -> None:
-    """Create the services in a function."""
+    """Move the creation of the services into a function."""
     assigned = [node for node in module.body if isinstance(node, ast.Assign)]
     services = [node for node in assigned if ast.unparse(node.value).startswith("rospy.Service(")]
     if services:

@@ -1,4 +1,7 @@
-"""Grading: its speed, the effect of a kill, the grades of the solutions, other authors' answers, and copies.
+"""Measures grading.
+
+It measures the speed, the effect of a kill, the grades of solutions and of other answers, and the flags for
+copies.
 
 usage: ./course run python tests/bench/grading.py speed|kill|reference|answers|copies [OPTION …]
 """
@@ -37,11 +40,11 @@ from course_pkg.setup import Places
 from tests.checking.workers import WorkerPool
 from tests.grading.submitted import WRONG, hand_in
 
-# speed: compares the course's grader with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`.
-# SUBMISSIONS students (default 30) hand in the notebook of chapter 05. A third of them have one wrong answer.
-# Three commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and
-# `nbgrader autograde` with a notebook that has the same cells. The ratio compares the times for one notebook.
-# With `plain`, only the first command runs. With `many`, the grader also grades 1,000 (or COUNT) submissions,
+# speed: compares `course grade` with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`. SUBMISSIONS
+# students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
+# commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
+# autograde` with a notebook that has the same cells. The ratio is that of the durations per notebook. With
+# `plain`, only the first command runs. With `many`, `course grade` also grades 1,000 (or COUNT) submissions,
 # and the memory of all its processes is measured. nbgrader is installed into a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
@@ -52,7 +55,7 @@ BAR, MANY_BAR = 10.0, 0.9
 
 
 def speed_main() -> None:
-    """Measure the graders, and print a table with the time of each."""
+    """Measure each grading command, and print a table with the durations."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 30
     words = sys.argv[2:]
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -84,7 +87,7 @@ def timed(work: Callable[[], object]) -> float:
 
 
 def handed_in(folder: Path, count: int) -> None:
-    """Write `count` different submissions. Every third submission has a wrong answer."""
+    """Write `count` submissions, which all differ. Every third submission has a wrong answer."""
     solution = read(NotebookStore().solutions([CHAPTER])[0])
     for number in range(count):
         notebook = json.loads(json.dumps(solution))
@@ -99,14 +102,17 @@ def handed_in(folder: Path, count: int) -> None:
 
 
 def speed_grade(submissions: Path, out: Path, validate: str) -> None:
-    """Grade the submissions with the command that an instructor types."""
+    """Grade the submissions with the same command as an instructor."""
     command = [Places.of().checkout / "course", "grade", submissions, "--out", out, "--validate", validate]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     assert subprocess.run(command, check=False, **quiet).returncode in (GRADED, NEED_A_LOOK)
 
 
 def many(here: Path, few: float, count: int) -> None:
-    """Grade `count` submissions. Print the throughput compared with few submissions, and the memory."""
+    """Grade `count` submissions.
+
+    Print the throughput for many submissions, relative to that for few submissions, and the memory.
+    """
     handed_in(here / "many", count)
     with watched() as seen:
         each = timed(lambda: speed_grade(here / "many", here / "many-out", "none")) / count
@@ -120,7 +126,7 @@ def many(here: Path, few: float, count: int) -> None:
 
 @contextmanager
 def watched() -> Iterator[list[float]]:
-    """Yield a list to which the memory of all child processes is added once per second, in MiB."""
+    """Yield a list; once per second, the memory of all child processes in MiB is added to it."""
     seen: list[float] = []
     over = threading.Event()
 
@@ -146,7 +152,7 @@ def _resident(pid: int) -> int:
 
 
 def nbgrader(here: Path, count: int) -> float:
-    """Return the time in s that nbgrader needs for each of `count` notebooks with the same cells."""
+    """Return how long nbgrader needs for each of `count` notebooks with the same cells (s)."""
     python = nbgrader_python()
     course = here / "nbgrader"
     assignment = course / "source" / "ps" / "notebook.ipynb"
@@ -171,7 +177,10 @@ def nbgrader(here: Path, count: int) -> float:
 
 
 def as_assignment() -> dict[str, object]:
-    """Return the notebook with nbgrader's metadata: exercise cells are answers, and check cells are tests."""
+    """Return the notebook with nbgrader's metadata.
+
+    The exercise cells are answers, and the check cells are tests.
+    """
     notebook = json.loads(json.dumps(read(NotebookStore().solutions([CHAPTER])[0])))
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
@@ -192,7 +201,10 @@ def as_assignment() -> dict[str, object]:
 
 
 def nbgrader_python() -> Path:
-    """Return the interpreter of an environment with nbgrader. The environment is created only once."""
+    """Return the interpreter of an environment in which nbgrader is installed.
+
+    The environment is created only once.
+    """
     places = Places.of()
     folder = places.cache.parent / "bench-nbgrader"
     python = folder / "bin" / "python"
@@ -231,7 +243,7 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run and continue it; return whether its grades are `expected` and no process was left."""
+    """Kill a run and continue it; return whether its grades are `expected` and no process is left."""
     moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)
@@ -259,7 +271,7 @@ def still_there(pids: list[int]) -> list[int]:
 
 
 def alive(pid: int) -> bool:
-    """Return whether a process runs, and is not a zombie."""
+    """Return whether a process runs; a zombie does not run."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -267,24 +279,24 @@ def alive(pid: int) -> bool:
 
 
 def start(submissions: Path, out: Path) -> subprocess.Popen[bytes]:
-    """Start the command `course grade` without nbval, as an instructor does."""
+    """Start `course grade` without nbval, in the same way as an instructor."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none"]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ})
 
 
 def grade_without_nbval(submissions: Path, out: Path) -> None:
-    """Grade all submissions, and exit if this fails."""
+    """Grade all submissions; if this fails, exit."""
     if start(submissions, out).wait():
         sys.exit("grading failed")
 
 
 # reference: grades the solutions. Arguments: `[RUNS]`. The solution of each chapter is handed in RUNS times
-# (default 20) and graded like other submissions, several at the same time. Each part must pass each time,
-# because a check that sometimes refuses a correct answer takes points from students.
+# (default 20) and graded like other submissions, several of them at the same time. Each part must pass each
+# time. A check that sometimes refuses a correct answer would take points from students.
 
 
 def reference_main() -> None:
-    """Grade the solutions, and print each part that did not pass."""
+    """Grade the solutions, and list each part that did not pass."""
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     lost: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -293,7 +305,7 @@ def reference_main() -> None:
             for path in NotebookStore().solutions():
                 target = hand_in(here / "in", f"s{number:02}", path.name[:2])
                 notebook = json.loads(target.read_text("utf-8"))
-                notebook["cells"][0]["source"] += f"\n{number}"  # Equal notebooks are graded only once.
+                notebook["cells"][0]["source"] += f"\n{number}"  # equal notebooks would be graded only once
                 target.write_text(json.dumps(notebook), "utf-8")
         grade_without_nbval(here / "in", here / "out")
         graded = 0
@@ -313,7 +325,7 @@ def reference_main() -> None:
     sys.exit(bool(lost))
 
 
-# answers: checks answers whose authors knew only the goals of the parts. Arguments: `FOLDER [PART …]`. Each
+# answers: checks answers by authors who knew only the goals of the parts. Arguments: `FOLDER [PART …]`. Each
 # file NN.k.py contains the answers to one part, in percent format. A line `# --- next cell` separates cells:
 #
 #     # %% 05.1 right: TITLE
@@ -327,7 +339,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Check the answers, and return the number of answers whose verdict differs from their header."""
+    """Check the answers; return how many of them have another verdict than their header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

@@ -1,4 +1,4 @@
-"""The size and the structure of the code: each number with its bar.
+"""Measures the size and the structure of the code, and compares each number with its bar.
 
 usage: ./course run python tests/bench/house.py size|imports|types|functions|hints|all
 
@@ -42,7 +42,10 @@ BARS = {
 
 
 def size_main() -> bool:
-    """Print the amount of Python, and the modules of the fullest folder; return whether a bar is exceeded."""
+    """Print the amount of Python, and the largest number of modules in a folder.
+
+    Return whether a bar is exceeded.
+    """
     lines = {path: len(path.read_text("utf-8").splitlines()) for path in python_files()}
     folders = Counter(path.parent for path in lines if path.name != "__init__.py")
     fullest, modules = folders.most_common(1)[0]
@@ -57,7 +60,7 @@ def size_main() -> bool:
 
 
 def imports_main() -> bool:
-    """Print the numbers of wrong imports; return whether a bar is exceeded."""
+    """Print the numbers of forbidden imports; return whether a bar is exceeded."""
     return any(
         [
             over("import circles", refused("circles")),
@@ -68,7 +71,7 @@ def imports_main() -> bool:
 
 
 def types_main() -> bool:
-    """Print how often the code uses Any, including imports; return whether the bar is exceeded."""
+    """Print how often the code uses Any (an import counts, too); return whether the bar is exceeded."""
     uses = {str(path.relative_to(ROOT)): uses_of_any(path.read_text("utf-8")) for path in python_files()}
     most, count = max(uses.items(), key=lambda item: item[1])
     return over("uses of Any", sum(uses.values()), f"{count} of them in {most}")
@@ -123,7 +126,10 @@ def is_answers(path: Path) -> bool:
 
 
 def refused(contract: str) -> int:
-    """Return how many imports break the import-linter contract with the id `contract` in pyproject.toml."""
+    """Return the number of imports that break a contract of import-linter.
+
+    `contract` is the contract's id in pyproject.toml.
+    """
     command = ["lint-imports", "--contract", contract]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if "Contracts:" not in result.stdout:
@@ -132,7 +138,7 @@ def refused(contract: str) -> int:
 
 
 def uses_of_any(source: str) -> int:
-    """Return how often the name Any occurs, including the strings of type aliases."""
+    """Return how often the name Any occurs; strings that contain types count, too."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     names = sum(token.type == tokenize.NAME and token.string == "Any" for token in tokens)
     aliases = re.findall(r': TypeAlias = "(.*)"$', source, re.MULTILINE)

@@ -8,7 +8,7 @@ usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
 - `click` prints the time from a click to Python and back to the page.
 - `kill` kills `course lab`, its master or its kernel by SIGKILL, and prints how many processes were left.
 
-`start` and `click` alternate between the two servers, so that a slow minute of the machine affects both.
+`start` and `click` alternate between the two servers, so that other load on the machine affects both.
 `./course test` installs the browser.
 """
 
@@ -37,13 +37,13 @@ from course_pkg.lab.jupyterlab import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
-START_RATIO, START_BAR = 0.75, 3.0  # the ratio to `jupyter lab`, and the absolute time in s
-CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # the ratio to `jupyter lab`, and the absolute time in ms
+START_RATIO, START_BAR = 0.75, 3.0  # maximum ratio to `jupyter lab`, and maximum duration (s)
+CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # maximum ratio to `jupyter lab`, and maximum duration (ms)
 WARM_UP = 10  # clicks
-TIMEOUT = 20.0  # s; a process that still runs after this time is left behind
+TIMEOUT = 20.0  # s; a process that still runs after this time counts as left behind
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 FLAGS += ["--disable-background-networking"]
-SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # `jupyter lab` restores old tabs
+SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # `jupyter lab` also restores old tabs
 IDLE = f"() => document.querySelector('{SHOWN} .jp-Notebook-ExecutionIndicator[data-status=idle]')"
 STEPS = ("address known", "page received", "notebook rendered", "kernel idle")
 CELL = """
@@ -52,7 +52,7 @@ button, label = ipywidgets.Button(description="click"), ipywidgets.Label("0")
 button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
 ipywidgets.VBox([button, label])
 """
-# After the pause of 60 ms, the kernel is idle again, as it is between the clicks of a person.
+# After the pause of 60 ms, the kernel is idle again, as it is between two clicks of a person.
 CLICK = """async () => {
     await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
@@ -64,11 +64,12 @@ CLICK = """async () => {
     await changed
     return performance.now() - start
 }"""
-Server = Callable[[Path, Path], AbstractContextManager[str]]  # arguments: a notebook, and a folder for state
+# the arguments are a notebook and a folder for state
+Server = Callable[[Path, Path], AbstractContextManager[str]]
 
 
 def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -> bool:
-    """Measure each server once with an empty browser cache, and then several times with a filled one."""
+    """Measure each server once with an empty browser cache, and then several times with a full cache."""
     rows: dict[str, list[list[float]]] = {name: [] for name in SERVERS}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         for _ in range(runs + 1):
@@ -92,7 +93,7 @@ def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -
 
 
 def times_of_start(context: BrowserContext, server: Server, notebook: Path, state: Path) -> list[float]:
-    """Return the time in s from the command to each of STEPS."""
+    """Return the time from the command to each of STEPS, in s."""
     began = time.perf_counter()
     with server(notebook, state) as address:
         marks = [time.perf_counter()]
@@ -104,7 +105,7 @@ def times_of_start(context: BrowserContext, server: Server, notebook: Path, stat
 
 
 def until_usable(page: Page) -> list[float]:
-    """Wait for the notebook and its kernel, and return the times at which each was ready."""
+    """Wait for the notebook and for its kernel, and return the times at which they were ready."""
     page.wait_for_selector(f"{SHOWN} .jp-RenderedMarkdown h1")
     rendered = time.perf_counter()
     page.wait_for_function(IDLE)
@@ -112,7 +113,7 @@ def until_usable(page: Page) -> list[float]:
 
 
 def click(clicks: int = 100) -> bool:
-    """Measure the clicks on each server twice, alternately."""
+    """Measure the clicks on each server twice; the servers alternate."""
     notebook = ROOT / "tests" / "bench" / f"click-{os.getpid()}.ipynb"
     cells = [nbformat.v4.new_markdown_cell("# Click"), nbformat.v4.new_code_cell(CELL)]
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -133,7 +134,7 @@ def click(clicks: int = 100) -> bool:
 
 
 def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[float]:
-    """Open the notebook on a new page, and return the time of each click in ms."""
+    """Open the notebook on a new page, and return the duration of each click in ms."""
     with server as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=FLAGS, headless=True
@@ -151,7 +152,7 @@ def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[fl
 
 
 def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str) -> bool:
-    """Print the ratio of the medians and the absolute time; return whether the ratio meets its bar."""
+    """Print the ratio of the medians and the duration; return whether both meet their bars."""
     ratio = medians["course"] / medians["stock"]
     print(f"course lab / stock: {ratio:.2f} (bar {ratio_bar}): {'met' if ratio <= ratio_bar else 'MISSED'}")
     met = medians["course"] <= bar
@@ -161,7 +162,7 @@ def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str)
 
 @contextmanager
 def course(notebook: Path, _state: Path) -> Iterator[str]:
-    """Run `./course lab`; yield the notebook's address."""
+    """Run `./course lab`; yield the address of the notebook."""
     command = [ROOT / "course", "lab", "--no-browser", notebook]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=user_environment(), text=True) as process:
         assert process.stdout
@@ -174,7 +175,7 @@ def course(notebook: Path, _state: Path) -> Iterator[str]:
 
 @contextmanager
 def stock(notebook: Path, state: Path) -> Iterator[str]:
-    """Run the unchanged JupyterLab with settings in `state`; yield the notebook's address."""
+    """Run the unchanged JupyterLab with its settings in `state`; yield the address of the notebook."""
     port = free_port()
     command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
     command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]
@@ -192,11 +193,11 @@ SERVERS: dict[str, Server] = {"stock": stock, "course": course}
 
 
 def kill(times: int = 20) -> bool:
-    """Kill `course lab`, the master and the kernel several times; return whether nothing was left."""
+    """Kill `course lab`, the master and the kernel several times; return whether nothing was left behind."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     left = 0
     for name, pattern in victims.items():
-        port = free_port()  # the same port for each start; if it is still in use, the next start fails
+        port = free_port()  # the same port for each start; a start fails if its port is still in use
         seconds, leftovers = zip(*(killed(port, pattern) for _ in range(times)), strict=True)
         count, slowest = sum(leftovers), max(seconds)
         print(f"SIGKILL of {name}, {times} times: {count} processes or ports left; slowest {slowest:.1f} s")
@@ -214,7 +215,8 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process))
         if pattern:
-            # The last match is the process itself. The first is its supervisor, with the same command line.
+            # The last match is the process itself, and the first match is its supervisor. Both have the same
+            # command line.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -228,7 +230,10 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:
-    """Return the child processes of `process`, or an empty list if there is no master or kernel yet."""
+    """Return the child processes of `process`.
+
+    Return an empty list if there is no master or no kernel yet.
+    """
     family = below(process)
     return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []
 

@@ -1,4 +1,6 @@
-"""Nodes: the rates of the turtle simulator, its behaviour under random calls, and the faults of BreakIt.
+"""Measures nodes.
+
+It measures the rates of the turtle simulator, its behaviour under random calls, and the faults of BreakIt.
 
 usage: ./course run python tests/bench/nodes.py rates|fuzz|faults [OPTION …]
 """
@@ -28,9 +30,9 @@ from course_pkg.ros import NodeProcess, PrivateMaster, join, look
 from tests.faults.surroundings import Surroundings
 from tests.turtlesim.fuzz import Fuzzer, resident, sane
 
-# rates: the processor time of the simulator, and the regularity of its ticks. It needs an idle machine. Bars,
-# with 1 and with 12 turtles that are driven and have subscribers:
-# - a rate of 62.5 Hz with an error of at most 1 %, and a p99 gap of at most 24 ms, during 20 s
+# rates: the CPU time of the simulator, and the regularity of its ticks. It needs an idle machine. Bars, with
+# 1 and with 12 turtles that move and have subscribers:
+# - a rate of 62.5 Hz with an error of at most 1 %, and 99 % of the gaps at most 24 ms (in 20 s)
 # - at most 4 % of a core with one turtle, and 15 % with 12
 # - responses of spawn, teleport and reset within 18 ms
 
@@ -38,7 +40,7 @@ TURTLES = 12
 
 
 def rates_main() -> None:
-    """Print each number and its bar."""
+    """Print each measured number and its bar."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0)
     seconds = parser.parse_args().seconds
@@ -54,7 +56,7 @@ def rates_main() -> None:
 
 
 def measure(simulator: NodeProcess, turtles: int, seconds: float) -> None:
-    """Print the rate, the gaps and the processor time while each turtle has a subscriber and a publisher."""
+    """Print the rate, the gaps and the CPU time while each turtle has a subscriber and a publisher."""
     names = [f"/turtle{number}" for number in range(1, turtles + 1)]
     arrivals: deque[float] = deque()
     with ExitStack() as open_:
@@ -83,7 +85,7 @@ def measure(simulator: NodeProcess, turtles: int, seconds: float) -> None:
 
 @contextmanager
 def driving(names: list[str]) -> Iterator[None]:
-    """Drive all turtles in circles during the block, with 10 velocities per second."""
+    """Move all turtles in circles during the `with` block, with 10 velocity messages per second."""
     publishers = [rospy.Publisher(f"{name}/cmd_vel", Twist, queue_size=1) for name in names]
     order = Twist()
     order.linear.x, order.angular.z = 2.0, 1.5
@@ -106,7 +108,7 @@ def driving(names: list[str]) -> Iterator[None]:
 
 
 def answers(count: int = 40) -> None:
-    """Print the median time of a call of each service."""
+    """Print the median duration of a call to each service."""
     spawn, reset = rospy.ServiceProxy("/spawn", Spawn), rospy.ServiceProxy("/reset", Empty)
     teleport = rospy.ServiceProxy("/turtle1/teleport_absolute", TeleportAbsolute)
     calls: dict[str, Callable[[], object]] = {
@@ -117,7 +119,7 @@ def answers(count: int = 40) -> None:
     times: dict[str, list[float]] = {label: [] for label in calls}
     for turn in range(count):
         for label, call in calls.items():
-            time.sleep(0.001 * (turn % 17))  # so that the calls come at different moments of a tick
+            time.sleep(0.001 * (turn % 17))  # so that the calls come at different times within a tick
             started = time.monotonic()
             call()
             times[label].append((time.monotonic() - started) * 1000)
@@ -132,19 +134,19 @@ def pid_of(simulator: NodeProcess) -> int:
 
 
 def processor_time(pid: int) -> float:
-    """Return the processor time of a process in s."""
+    """Return the CPU time of a process in s."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: 10,000 random calls and messages for the simulator. It prints whether the node still runs, whether its
-# world is consistent, and its memory.
+# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. It prints whether the node
+# still runs, whether its state is consistent, and its memory.
 
 BLOCKS = 10
 
 
 def fuzz_main() -> None:
-    """Send random calls in ten blocks, and examine the node after each block."""
+    """Make random calls in ten blocks, and examine the node after each block."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--deeds", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
@@ -167,13 +169,13 @@ def fuzz_main() -> None:
     print("the node still ran, and its world was consistent, after each block")
 
 
-# faults: how long it takes to cause and undo each fault of BreakIt, and whether the graph is as before.
+# faults: measures how long it takes to cause and undo each fault of BreakIt, and if the graph is restored.
 # usage: nodes.py faults [ROUNDS] [FAULT …]
-# For each fault it prints the median and the maximum time (s) to cause and undo it. It also prints how often
-# something was left: a node, topic, service, process, listening port or environment variable. For comparison,
-# it measures the start and the end of a plain node, because a fault with a server cannot be faster.
+# For each fault, it prints the median and the maximum duration (s). It also prints how often something was
+# left behind: a node, topic, service, process, listening port or environment variable. It also measures the
+# start and the end of a plain node, because a fault with a server cannot be faster than this.
 
-BOUND = 3.0  # s; longer rounds are counted
+BOUND = 3.0  # s; the benchmark counts the rounds that take longer
 BARE = """
 import rospy
 from std_srvs.srv import Trigger
@@ -202,9 +204,9 @@ def bare_round() -> float:
 
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
-    """Run `turn` for some rounds; print and return the median and the maximum time in s.
+    """Run `turn` several times; print and return the median and the maximum duration in s.
 
-    The third number is how often the state after the round differed from the state before.
+    The third number says how often the state after the round differed from the state before it.
     """
     before, times, changed = Surroundings(), [], 0
     for _ in range(rounds):

@@ -1,4 +1,4 @@
-"""Panels: the cost of each panel for the kernel and for the page.
+"""Measures panels: the cost of each panel for the kernel and for the page.
 
 usage: ./course run python tests/bench/panels.py graph|timeline|topic|types|turtles [OPTION …]
 """
@@ -46,17 +46,17 @@ from tests.browser.chromium import FLAGS
 from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel
 
-# graph: the cost of the graph panel: an update with 20 nodes and 40 topics, and the work while the graph does
-# not change. This work is measured with nodes that do nothing, and with messages on 40 topics.
+# graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time while the graph
+# does not change. The CPU time is measured with idle nodes, and with messages on 40 topics.
 
 UPDATE_BAR = 150.0  # ms
-IDLE_BAR = 2.0  # % of a core
+IDLE_BAR = 2.0  # maximum share of a core (%)
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
-RATE = 5  # Hz; the rate of each topic
+RATE = 5  # Hz; each topic has this rate
 
-# A node that publishes on some topics and subscribes to other topics. The arguments contain the topics'
-# names.
+# A node that publishes on some topics and subscribes to other topics. Its arguments are the names of the
+# topics.
 SPEAKER = """
 import sys
 import rospy
@@ -93,7 +93,7 @@ def graph(turn: int) -> Snapshot:
 
 
 def update() -> float:
-    """Return the median time in ms from a new snapshot to a new drawing."""
+    """Return the median duration in ms from a new snapshot to a new drawing."""
     model = GraphModel(lambda **_: None)
     times = []
     for turn in range(15):
@@ -107,7 +107,7 @@ def update() -> float:
 def share(
     nodes: list[subprocess.Popen[bytes]], ready: Callable[[GraphPanel], bool]
 ) -> tuple[float, Counter[str]]:
-    """Return the share of a core in % that a visible panel uses, and the numbers of its updates."""
+    """Return the share of a core (%) that a visible panel uses, and the number of updates of each trait."""
     sent: Counter[str] = Counter()
     try:
         panel = GraphPanel()
@@ -133,7 +133,7 @@ def share(
 
 
 def idle() -> float:
-    """Return the share of a core in % while ten nodes do nothing."""
+    """Return the share of a core (%) while ten nodes are idle."""
     nodes = [
         subprocess.Popen(["rosrun", "course_pkg", "server", f"__name:=n{number}"]) for number in range(10)
     ]
@@ -141,7 +141,10 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the share of a core in % while 20 nodes use 40 topics, and the numbers of updates."""
+    """Return the share of a core (%) while 20 nodes use 40 topics.
+
+    The second result is the number of updates of each trait.
+    """
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -159,7 +162,7 @@ def _heard(panel: GraphPanel) -> int:
 
 
 def graph_main() -> int:
-    """Print the results; return 1 if one misses its bar, or if new numbers caused a new drawing."""
+    """Print the results; return 1 if one does not meet its bar, or if new counts caused a new drawing."""
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
         os.environ["ROS_HOSTNAME"] = "localhost"
@@ -171,13 +174,13 @@ def graph_main() -> int:
     return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or sent["drawing"] > 0)
 
 
-# timeline: the time of the timeline panel in a browser: for the first drawing of 2,000 events, and for moving
-# the view. The view is moved with all events visible, and with an eighth of them. Each frame waits until the
-# browser has painted the previous frame. `./course test` installs the browser.
+# timeline: measures how long the timeline panel needs in a browser for the first drawing of 2,000 events, and
+# for moving the view. The view is moved once with all events visible, and once with an eighth of them. Each
+# frame begins when the browser has painted the previous frame. `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
-DRAW_BAR, PAN_BAR = 500.0, 30.0  # ms; frames per second
-REPEATS, TIMELINE_WATCH = 9, 2000  # the number of drawings; the duration of the motion in ms
+DRAW_BAR, PAN_BAR = 500.0, 30.0  # maximum duration (ms); minimum number of frames per second
+REPEATS, TIMELINE_WATCH = 9, 2000  # number of drawings; duration of the movement in ms
 PANELS = Path(__file__).parents[2] / "course_pkg" / "panels"
 DRAW = """async (state) => {
     const url = URL.createObjectURL(new Blob([state._esm], {type: "text/javascript"}))
@@ -217,7 +220,7 @@ PAN = """async (watch) => {
 
 
 def timeline_main() -> int:
-    """Print the results; return 1 if one misses its bar."""
+    """Print the results; return 1 if one of them does not meet its bar."""
     files = {"_esm": module(PANELS / "timeline/timeline.js"), "recorded": state(recording())}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
@@ -287,13 +290,13 @@ def call(number: int, at: float) -> list[Event]:
     return [*mine, Event(HANDLER, whom, "/detect", at + 2.2e-3, at + 0.0999, who, key, f"Thread-{number}")]
 
 
-# topic: the processor time of a topic panel, the number of its updates, and the accuracy of its rate. A real
-# kernel shows the panel. A client that reads the kernel's messages replaces the page.
+# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. The
+# panel is shown by a real kernel. In place of a page, a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
-TOPIC_BAR = 5.0  # % of a core at 100 Hz
-UPDATES = 10.0  # updates per second, at most
-DRIFT = 2.0  # %; the largest error of a rate
+TOPIC_BAR = 5.0  # maximum share of a core (%) at 100 Hz
+UPDATES = 10.0  # maximum number of updates per second
+DRIFT = 2.0  # maximum error of a rate (%)
 
 SHOW = """
 import os
@@ -336,7 +339,7 @@ def run(client: BlockingKernelClient, code: str) -> str:
 
 @contextmanager
 def talker(rate: float) -> Iterator[None]:
-    """Publish at `rate` Hz from a separate process during the block."""
+    """Publish at `rate` Hz from a separate process during the `with` block."""
     process = subprocess.Popen([sys.executable, "-c", TALKER, str(rate)])
     try:
         time.sleep(3)
@@ -347,13 +350,13 @@ def talker(rate: float) -> Iterator[None]:
 
 
 def spent(pid: int) -> float:
-    """Return the processor time of a process in s."""
+    """Return the CPU time of a process in s."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
-    """Return each process's share of a core in %, the updates per second to the page, and their kB/s."""
+    """Return each process's share of a core (%), the updates per second to the page, and their kB/s."""
     before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
     while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
         try:
@@ -377,7 +380,7 @@ def drain(client: BlockingKernelClient) -> None:
 
 
 def topic_main() -> int:
-    """Print the results; return 1 if one misses its bar."""
+    """Print the results; return 1 if one of them does not meet its bar."""
     missed = 0
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"], os.environ["ROS_HOSTNAME"] = master.uri, "localhost"
@@ -412,10 +415,10 @@ def topic_main() -> int:
     return int(missed > 0)
 
 
-# types: the time to open the type browser, with the types of this machine, and with hundreds of additional
-# types. It is compared with `rossrv list`, which lists the same service types in a terminal.
+# types: measures how long the type browser needs to open, with the types of this machine, and with hundreds
+# of additional types. It is compared with `rossrv list`, which lists the same service types in a terminal.
 
-TYPES_BAR = 100.0  # ms for opening with the types of this machine, after the import
+TYPES_BAR = 100.0  # maximum time for opening with the types of this machine, after the import (ms)
 PACKAGES, TYPES = 60, 10
 RUNS = 9
 MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package>"
@@ -438,7 +441,10 @@ def median_of(action: Callable[[], object]) -> float:
 
 
 def report(what: str) -> float:
-    """Print the times with the present ROS_PACKAGE_PATH; return the time of the first opening in ms."""
+    """Print the durations with the present ROS_PACKAGE_PATH.
+
+    Return the duration of the first opening in ms.
+    """
     first = time.perf_counter()
     TypeBrowser("std_srvs/SetBool")
     first = 1000 * (time.perf_counter() - first)
@@ -450,7 +456,7 @@ def report(what: str) -> float:
 
 
 def types_main() -> int:
-    """Print the results; return 1 if the first opening misses its bar."""
+    """Print the results; return 1 if the first opening does not meet its bar."""
     with PrivateMaster() as master, tempfile.TemporaryDirectory() as folder:
         os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
         first = report("this machine")
@@ -461,9 +467,9 @@ def types_main() -> int:
     return int(first > TYPES_BAR)
 
 
-# turtles: the cost of a turtle panel with five moving turtles. It needs an idle machine. `./course test`
-# installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the websocket, and at most 3
-# % of a core for the kernel.
+# turtles: measures the cost of a turtle panel with five moving turtles. It needs an idle machine. `./course
+# test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the websocket, and at
+# most 3 % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join
@@ -496,7 +502,7 @@ os.getpid()
 
 
 def turtles_main() -> None:
-    """Print the frames per second, the bytes per second, and the kernel's processor time."""
+    """Print the frames per second, the bytes per second, and the CPU time of the kernel."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0)
     seconds = parser.parse_args().seconds
@@ -510,7 +516,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list whose only element is the number of bytes that the page's websockets have received."""
+    """Return a list with one element: the number of bytes that the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:
@@ -521,7 +527,7 @@ def counted(page: Page) -> list[int]:
 
 
 def measure(page: Page, received: list[int], seconds: float) -> None:
-    """Print the frames, the bytes and the processor time while the turtles move for `seconds` s."""
+    """Print the frames, the bytes and the CPU time while the turtles move for `seconds` s."""
     turtles = panel(page, "Turtle panel")
     pid = int(page.locator(".jp-OutputArea-output").last.inner_text())
     page.wait_for_timeout(3000)

@@ -1,4 +1,6 @@
-"""Set-up: the first start on a new machine, the import of the package, and the builds of the C++ chapter.
+"""Measures the set-up.
+
+It measures the first start on a new machine, the import of the package, and the builds of chapter 13.
 
 usage: ./course run python tests/bench/setup.py fresh|imports|cpp [OPTION …]
 """
@@ -18,16 +20,16 @@ from pathlib import Path
 
 from commands import run_command
 
-# fresh: prints how long the first `./course run rosservice list` takes on a new Debian system, with the
-# set-up.
+# fresh: prints how long the first `./course run rosservice list` takes on a new Debian system; this includes
+# the set-up.
 # usage: /usr/bin/python3 tests/bench/setup.py fresh [RUNS [CODENAME]]
-# It has to be run as root, and needs debootstrap. It creates a new system once, from the mirror that this
-# machine's apt uses, and copies this system for each run.
+# It has to be run as root, and needs debootstrap. It creates a new system once, from the mirror of this
+# machine's apt, and copies this system for each run.
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s
-# The new system needs these files of this machine: addresses of package mirrors, name servers and
-# certificates.
+# The new system needs these files of this machine. They contain addresses of package mirrors, name servers
+# and certificates.
 SURROUNDINGS = (
     "/etc/apt/sources.list",
     "/etc/apt/sources.list.d",
@@ -51,7 +53,7 @@ INSIDE = 'mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && exec chr
 
 
 def fresh_main() -> int:
-    """Measure each run in its own copy of a new system, and print the median."""
+    """Measure each run in a copy of a new system, and print the median."""
     runs = int(sys.argv[1]) if sys.argv[1:] else 3
     codename = sys.argv[2] if sys.argv[2:] else "bookworm"
     if os.geteuid() or not shutil.which("debootstrap"):
@@ -111,7 +113,7 @@ def inside(system: Path, script: str) -> None:
 
 
 def mirror(codename: str) -> str:
-    """Return the mirror that this machine's apt uses for `codename`, or for its own release."""
+    """Return the mirror from which this machine's apt installs `codename`, or this machine's own release."""
     targets = [
         "apt-get",
         "indextargets",
@@ -126,7 +128,7 @@ def mirror(codename: str) -> str:
 
 
 def tell_surroundings(system: Path) -> None:
-    """Copy the files into `system` that it needs to reach the same mirrors as this machine."""
+    """Copy files into `system`, so that it can reach the same mirrors as this machine."""
     for name in SURROUNDINGS:
         source, target = Path(name), system / name[1:]
         if source.is_dir():
@@ -138,7 +140,8 @@ def tell_surroundings(system: Path) -> None:
             shutil.copy(source, target)
 
 
-# imports: the time that `import course_pkg` and the imports of a notebook need in addition to rospy.
+# imports: measures how much longer `import course_pkg` and the imports of a notebook take than the import of
+# rospy.
 
 ROUNDS = 21
 IMPORTS_BAR = 60.0  # ms
@@ -162,7 +165,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Measure each import alternately with that of rospy, and print the medians of the differences."""
+    """Measure each import alternately with that of rospy, and print the median of the differences."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)
@@ -173,8 +176,8 @@ def imports_main() -> None:
     print(f"bar for course_pkg: {IMPORTS_BAR:.0f} ms")
 
 
-# cpp: prints the duration of chapter 13's builds in a new workspace, and the duration of one file's
-# compilation. The files and the commands are those of the cells in the solution.
+# cpp: prints how long the builds of chapter 13 take in a new workspace, and how long the compilation of one
+# file takes. The files and the commands come from the cells of the solution.
 
 SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("13_*.ipynb"))
 CPP_BAR = 15.0  # s
@@ -197,19 +200,19 @@ def cpp_main() -> int:
 
 
 def cpp_measure() -> tuple[list[float], float]:
-    """Return the duration of each build in a new workspace, and of the compiler for one file, in s."""
+    """Return the duration of each build in a new workspace, and of the compilation of one file, in s."""
     with tempfile.TemporaryDirectory(prefix="course-cpp-") as folder:
         seconds = list(built(Path(folder)))
         from course_pkg.workspace.cpp_support import (
             compile_command,
-        )  # here, because `fresh` runs without the course
+        )  # imported here, because `fresh` runs without the course's libraries
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)
 
 
 def built(folder: Path) -> Iterator[float]:
-    """Write the files and run the commands of the cells, and yield the duration of each build in s."""
+    """Write the files and run the commands of the cells; yield the duration of each build in s."""
     from course_pkg.authoring.cells import code_cells
     from course_pkg.authoring.notebook_store import read
 
@@ -226,7 +229,7 @@ def built(folder: Path) -> Iterator[float]:
 
 
 def timed(command: list[str], folder: str) -> float:
-    """Run a command, and return its duration in s. If it fails, exit with its output."""
+    """Run a command, and return its duration in s. If it fails, exit with the command's output."""
     started = time.perf_counter()
     done = subprocess.run(
         command, cwd=folder, env={**os.environ, "PWD": folder}, capture_output=True, text=True, check=False

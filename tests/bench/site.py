@@ -1,4 +1,4 @@
-"""The site and its notebooks: pages, accessibility, and the validation of the solutions.
+"""Measures the site and the notebooks: pages, accessibility, and the validation of the solutions.
 
 usage: ./course run python tests/bench/site.py pages|axe|nbval|listeners [OPTION …]
 """
@@ -31,10 +31,10 @@ from course_pkg.site.runs import Runs
 from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
-# pages: the duration of a build of the site, the size of its pages, and the time until the first panel is
-# drawn. `./course site` must have run every chapter before. The build is compared with `jupyter nbconvert
-# --to html` of the same 14 executed notebooks; both alternate. If the course has fewer chapters, some are
-# built twice.
+# pages: measures the duration of a build of the site, the size of its pages, and the time until the first
+# panel is drawn. Before this, `./course site` must have run every chapter. The build is compared with
+# `jupyter nbconvert --to html` of the same 14 executed notebooks; the two alternate. If the course has fewer
+# chapters, some of them are used twice.
 
 PAGES = 14
 ROUNDS = 5
@@ -66,7 +66,10 @@ def pages_main() -> None:
 
 
 def write_notebooks(root: Path) -> None:
-    """Write 14 executed notebooks: the last run of each chapter, and some chapters twice if necessary."""
+    """Write 14 executed notebooks: the last run of each chapter.
+
+    Some chapters are written twice if necessary.
+    """
     runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):
@@ -79,7 +82,7 @@ def write_notebooks(root: Path) -> None:
 
 
 def speed(root: Path) -> None:
-    """Build the site and the pages of nbconvert alternately, each in its own process; print the medians."""
+    """Build the site and nbconvert's pages alternately, each in a separate process; print the medians."""
     ours = [sys.executable, "-c", BUILD, str(root), str(root / "site")]
     notebooks = sorted(map(str, (root / "solutions").glob("*.ipynb")))
     theirs = [
@@ -104,7 +107,7 @@ def run(command: Sequence[str]) -> None:
 
 
 def weights(site: Path) -> None:
-    """Print the sizes of the pages, and of the files that all pages share."""
+    """Print the sizes of the pages, and of the files that all pages use."""
     own = [path.stat().st_size for path in site.glob("[0-9]*.html")]
     packed = [len(compress(path.read_bytes())) for path in site.glob("[0-9]*.html")]
     print(f"own part: median {statistics.median(own) / 1000:.1f} kB, most {max(own) / 1000:.1f} kB; ", end="")
@@ -116,7 +119,7 @@ def weights(site: Path) -> None:
 
 
 def first_panels(site: Path) -> None:
-    """Print the time from the start of a navigation until the first panel of a page is painted."""
+    """Print the time from the beginning of a navigation until the first panel of the page is painted."""
     flags = ["--no-sandbox", "--disable-gpu"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=flags)
@@ -133,10 +136,10 @@ def first_panels(site: Path) -> None:
     print(f"first panel: median {middle:.0f} ms, slowest {last:.0f} ms, {len(times)} loads")
 
 
-# axe: the accessibility of a whole site with every rule of axe-core. Arguments: `[SITE]`. SITE is the folder
-# of a site; the default is the last site that `./course site` wrote. Each page is checked in a wide and a
-# narrow window, in the light and dark themes, and with the search open and closed. The test suite leaves out
-# combinations with the same result.
+# axe: checks the accessibility of a whole site with all rules of axe-core. Arguments: `[SITE]`. SITE is the
+# folder of a site; the default is the last site that `./course site` wrote. Each page is checked in a wide
+# and a narrow window, in the light and dark themes, and with the search open and closed. The tests leave out
+# combinations that give the same result.
 
 
 def axe_main() -> None:
@@ -158,16 +161,16 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# nbval: prints how long nbval needs for all solutions, one after the other and several at the same time.
-# Arguments: `[WORKERS …]`. The default is the number of workers that `course` uses on this machine.
+# nbval: prints how long nbval needs for all solutions, one after another and several at a time. Arguments:
+# `[WORKERS …]`. By default, it uses the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
-BAR = 0.45  # the largest ratio to the duration of the serial run
-LIMIT = 3600.0  # s for one run
+BAR = 0.45  # maximum ratio to the duration of the serial run
+LIMIT = 3600.0  # time limit for one run (s)
 
 
 def nbval_main() -> int:
-    """Run one notebook after the other, then with each number of workers, and print the ratios."""
+    """Run one notebook after another, then with each number of workers, and print the ratios."""
     counts = [int(count) for count in sys.argv[1:]] or [workers_here(len(SOLUTIONS))]
     print(
         f"{len(SOLUTIONS)} solutions, {os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start"
@@ -185,7 +188,7 @@ def nbval_main() -> int:
 
 
 def measure(workers: int) -> tuple[float, float]:
-    """Return the duration of one run, and the processor time of its processes, in s."""
+    """Return the duration of one run, and the CPU time of its processes, in s."""
     before, started = _spent(), time.perf_counter()
     outcome = validate(SOLUTIONS, workers=workers, timeout=LIMIT)
     seconds = time.perf_counter() - started
@@ -200,15 +203,15 @@ def _spent() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-# listeners: prints how many sockets listen while each chapter runs, and how many use other addresses than
-# 127.0.0.1.
+# listeners: prints how many sockets listen while each chapter runs, and how many of them listen on addresses
+# other than 127.0.0.1.
 
 LISTEN = "0A"
 LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")
 
 
 def listeners_main() -> None:
-    """Run each chapter from the top, and print its listening sockets; exit with 1 if one is not local."""
+    """Run each chapter, and print its listening sockets; exit with 1 if one of them is not on 127.0.0.1."""
     away: set[str] = set()
     for path in SOLUTIONS:
         seen = listeners_during(path)
@@ -219,7 +222,7 @@ def listeners_main() -> None:
 
 
 def listeners_during(path: Path) -> set[str]:
-    """Return the addresses at which the processes of a chapter listened, in the format of /proc/net/tcp."""
+    """Return the addresses on which the processes of a chapter listened, in the format of /proc/net/tcp."""
     convert = [
         sys.executable,
         "-m",
@@ -247,7 +250,7 @@ def listeners_during(path: Path) -> set[str]:
 
 
 def listening(pids: list[int]) -> set[str]:
-    """Return the addresses at which `pids` listen."""
+    """Return the addresses on which the processes `pids` listen."""
     sockets = {inode for pid in pids for inode in inodes(pid)}
     tables = [Path("/proc/net/tcp"), Path("/proc/net/tcp6")]
     rows = [line.split() for table in tables if table.exists() for line in table.read_text().splitlines()[1:]]

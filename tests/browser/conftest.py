@@ -1,4 +1,4 @@
-"""A page and a JupyterLab for the tests in this folder: one server and one browser for each worker."""
+"""A page and a JupyterLab for the tests in this folder; each worker has one server and one browser."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
 
 @pytest.fixture(scope="session")
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    """Return a context with one cache, so that JupyterLab is loaded once; pages may use the clipboard."""
+    """Return a context whose pages share a cache, so that JupyterLab is loaded once.
+
+    They may use the clipboard.
+    """
     context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()
@@ -37,7 +40,7 @@ def _lab_page(context: BrowserContext) -> Iterator[Page]:
 
 @pytest.fixture
 def lab_page(_lab_page: Page) -> Iterator[Page]:
-    """Return the page in which JupyterLab is open for all tests of a worker, with its usual window size."""
+    """Return the page with JupyterLab that all tests of a worker use; its window has the usual size."""
     _lab_page.set_viewport_size(SIZE)
     with no_errors(_lab_page):
         yield _lab_page

@@ -23,7 +23,8 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.browser.pages import READY
 from tests.support import eventually
 
-# Functions of the page. The first one closes all notebooks without a dialog, and opens one with its kernel.
+# Functions that run in the page. The first function closes all notebooks without a dialog, and opens one
+# notebook with its kernel.
 OPEN = """async (path) => {
   const { commands, shell } = window.jupyterapp;
   for (const open of [...shell.widgets("main")]) open.dispose();
@@ -34,7 +35,7 @@ OPEN = """async (path) => {
 }"""
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's settings
-BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # of the course's terminals
+BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # the start file of the course's terminals
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,10 @@ class Lab:
 
 @contextmanager
 def running_lab(folder: Path) -> Iterator[Lab]:
-    """Start JupyterLab on a free port with a private master; both end with the block or with this process."""
+    """Start JupyterLab on a free port with a private master.
+
+    Both end with the block, or when this process ends.
+    """
     port = _free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
@@ -63,9 +67,9 @@ def running_lab(folder: Path) -> Iterator[Lab]:
 
 @contextmanager
 def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = "Light") -> Iterator[None]:
-    """Open a notebook with these code cells and run them; its kernel and node end with the block.
+    """Open a notebook with these code cells and run them; its kernel and its node end with the block.
 
-    If the page has loaded JupyterLab before, the notebook opens without loading it again.
+    If the page has already loaded JupyterLab, it is not loaded again.
     """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -77,7 +81,7 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
     try:
         page.evaluate(THEME, f"JupyterLab {theme}")
         page.evaluate(OPEN, f"{name}.ipynb")
-        # Without this, Run All opens a dialog that asks for a kernel.
+        # without this wait, Run All opens a dialog that asks for a kernel
         expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
         run_all(page)
         yield
@@ -86,7 +90,7 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
 
 
 def run_all(page: Page) -> None:
-    """Run all cells and wait until the last one has ended."""
+    """Run all cells, and wait until the last cell has ended."""
     last = page.locator(".jp-CodeCell .jp-InputPrompt").last
     before = last.inner_text()
     page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -121,7 +125,10 @@ def _command(port: int, root: Path) -> list[str]:
 
 
 def _environment(folder: Path, master: str) -> Mapping[str, str]:
-    """Give the server its own settings, state and runtime files, so that parallel runs are independent."""
+    """Return an environment with separate settings, state and runtime files.
+
+    Several servers can then run at a time.
+    """
     for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
         settings = folder / "settings" / extension

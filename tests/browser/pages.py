@@ -1,4 +1,4 @@
-"""Pages in the browser, with or without a kernel."""
+"""Pages in the browser, with and without a kernel."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from course_pkg.panels.panel import Panel
 HERE = Path(__file__).parent
 # JupyterLab's own files in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
-READY = 60_000  # ms; a browser, a server and a kernel start on a machine that may be busy
+READY = 60_000  # ms; on a busy machine, a browser, a server and a kernel need this time to start
 HOST = (HERE / "host.html").read_text()
 
-# A function of the page: it returns the texts in an element whose contrast is too low.
+# A function that runs in the page; it returns the texts whose contrast is too low.
 FAINT = (HERE / "contrast.js").read_text()
 
 
 @contextmanager
 def new_page(context: BrowserContext) -> Iterator[Page]:
-    """Open a page; an error of a script on it fails the test."""
+    """Open a page; the test fails if a script on this page raises an error."""
     page = context.new_page()
     with no_errors(page):
         yield page
@@ -34,7 +34,10 @@ def new_page(context: BrowserContext) -> Iterator[Page]:
 
 @contextmanager
 def no_errors(page: Page) -> Iterator[None]:
-    """Fail if a script of the course raises an error in the block; JupyterLab's own errors are ignored."""
+    """Fail if a script of the course raises an error during the block.
+
+    JupyterLab's own errors are ignored.
+    """
     errors: list[str] = []
 
     def keep(error: Error) -> None:
@@ -49,21 +52,21 @@ def no_errors(page: Page) -> Iterator[None]:
 
 
 def panel(page: Page, label: str = "Service panel") -> Locator:
-    """Return the panel with this name."""
+    """Return the panel with this accessible name."""
     found = page.get_by_role("region", name=label, exact=True)
     expect(found).to_be_visible(timeout=READY)
     return found
 
 
 def picture(target: Page | Locator, name: str) -> None:
-    """Write a screenshot to the folder that COURSE_ARTIFACTS names, if it is set, for a person to look at."""
+    """If COURSE_ARTIFACTS is set, write a screenshot to this folder, so that a person can look at it."""
     if folder := os.environ.get("COURSE_ARTIFACTS"):
         Path(folder).mkdir(parents=True, exist_ok=True)
         target.screenshot(path=Path(folder) / f"{name}.png")
 
 
 def save(widget: Panel, path: Path, theme: str = "light") -> str:
-    """Write a page that draws the widget from its state without a kernel, and return its address."""
+    """Write a page that shows the widget's state without a kernel, and return the address of the page."""
     state = {
         name: value
         for name, value in widget.get_state().items()

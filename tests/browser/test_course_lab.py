@@ -11,7 +11,10 @@ from tests.lab.commands import lab
 
 
 def test_the_file_browser_shows_the_chapters_first(browser: Browser, tmp_path: Path) -> None:
-    """The file browser lists the chapters, its parent folder lists what students need, no file is changed."""
+    """The file browser lists the chapters; their parent folder lists the files for students.
+
+    No file is changed.
+    """
     with lab(COURSE_STATE=str(tmp_path)) as (_, address), browser.new_page() as page:
         page.goto(address, timeout=READY, wait_until="commit")
         files = page.locator("#filebrowser .jp-DirListing-content")

@@ -109,7 +109,7 @@ def test_a_large_graph_can_be_read(
 
 
 def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """Without a kernel nothing can be unfolded, and the details list what is inside."""
+    """Without a kernel, a namespace cannot be unfolded; its details list the shapes in it."""
     page.goto(save(widget, tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")
@@ -121,7 +121,7 @@ def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_
 
 
 def played(widget: GraphPanel) -> GraphPanel:
-    """Record eight seconds in a panel: a call, its response, and a graph that loses half its nodes."""
+    """Record eight seconds of a panel: a call, its response, and a graph that loses half of its nodes."""
     whole, began = large(), time.time() - 100
     half = Snapshot(whole.master, whole.nodes[:10], whole.topics[:8], whole.services[:10])
 
@@ -145,7 +145,7 @@ def played(widget: GraphPanel) -> GraphPanel:
 
 
 def seek(graph: Locator, seconds: float) -> None:
-    """Drag the slider to a moment."""
+    """Move the slider to a time of the recording."""
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 
@@ -153,7 +153,10 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The page names the recording, which is at its end. Slider and keys move it, and Play replays it."""
+    """The page says that it shows the end of a recording.
+
+    The slider and the keys move to another time, and Play plays the recording again.
+    """
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -185,7 +188,10 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
 
 
 def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A recording out of sight is paused; with reduced motion it shows one picture per second."""
+    """A recording pauses while the reader cannot see it.
+
+    With reduced motion, it shows one picture per second.
+    """
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
@@ -203,7 +209,7 @@ def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, 
     assert all(after - before >= 1 for before, after in itertools.pairwise(times))
     page.evaluate("document.body.style.paddingTop = '5000px'")
     page.wait_for_function("document.querySelector('.ros-graph').getBoundingClientRect().top > innerHeight")
-    page.evaluate(FRAMES, 10)  # until the page reports that it is hidden
+    page.evaluate(FRAMES, 10)  # until the page reports that it is not visible
     stood = page.evaluate("said.length")
     page.evaluate(FRAMES, 150)
     assert page.evaluate("said.length") == stood
@@ -211,7 +217,10 @@ def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, 
 
 
 def test_lines_of_calls_are_drawn_on_a_saved_page(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A saved panel is drawn before the page shows it. The lines of calls still get their positions."""
+    """A saved panel is drawn before the page is visible.
+
+    The lines of calls are still at the right positions.
+    """
     troubles: list[str] = []
     page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -222,7 +231,7 @@ def test_lines_of_calls_are_drawn_on_a_saved_page(widget: GraphPanel, page: Page
 
 
 def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """In print, a dark panel is black on white, complete, and without controls."""
+    """In print, a dark panel is black on white and complete, and it has no controls."""
     page.goto(save(widget, tmp_path / "page.html", "dark"))
     page.emulate_media(media="print")
     graph = panel(page, "Graph panel")
@@ -237,7 +246,7 @@ def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
 
 
 def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """The downloaded file is an image with a name and with its own colours for light, dark and print."""
+    """The downloaded file is an image with a name, and with separate colours for light, dark and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")
     page.goto(file.as_uri())
@@ -254,7 +263,7 @@ def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: P
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A state without rates and namespaces is drawn, too."""
+    """A saved state without rates and namespaces is drawn, too."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())
@@ -267,7 +276,7 @@ def test_a_panel_saved_by_an_older_release_still_shows(
 
 
 def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> None:
-    """Rates and callers appear without a click; what was folded by keyboard stays folded after a change."""
+    """Rates and callers appear without a click. A namespace that was folded by keyboard stays folded."""
     delayed = f"threading.Timer(8, lambda: exec({LATER!r}, globals())).start()"
     with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
         graph = panel(lab_page, "Graph panel")

@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Drag the slider to a part of the recording."""
+    """Move the slider to a part of the recording; 0 is its start, and 1 is its end."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,
@@ -40,12 +40,12 @@ def seek(turtles: Locator, part: float) -> None:
 
 
 def cells(turtles: Locator, name: str) -> list[str]:
-    """Return the table's row of a turtle."""
+    """Return the cells of a turtle's row in the table."""
     return turtles.get_by_role("row", name=name).get_by_role("cell").all_inner_texts()
 
 
 def recorded() -> TurtleRecording:
-    """Return five seconds of a turtle that moves in a circle, with a second one for the last two seconds."""
+    """Return a recording of 5 s: a turtle moves in a circle, and a second turtle exists in the last 2 s."""
     recording = TurtleRecording()
     for number in range(100):
         angle = number / 100 * 2 * math.pi
@@ -57,7 +57,7 @@ def recorded() -> TurtleRecording:
 
 
 def test_the_panel_follows_the_turtles(lab: Lab, lab_page: Page) -> None:
-    """The table follows the services: it shows a new turtle, and the new place of a moved one."""
+    """The table shows a new turtle, and the new position of a turtle that a service has moved."""
     with running_notebook(lab_page, lab, "turtles", SETUP, "TurtlePanel()", LATER):
         turtles = panel(lab_page, "Turtle panel")
         expect(turtles.get_by_role("row", name="MyTurtle")).to_be_visible()
@@ -74,7 +74,7 @@ def test_the_panel_follows_the_turtles(lab: Lab, lab_page: Page) -> None:
 
 
 def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
-    """Without a simulator, the panel names the command that starts one."""
+    """Without a simulator, the panel shows the command that starts one."""
     with running_notebook(
         lab_page, lab, "no_turtles", SETUP.replace("simulator", "# simulator"), "TurtlePanel()"
     ):
@@ -86,7 +86,7 @@ def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """The page names the recording, which shows its end, moves to any moment, and replays from the start."""
+    """The page says that it shows the end of a recording; it can go to any time, and play from the start."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})
@@ -106,7 +106,7 @@ def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, them
 
 
 def test_the_trail_is_on_the_paper(page: Page, tmp_path: Path) -> None:
-    """The line is drawn on the turtle's way, and nowhere else."""
+    """The line is where the turtle moved, and nowhere else."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.goto(save(widget, tmp_path / "page.html"))

@@ -28,12 +28,12 @@ from tests.support import eventually, program
 
 pytestmark = pytest.mark.usefixtures("master")
 
-FOR_GOOD = 600.0  # s that a customer stays, longer than any test
+FOR_GOOD = 600.0  # s for which a customer stays; this is longer than any test
 SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "/cashier/report"}
 
 
 def run(name: str, *arguments: str) -> NodeProcess:
-    """Start a program of the shop, and return it when its service answers."""
+    """Start a program of the shop, and return it as soon as its service answers."""
     process = NodeProcess(["rosrun", "course_pkg", name, *arguments])
     process.wait_for_service(SERVES[name])
     return process
@@ -41,7 +41,7 @@ def run(name: str, *arguments: str) -> NodeProcess:
 
 @pytest.fixture(autouse=True)
 def without_parameters(master: PrivateMaster) -> None:
-    """Remove the parameters of earlier programs, such as _rate:=5, which the master would keep."""
+    """Remove the parameters of earlier programs, such as _rate:=5, because the master keeps them."""
     with ServerProxy(master.uri) as parameters:
         for node in SERVES:
             parameters.deleteParam("/tests", f"/{node}")
@@ -49,14 +49,14 @@ def without_parameters(master: PrivateMaster) -> None:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg shop_camera`, without customers."""
+    """Run `rosrun course_pkg shop_camera`, without customers."""
     with run("shop_camera") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg detector`, with a running camera."""
+    """Run `rosrun course_pkg detector`; the camera is running."""
     with run("detector") as process:
         yield process
 
@@ -78,7 +78,7 @@ def report() -> CashierReportResponse:
 
 @pytest.mark.usefixtures("detector")
 def test_call_with_patience_0() -> None:
-    """With the patience 0, the response contains no customer, or a customer and the time of arrival."""
+    """With patience = 0, the response contains no customer, or a customer and the time of arrival."""
     assert (detect().detected, detect().number) == (False, 0)
     came = let_in(0.0)
     answer = detect(patience=10.0)
@@ -90,7 +90,7 @@ def test_call_with_patience_0() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_waiting_call_ends_when_a_customer_comes() -> None:
-    """The response comes after the customer's arrival, and long before the patience is over."""
+    """The response comes after the customer's arrival, and long before the end of the given time."""
     came = let_in(0.5)
     answer = detect(patience=30.0)
     assert came.comes[0].to_sec() <= time.time() < came.comes[0].to_sec() + 10.0
@@ -107,7 +107,10 @@ def test_call_without_a_customer_ends_after_its_patience() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_customers_who_come_together_are_returned_one_by_one() -> None:
-    """Three customers come at the same time; each call returns the next customer above `after`."""
+    """Three customers come at the same time.
+
+    Each call returns the first customer whose number is above `after`.
+    """
     first = let_in(0.0, 0.0, 0.0).first
     numbers = [first - 1]
     for _ in range(3):
@@ -136,7 +139,10 @@ def test_impossible_patience_is_refused_with_the_range(patience: float) -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_number_of_waiting_calls_is_limited() -> None:
-    """At most 64 calls wait, and get a response later; further calls are refused immediately."""
+    """At most 64 calls wait, and each of them gets a response.
+
+    The server refuses further calls immediately.
+    """
     with ThreadPoolExecutor(80) as pool:
         waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
         eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
@@ -150,7 +156,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
     """A call fails soon after the camera is killed; with a new camera, calls work again.
 
-    The customers of the new camera have higher numbers, so that clients that wait for the next number find
+    The customers of the new camera have higher numbers. Therefore, clients that wait for the next number find
     them.
     """
     first = let_in(0.0).first
@@ -192,7 +198,7 @@ def test_detector_refuses_without_a_camera() -> None:
 )
 @pytest.mark.usefixtures("camera")
 def test_impossible_customers_are_refused(after: list[float], stay: float, words: str) -> None:
-    """The error message contains the field, and the next call works."""
+    """The error message contains the name of the wrong field, and the next call works."""
     with pytest.raises(rospy.ServiceException, match=words):
         let_in(*after, stay=stay)
     assert len(let_in(5.0, 1.0).comes) == 2
@@ -200,7 +206,10 @@ def test_impossible_customers_are_refused(after: list[float], stay: float, words
 
 @pytest.mark.usefixtures("detector")
 def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) -> None:
-    """The camera repeats its messages, and two customers come together; each number is published once."""
+    """The camera repeats its messages, and two customers come together.
+
+    The detector publishes each number once.
+    """
     kernel.run("from course_pkg import join\nfrom std_msgs.msg import UInt32\nnode = join('listener')")
     kernel.run("heard = node.subscribe('/customers', UInt32)")
     with ServerProxy(MasterClient(master.uri).lookup_node("/detector") or "") as node:
@@ -243,7 +252,10 @@ def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
 @pytest.mark.parametrize("answer", ["(True, 1, rospy.Time())", "(False, 0, rospy.Time())"])
 @pytest.mark.parametrize("settings", [["_design:=wait", "_patience:=0.5"], ["_design:=poll", "_rate:=2"]])
 def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings: list[str]) -> None:
-    """The cashier makes two calls per second even if each response comes at once or has the same customer."""
+    """The cashier makes two calls per second.
+
+    This is true even if each response comes at once or contains the same customer.
+    """
     kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
     kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
     started = time.monotonic()
@@ -288,7 +300,10 @@ def test_the_launch_file_runs_the_whole_shop() -> None:
 def test_nodes_end_after_a_signal(
     number: signal.Signals, detector: NodeProcess, camera: NodeProcess, master: PrivateMaster
 ) -> None:
-    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters, even if a call waits."""
+    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters.
+
+    This is true even if a call is waiting.
+    """
     with ThreadPoolExecutor(2) as pool, run("cashier", "_design:=wait", "_patience:=60") as cashier:
         waiting = pool.submit(detect, patience=60.0)
         eventually(lambda: report().asked)

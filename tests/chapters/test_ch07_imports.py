@@ -1,4 +1,4 @@
-"""Chapter 07's check of an import distinguishes a script that never ends from a busy machine."""
+"""Chapter 07's check of an import can distinguish a script that never ends from a busy machine."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ SCRIPT = Program("scripts/server.py")
 
 
 class Replying:
-    """A folder in which each command ends with the same reply."""
+    """A folder in which each command has the same result."""
 
     def __init__(self, reply: Reply) -> None:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return the result of a command; times in the reply are fractions of the time limit."""
+        """Return the result of a command; a time in `reply` is a fraction of the time limit."""
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
         return Finished({**self.reply, **times, "took": within})
 
 
 def imported(**reply: float | int | str | None) -> CheckContext:
-    """Return the context of a check for which the import ended with `reply`."""
+    """Return the context of a check in which the import ended with `reply`."""
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))
     can_be_imported(context, BuiltPackage(folder, Package("my_geometry", {})), SCRIPT)
@@ -45,14 +45,14 @@ def imported(**reply: float | int | str | None) -> CheckContext:
 
 
 def test_slow_import_on_a_busy_machine_is_not_a_mistake() -> None:
-    """The import waited for a processor, or its times are not known: the check reports a busy machine."""
+    """The import waited for the CPU, or its times are not known: the check reports a busy machine."""
     for reply in ({"ran": 0.02, "queued": 0.9}, {}):
         with pytest.raises(CheckError, match=r"the machine is busy\. Run this cell again"):
             imported(status=None, **reply)
 
 
 def test_import_that_never_ends_is_a_mistake() -> None:
-    """The import slept most of the time, or computed longer than any import: the assertion fails."""
+    """The assertion fails if the import mostly slept, or used more CPU time than a normal import."""
     for reply in ({"ran": 0.02, "queued": 0.05}, {"ran": 0.5, "queued": 0.5}):
         with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
             imported(status=None, **reply)
@@ -65,14 +65,14 @@ def test_an_import_that_ends_is_accepted() -> None:
 
 @pytest.fixture
 def folders(tmp_path: Path) -> Iterator[CommandFolders]:
-    """Return folders for commands."""
+    """Return folders in which a check can run commands."""
     made = CommandFolders(lambda name: tmp_path / name)
     yield made
     made.close()
 
 
 def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
-    """A sleeping command does not use or wait for a processor, but a computing command does."""
+    """A sleeping command neither uses the CPU nor waits for it, but a computing command does."""
     number = folders.folder([], {})["folder"]
     assert isinstance(number, int)
     sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))

@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def adder() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg add_two_ints_server`, ready for calls."""
+    """Run `rosrun course_pkg add_two_ints_server` until it can be called."""
     with NodeProcess(["rosrun", "course_pkg", "add_two_ints_server"]) as process:
         process.wait_for_service("/add_two_ints")
         yield process
@@ -46,7 +46,10 @@ def test_adder_client_prints_the_sum(numbers: list[str], printed: str) -> None:
 @pytest.mark.usefixtures("adder")
 @pytest.mark.parametrize(("a", "b"), [(LARGEST, 1), (-LARGEST - 1, -1)])
 def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
-    """If the sum is too large for an int64, the client prints the error message of the refusal."""
+    """If the sum is too large for an int64, the server refuses the call.
+
+    The client prints the error message.
+    """
     done = program("add_two_ints_client", str(a), str(b))
     assert done.returncode == 1
     assert f"cannot process request: {a + b} is more than an int64 can hold" in done.stderr
@@ -54,7 +57,7 @@ def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
 
 @pytest.mark.parametrize("words", [[], ["1"], ["1", "2", "3"], ["1", "2.5"], ["1", str(LARGEST + 1)]])
 def test_adder_client_with_wrong_arguments(words: list[str]) -> None:
-    """If the arguments are not two int64 numbers, the client prints its usage and ends with 2."""
+    """If the arguments are not two int64 numbers, the client prints its usage, and the exit status is 2."""
     done = program("add_two_ints_client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_ints_client A B")
@@ -82,7 +85,7 @@ def test_client_of_another_definition_with_wrong_arguments() -> None:
 
 @pytest.fixture
 def on_off() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg on_off_server`, ready for calls."""
+    """Run `rosrun course_pkg on_off_server` until it can be called."""
     with NodeProcess(["rosrun", "course_pkg", "on_off_server"]) as process:
         process.wait_for_service("/on_off")
         yield process
@@ -96,7 +99,7 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
 
 @pytest.mark.parametrize("number", ["2", "-1", "2147483647"])
 def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
-    """The error message contains the wrong number and the right numbers, and the next call works."""
+    """The error message contains the wrong number and the allowed numbers, and the next call works."""
     done = terminal("rosservice", "call", "/on_off", "--", number)
     assert done.returncode == 2
     assert f"cannot process request: {number} is neither 0 (OFF) nor 1 (ON)" in done.stderr
@@ -105,7 +108,7 @@ def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
 
 
 def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
-    """The client prints the number and the state, and several runs send both numbers."""
+    """The client prints the number and the state; in several runs, it sends both numbers."""
     seen: set[str] = set()
 
     def both() -> bool:
@@ -119,21 +122,21 @@ def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
 
 
 def test_on_off_client_takes_no_arguments() -> None:
-    """With an argument, the client immediately prints its usage and ends with 2."""
+    """If it gets an argument, the client immediately prints its usage, and the exit status is 2."""
     done = program("on_off_client", "1")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: on_off_client")
 
 
 def test_on_off_client_without_a_server() -> None:
-    """Without a server, the client prints one line after 5 s, and ends with 1."""
+    """Without a server, the client prints one line after 5 s, and the exit status is 1."""
     done = program("on_off_client")
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == "timeout exceeded while waiting for service /on_off\n"
 
 
 def test_on_off_client_without_a_master() -> None:
-    """Without a master, the client prints one line, and ends with 1."""
+    """Without a master, the client prints one line, and the exit status is 1."""
     done = program("on_off_client", ROS_MASTER_URI="http://localhost:1")
     assert (done.returncode, done.stdout) == (1, "")
     assert "No ROS master at http://localhost:1" in done.stderr
@@ -142,14 +145,14 @@ def test_on_off_client_without_a_master() -> None:
 
 @pytest.fixture
 def switch(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg switch`, ready for calls."""
+    """Run `rosrun course_pkg switch` until it can be called."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         process.wait_for_service("/switch/reset")
         yield process
 
 
 def move(to_open: bool) -> tuple[bool, str]:
-    """Return success and message of one call of /switch/set."""
+    """Call /switch/set once, and return the `success` and `message` of the response."""
     response = BoundedProxy("/switch/set", SetBool)(to_open)
     return response.success, response.message
 
@@ -162,7 +165,10 @@ def trigger(name: str) -> tuple[bool, str]:
 
 @pytest.mark.usefixtures("switch")
 def test_set_moves_the_switch() -> None:
-    """The switch starts closed; a call moves it to the wanted position, and the message describes it."""
+    """At the start, the switch is closed.
+
+    A call moves it to the requested position, and the message says so.
+    """
     assert trigger("report") == (True, "closed")
     assert move(True) == (True, "opened")
     assert trigger("report") == (True, "open")
@@ -171,7 +177,7 @@ def test_set_moves_the_switch() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_set_to_the_present_position_does_not_move() -> None:
-    """If the switch is in the wanted position, success is False, and the message contains "already"."""
+    """If the switch is already in this position, success is False, and the message contains "already"."""
     assert move(False) == (False, "already closed")
     move(True)
     assert move(True) == (False, "already open")
@@ -193,7 +199,7 @@ def test_reset_closes_the_switch_with_an_empty_response() -> None:
 
 
 def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None:
-    """The node logs each move, but calls without effect only at the level debug."""
+    """The node logs each move; it logs calls without effect only at the log level debug."""
     move(True)
     move(True)
     eventually(lambda: "Opened" in switch.output())
@@ -229,7 +235,7 @@ def test_simultaneous_toggles_are_all_counted() -> None:
     [("switch", "/switch/reset"), ("on_off_server", "/on_off"), ("add_two_ints_server", "/add_two_ints")],
 )
 def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMaster) -> None:
-    """Ctrl-C ends each server without a traceback, and the server unregisters."""
+    """After Ctrl-C, each server ends without a traceback and unregisters."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(service)
         os.kill(process.pid, signal.SIGINT)
@@ -240,7 +246,7 @@ def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMas
 
 @pytest.mark.parametrize("attempt", range(4))
 def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster) -> None:
-    """Ctrl-C while the node registers its services ends it, and no registration is left."""
+    """If Ctrl-C comes while the node registers its services, the node ends, and no registration is left."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         eventually(lambda: "Serving" in process.output(), interval=0.001)
         os.kill(process.pid, signal.SIGINT)

@@ -18,14 +18,14 @@ KIND = "course_pkg/AddUp"
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg session_server`, ready for calls."""
+    """Run `rosrun course_pkg session_server` until it can be called."""
     with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
         process.wait_for_service("/add_up", timeout=20)
         yield process
 
 
 def added(session: str, amount: int) -> tuple[int, int]:
-    """Add an amount in a session; return the total and the number of calls of the session."""
+    """Add `amount` to a session; return the session's total and the number of its calls."""
     answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
     return answer.total, answer.calls
 
@@ -42,7 +42,10 @@ def test_each_session_has_its_own_total() -> None:
 
 @pytest.mark.usefixtures("server")
 def test_refusals_contain_the_reason() -> None:
-    """A call without a session, or a total above the int32 range, is refused; the total does not change."""
+    """A call without a session is refused, and so is a total above the int32 range.
+
+    The total does not change.
+    """
     done = terminal("rosservice", "call", "/add_up", "5")
     assert done.returncode == 2
     assert "cannot process request: the connection header has no field session" in done.stderr
@@ -53,21 +56,24 @@ def test_refusals_contain_the_reason() -> None:
 
 @pytest.mark.usefixtures("server")
 def test_client_with_a_rate_repeats_its_amount() -> None:
-    """With _rate:=20, the client sends its amount repeatedly until it is stopped."""
+    """With _rate:=20, the client sends its amount again and again until it is stopped."""
     with NodeProcess(["rosrun", "course_pkg", "session_client", "steady", "1", "_rate:=20"]) as client:
         client.wait_for_output("after 5 calls")
     assert "Traceback" not in client.output()
 
 
 def test_arguments_are_read() -> None:
-    """The result is a session and int32 numbers, or None for invalid arguments."""
+    """The function returns a session and int32 numbers, or None if the arguments are invalid."""
     assert read_arguments(["alice", "5", "-3"]) == ("alice", [5, -3])
     for words in ([], ["alice"], ["", "5"], ["alice", "five"], ["alice", str(2**31)]):
         assert read_arguments(words) is None
 
 
 def test_client_without_a_server_or_with_wrong_arguments() -> None:
-    """Wrong arguments lead to the usage and status 2; a missing server leads to one line and status 1."""
+    """For wrong arguments, the client prints its usage, and the status is 2.
+
+    Without a server, it prints one line, and the status is 1.
+    """
     done = program("session_client", "alice")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("usage: session_client")
@@ -76,7 +82,7 @@ def test_client_without_a_server_or_with_wrong_arguments() -> None:
 
 
 def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
-    """The port is in a parameter, and the program sends back every byte."""
+    """A parameter contains the port, and the program sends back every byte."""
     with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
         echo.wait_for_output("Echoing")
         port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))
@@ -89,7 +95,10 @@ def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
 
 @pytest.mark.usefixtures("server")
 def test_a_program_uses_the_master_of_its_argument() -> None:
-    """With __master:=, server and client use another master; the server on the first master gets no call."""
+    """With __master:=, the server and the client use another master.
+
+    The server at the first master gets no call.
+    """
     with PrivateMaster() as other:
         there = f"__master:={other.uri}"
         with NodeProcess(["rosrun", "course_pkg", "session_server", there]):

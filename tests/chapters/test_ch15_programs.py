@@ -1,4 +1,4 @@
-"""The course's own programs follow the specification of chapter 15."""
+"""The course's own programs do what chapter 15 specifies."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 node = join("student")
 """
-FOR_GOOD = 600.0  # s that a customer stays, longer than any test
+FOR_GOOD = 600.0  # s for which a customer stays; this is longer than any test
 LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 
 def run(name: str, service: str) -> NodeProcess:
-    """Start a program of the system, and return it when it serves `service`."""
+    """Start a program of the system, and return it as soon as it serves `service`."""
     process = NodeProcess(["rosrun", "course_pkg", name])
     process.wait_for_service(service)
     return process
@@ -36,14 +36,14 @@ def run(name: str, service: str) -> NodeProcess:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg counter_camera`, without customers."""
+    """Run `rosrun course_pkg counter_camera`, without customers."""
     with run("counter_camera", "/let_in") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """`rosrun course_pkg customer_detector`, with a camera and the node vision."""
+    """Run `rosrun course_pkg customer_detector`; a camera and the node vision are running."""
     with (
         run("vision", "/vision/get_loggers"),
         run("customer_detector", "/detect_customer") as process,
@@ -54,7 +54,7 @@ def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def till() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg till`, with a printer that has paper for twelve lines."""
+    """Run `rosrun course_pkg till`; a printer with paper for twelve lines is running."""
     with (
         NodeProcess(["rosrun", "course_pkg", "receipt_printer", "_paper:=12"]) as printer,
         run("till", "/till/reset") as process,
@@ -74,7 +74,7 @@ def detect(patience: float = 0.0) -> bool:
 
 
 def answered() -> bool | None:
-    """Return whether a customer is there now, or None if the call is refused."""
+    """Return whether the detector sees a customer at present, or None if it refuses the call."""
     try:
         return detect()
     except rospy.ServiceException:
@@ -83,7 +83,10 @@ def answered() -> bool | None:
 
 @pytest.mark.usefixtures("detector")
 def test_all_waiting_calls_find_a_customer() -> None:
-    """One customer ends all waiting calls. Without a customer, a call with the patience 0 returns False."""
+    """When a customer comes, all waiting calls return.
+
+    Without a customer, a call with patience = 0 returns False.
+    """
     assert not detect()
     with ThreadPoolExecutor(5) as pool:
         waits = [pool.submit(detect, 30.0) for _ in range(5)]
@@ -94,7 +97,7 @@ def test_all_waiting_calls_find_a_customer() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_a_call_ends_when_its_patience_is_over() -> None:
-    """Without a customer the response is False, after the requested time."""
+    """Without a customer, the response is False; it comes after the requested time."""
     started = time.monotonic()
     assert not detect(0.5)
     assert 0.5 <= time.monotonic() - started < 10.0
@@ -110,7 +113,10 @@ def test_impossible_patience_is_refused(patience: float) -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
-    """One second after the last frame, the detector refuses, although this frame shows a customer."""
+    """One second after the camera's last frame, the detector refuses calls.
+
+    This is true even if the frame showed a customer.
+    """
     let_in(0.0)
     eventually(detect)
     camera.kill()
@@ -121,7 +127,7 @@ def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
 
 @pytest.mark.usefixtures("till")
 def test_a_till_adds_up_and_refuses() -> None:
-    """An item that is set again counts once. An impossible item is refused, and nothing changes."""
+    """An item that is set twice counts once. An invalid item is refused, and nothing changes."""
     put = BoundedProxy("/till/set", TillSet)
     assert [put(item, cents).total for item, cents in (("milk", 120), ("bread", 340), ("milk", 110))] == [
         120,
@@ -137,7 +143,10 @@ def test_a_till_adds_up_and_refuses() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
-    """Simultaneous calls add up; a second reset succeeds, too, with the message that the till is empty."""
+    """The till adds the items of simultaneous calls. A second reset succeeds, too.
+
+    Its message says that the till is empty.
+    """
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(lambda number: BoundedProxy("/till/set", TillSet)(str(number), number), range(1, 9)))
     reset = BoundedProxy("/till/reset", Trigger)
@@ -149,7 +158,10 @@ def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_an_item_that_is_not_printed_does_not_count() -> None:
-    """After twelve lines, the paper is used up: the till refuses the item, and the total does not change."""
+    """After twelve lines, there is no paper left.
+
+    The till refuses the item, and the total does not change.
+    """
     put = BoundedProxy("/till/set", TillSet)
     for number in range(12):
         put(str(number), 1)
@@ -169,7 +181,10 @@ def test_the_launch_file_leaves_the_hardware_out() -> None:
 
 
 def test_whole_system_greets_once_and_mirrors_at_the_same_time(kernel: Kernel) -> None:
-    """The arm is mirrored while a call waits. A customer is greeted once, and the till is reset."""
+    """The arm mirrors movements while a call waits.
+
+    Each customer is greeted once, and then the till is reset.
+    """
     kernel.run(LISTEN)
     with NodeProcess.roslaunch(*LAUNCH, "wait:=20") as system:
         for service in ("/detect_customer", "/let_in", "/till/reset", "/robot_cashier/get_loggers"):

@@ -47,7 +47,7 @@ def line(bridge: NodeProcess) -> Iterator[websocket.WebSocket]:
 
 
 def said(line: websocket.WebSocket, message: JSON) -> dict[str, JSON]:
-    """Send one message and return the reply."""
+    """Send one message to the bridge, and return the reply."""
     line.send(message if isinstance(message, str) else json.dumps(message))
     answer: dict[str, JSON] = json.loads(line.recv())
     return answer
@@ -62,7 +62,7 @@ def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
 def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The reply contains the service, the given id, the fields of the response, and the result True."""
+    """The reply contains the service, the given id, the fields of the response, and the result true."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",
@@ -87,7 +87,7 @@ def test_reply_to_a_call_contains_the_response(
 def test_failed_call_gets_its_error_message(
     line: websocket.WebSocket, geometry: NodeProcess, service: str, args: object, words: str
 ) -> None:
-    """The result is False, the values are the error message, and the next call works."""
+    """The result is false, `values` contains the error message, and the next call works."""
     answer = said(line, call(service, args))
     assert answer["result"] is False
     assert words in answer["values"]
@@ -124,7 +124,7 @@ def test_bridge_listens_only_on_loopback(bridge: NodeProcess) -> None:
 
 
 def test_bridge_reports_a_port_in_use(bridge: NodeProcess) -> None:
-    """The exit status is 1, and the output contains the port."""
+    """The exit status is 1, and the output contains the number of the port."""
     port = bridge.output().rpartition(":")[2].split()[0]
     done = program("bridge", f"_port:={port}", "__name:=second")
     assert done.returncode == 1
@@ -156,14 +156,17 @@ def carry_out(goal):
 
 @pytest.fixture
 def asking(kernel: Kernel) -> Iterator[Kernel]:
-    """A kernel with an action client, and the running robot."""
+    """Start a kernel with an action client; the robot's node is running."""
     with NodeProcess(["rosrun", "course_pkg", "fetcher"]):
         kernel.run(FETCHING)
         yield kernel
 
 
 def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
-    """The robot fetches all things, with feedback after each; the last feedback may come after the result."""
+    """The robot fetches all things and sends feedback after each one.
+
+    The last feedback may come after the result.
+    """
     counts, fetched, succeeded = asking.run("""
         client.send_goal(FetchGoal(things=5, seconds=0.05), feedback_cb=tell)
         assert client.wait_for_result(rospy.Duration(20))
@@ -174,7 +177,7 @@ def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
 
 
 def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
-    """After a cancellation, the result is the number of things that were fetched before."""
+    """After a cancellation, the result is the number of things that the robot had already fetched."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)

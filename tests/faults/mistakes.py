@@ -1,7 +1,10 @@
-"""The table of common mistakes with ROS 1 services, and the fault or build that shows each of them.
+"""The table of common mistakes with ROS 1 services.
 
-A row is a mistake with the part of its symptom that never changes. A mistake at run time names the faults of
-BreakIt that cause it. A mistake in a build names a package with this mistake, or a command.
+Each row names the fault or the build that shows the mistake.
+
+A row contains a mistake and the part of its symptom that is always the same. A mistake at run time refers to
+the faults of BreakIt that cause it. A mistake in a build refers to a package with this mistake, or to a
+command.
 """
 
 from __future__ import annotations
@@ -14,7 +17,8 @@ class Shows:
     """The symptom of a fault.
 
     `said` is a part of the client's output, and `server` is a part of the server's output. `hangs` is true if
-    the client waits for ever. `cause` is a part of the explanation of the output, "" if none is needed.
+    the client waits for ever. `cause` is a part of the course's explanation of the output; "" means that no
+    explanation is expected.
     """
 
     fault: str
@@ -29,7 +33,7 @@ class Builds:
     """A mistake in a build.
 
     `slip` is its name in the tables of test_mistakes.py. `said` is a part of the output, and `cause` is a
-    part of its explanation.
+    part of the explanation.
     """
 
     slip: str
@@ -439,5 +443,6 @@ NODES_AND_MASTERS = (
 )
 
 ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
-# The number of rows in each section of the table. A new row must be counted here, too.
+# The number of rows in each section of the table; a new row must also be counted here. A new row must be
+# counted here, too.
 COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

@@ -1,4 +1,4 @@
-"""Each mistake of the table is really made, and the course explains its symptom."""
+"""The test makes each mistake of the table, and the course explains its symptom."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
 
 
 def test_the_table_is_complete() -> None:
-    """Each section has all its rows, and each row has a fault or a build that shows the mistake."""
+    """Each section has all its rows, and each row has a fault or a build."""
     assert Counter(row.section for row in ROWS) == COUNTS
     assert all(row.shown for row in ROWS)
 
@@ -31,13 +31,13 @@ def test_the_table_names_exactly_the_faults_of_the_course() -> None:
 
 
 def test_each_fault_prints_something_or_hangs() -> None:
-    """Each fault has an expected text in an output, or its client hangs."""
+    """For each fault, the table has an expected text of an output, or the client hangs."""
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
 @pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
-    """The fault shows the symptom of the table, `explain` explains it, and afterwards nothing is left."""
+    """The fault has the symptom of the table, `explain` explains it, and nothing is left afterwards."""
     assert master.uri
     before = Surroundings()
     with caused(shows.fault) as stage:
@@ -55,7 +55,7 @@ def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, show
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A workspace with a package that builds, and with scripts that rosrun cannot run."""
+    """Create a workspace with a package that can be built, and with scripts that rosrun cannot run."""
     folder = tmp_path_factory.mktemp("mistakes")
     scripts = {"scripts/plain.py": "print(1)\n", "scripts/shell.py": "import os\n"}
     write(folder, {**GOOD, **scripts})
@@ -105,7 +105,7 @@ def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
 
 @pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
 def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
-    """The output of catkin_make or the tool contains the expected text, and `explain` explains it."""
+    """The output of catkin_make, or of the tool, contains the expected text, and `explain` explains it."""
     text = printed(built, workspace, tmp_path)
     assert " ".join(built.said.split()) in " ".join(text.split())
     explained = explain.explain(text)

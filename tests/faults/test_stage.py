@@ -1,4 +1,4 @@
-"""A stage causes a fault, and afterwards the graph is as before."""
+"""A stage causes a fault; after it is undone, the graph is the same as before."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
     """After SIGKILL of the kernel, no process, registration or folder of its case is left.
 
-    This includes the registrations of nodes that the case killed on purpose.
+    This includes the registrations of nodes that the case killed.
     """
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
@@ -68,14 +68,14 @@ def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
 
 
 def test_a_stage_needs_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a stage raises MasterUnreachable, and starts no program."""
+    """Without a master, a stage raises MasterUnreachable and starts no program."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))
 
 
 def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
-    """Two calls of `undo` raise no error, and no node is left."""
+    """A second call of `undo` raises no error, and no node is left."""
     stage = Stage(named("returns_none"))
     stage.cause()
     stage.undo()
@@ -84,7 +84,7 @@ def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
 
 
 def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
-    """A server that was stopped continues after SIGCONT, and the tool "Call again" shows its response."""
+    """A stopped server continues after SIGCONT, and the tool "Call again" shows its response."""
     assert master.uri
     with caused("stopped") as stage:
         assert stage.keeper is not None
@@ -93,7 +93,10 @@ def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
 
 
 def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
-    """Each tool shows the output of a real command. The clean-up removes stale registrations of the case."""
+    """Each tool shows the output of a real command.
+
+    The clean-up tool removes stale registrations of the case.
+    """
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}

@@ -1,4 +1,4 @@
-"""Students' editions for tests, and commands that run in them."""
+"""Editions for students, which the tests release, and commands that run in them."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ def make_release(out: Path, path: str = "", chapters: tuple[str, ...] = ()) -> P
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    """Return the files of an edition by their paths, without those of git."""
+    """Return the files of an edition by their paths, without git's files."""
     found = (path for path in folder.rglob("*") if path.is_file())
     names = {str(path.relative_to(folder)): path for path in found}
     return {name: path.read_bytes() for name, path in names.items() if not name.startswith(".git/")}
 
 
 def git(folder: Path, *arguments: str) -> str:
-    """Return what git prints in `folder`."""
+    """Run git in `folder`, and return its output."""
     command = ["git", "-C", str(folder), *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
 def python_in(edition: Path, program: str, **variables: str) -> str:
-    """Return what a program prints that imports the edition, in this suite's environment."""
+    """Run a program that imports the edition, in the environment of the tests, and return its output."""
     paths = os.environ["PYTHONPATH"].split(os.pathsep)
     env = {
         **os.environ,

@@ -1,4 +1,4 @@
-"""`course collect`: work from home folders, read with each student's rights."""
+"""`course collect`: it collects work from home folders with each student's rights."""
 
 from __future__ import annotations
 
@@ -28,13 +28,16 @@ from tests.setup.test_course import course
 ROOT = os.geteuid() == 0
 NOTEBOOK = "05_write_a_server.ipynb"
 TIME = 1_700_000_000  # s since 1970
-FIRST_UID = 54_321  # no user of this machine has it
+FIRST_UID = 54_321  # this machine has no user with this id
 WANTED = Wanted(["05", "06", "07"])
 
 
 @pytest.fixture
 def homes() -> Iterator[Path]:
-    """Make a folder for homes that every user can enter; pytest's own folders are closed to other users."""
+    """Create a folder for homes.
+
+    Every user can enter it, but other users cannot enter pytest's own folders.
+    """
     folder = Path(tempfile.mkdtemp(prefix="course-homes-"))
     folder.chmod(0o755)
     yield folder
@@ -42,7 +45,7 @@ def homes() -> Iterator[Path]:
 
 
 def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "ros-course") -> Path:
-    """Make a student's home with files in the course's folder, all closed to other users."""
+    """Create a student's home with files in the course's folder; other users cannot read them."""
     home = homes / student
     for name, content in files.items():
         path = home / course / name
@@ -55,7 +58,7 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """Give everything below `path` to a user, if this process may, and close it to others."""
+    """If this process may, make a user the owner of everything below `path`; other users cannot read it."""
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)
@@ -64,13 +67,13 @@ def give(path: Path, uid: int) -> None:
 
 
 def packaged() -> dict[str, bytes]:
-    """Return the files of chapter 07's package in a student's workspace, and what catkin writes there."""
+    """Return the files of chapter 07's package in a workspace, with those that catkin writes there."""
     files = {f"workspace/src/my_geometry/{path}": content for path, content in my_geometry().items()}
     return {**files, "workspace/build/x/package.xml": b"<package/>", "workspace/src/CMakeLists.txt": b""}
 
 
 def run(homes: Path, out: Path, **options: object) -> int:
-    """Collect the course's work of all homes."""
+    """Run the collection for all homes."""
     return collect(Options("ros-course", out, homes, **options))  # type: ignore[arg-type]
 
 
@@ -83,7 +86,7 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Notebooks and packages are stored by student, with their times; students with nothing are named."""
+    """Notebooks and packages are stored by student, with their times; students without work are listed."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
     add_home(homes, "ben", {NOTEBOOK: notebook})  # he moved it
@@ -113,7 +116,7 @@ def test_work_is_where_the_grader_looks(
 
 
 def test_the_command_line(homes: Path, tmp_path: Path) -> None:
-    """The command does the same as the function; an error is one message."""
+    """The command does the same as the function; for an error, it prints one message."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     words = ["collect", "ros-course", str(tmp_path / "out"), "--chapters", "5", "--homes"]
     done = course(*words, str(homes))
@@ -128,7 +131,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """A new notebook and a new package replace the old ones as a whole; other chapters stay."""
+    """A new notebook or a new package completely replaces the old one; other chapters do not change."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -146,11 +149,11 @@ def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Pat
 
 @pytest.mark.skipif(not ROOT, reason="only root can read with another user's rights")
 def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> None:
-    """Root reads as the student: not a file of root or of another student, whatever leads to it."""
+    """Root has the student's rights, so no link or path leads to a file of root or of another student."""
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)  # as if the file system allowed that
+    os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)  # as if the file system allowed this link
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert [file.path for file in files] == ["06_write_a_client.ipynb"]
@@ -161,18 +164,18 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
 
 
 def home_of(homes: Path, student: str) -> Home:
-    """Return a home with this process's own rights."""
+    """Return a home that is read with this process's own rights."""
     return Home(student, homes / student, os.getuid(), os.getgid())
 
 
 @pytest.mark.parametrize("place", ["ros-course", "ros-course/notebooks", f"ros-course/notebooks/{NOTEBOOK}"])
 def test_no_link_is_followed(homes: Path, place: str) -> None:
-    """A link in place of a folder or of a notebook is reported, and not followed."""
+    """A link in place of a folder or a notebook is reported, but not followed."""
     add_home(homes, "other", {f"notebooks/{NOTEBOOK}": b"secret"})
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
     link.symlink_to(homes / "other" / place)
-    give(homes, FIRST_UID)  # all of it is readable
+    give(homes, FIRST_UID)  # the user can read all of it
     [home] = [each for each in homes_in(homes) if each.student == "anna"]
     files, [problem] = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert files == []
@@ -180,7 +183,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
-    """A link in a package is left out, and a link to a package is not collected; both are named."""
+    """A link in a package is left out, and a link to a package is not collected; both are reported."""
     home = add_home(homes, "anna", packaged())
     sources = home / "ros-course" / "workspace" / "src"
     (sources / "my_geometry" / "passwords").symlink_to("/etc/passwd")
@@ -201,7 +204,7 @@ def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None
 def test_pipes_large_files_and_large_packages_are_left_out(
     homes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A named pipe does not stop the collection; limits hold for notebooks and packages."""
+    """A named pipe does not block the collection; there are limits for notebooks and packages."""
     monkeypatch.setattr("course_pkg.grading.intake.archive.LARGEST", 1 << 20)
     home = add_home(
         homes, "anna", {"notebooks/06_write_a_client.ipynb": b"x" * ((1 << 20) + 1), **packaged()}
@@ -220,7 +223,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the time limit, the process is ended, and the home is reported."""
+    """After the time limit, the process is killed, and the home is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -229,7 +232,7 @@ def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytes
 
 
 def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The names that the reading process sends are not trusted either."""
+    """The names that the child process sends are not trusted."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     file = WorkFile("../../ben/05_write_a_server.ipynb", b"", 0, 0)
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: iter([file]))
@@ -242,7 +245,7 @@ def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest
 def test_a_time_that_was_set_back_is_listed(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A file's owner can set its time; the time of its last change shows that."""
+    """A file's owner can set its time, but the time of its last change shows this."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     home = add_home(homes, "ben", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
@@ -253,23 +256,23 @@ def test_a_time_that_was_set_back_is_listed(
 
 
 def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> None:
-    """A file's owner can give it a time that no calendar has."""
+    """A file's owner can set a time that is not a valid date."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK, (10**12, 10**12))
     assert run(homes, tmp_path / "out") == 0
     [_, row] = times(tmp_path / "out")
-    assert datetime.fromisoformat(row[3]).year <= 2446  # the last year of some file systems
+    assert datetime.fromisoformat(row[3]).year <= 2446  # the last year that some file systems can store
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The command returns 1, and asks whether the folder's name is right."""
+    """The command returns 1, and its message asks whether the name of the folder is right."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Is ros-course the course's folder in each of them?" in capsys.readouterr().out
 
 
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
-    """Nothing is added to a folder with other files."""
+    """Nothing is written to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
     with pytest.raises(HandoutError, match=r"did not make it .*Give a new or an empty folder"):
         run(homes, tmp_path)
@@ -278,7 +281,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
-    """An absolute path, or one that leads out of the home, is refused."""
+    """An absolute path is refused, and so is a path that leads out of the home."""
     with pytest.raises(HandoutError, match="Give its path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
@@ -289,7 +292,10 @@ def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Pa
 def test_a_list_of_students(
     text: str, homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A text file or a roster limits the collection, and a student without a home is named."""
+    """With a text file or a roster, only the listed students are collected.
+
+    A student without a home is reported.
+    """
     (tmp_path / "students").write_text(text)
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})
@@ -309,7 +315,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """The message names the line, and not the student."""
+    """The message contains the number of the line, and no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):
@@ -317,7 +323,7 @@ def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: P
 
 
 def test_a_killed_collection_leaves_nothing_behind(tmp_path: Path) -> None:
-    """The drafts of a package that a killed collection left are removed by the next one."""
+    """If a collection is killed, the next one removes its temporary files of a package."""
     folder = tmp_path / "anna"
     file = WorkFile("package.xml", b"new", TIME, TIME, package="my_geometry", asked="my_geometry")
     store(folder, [file])

@@ -17,9 +17,10 @@ from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.ros import PrivateMaster
 from tests.handout.releases import ROOT, files_of, git, make_release, python_in
 
-SHORT = 8  # characters of a line that says nothing
-MOST = 0.8  # the share of an answer's lines that another file may contain by chance
-BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}  # the goal states all of it
+SHORT = 8  # characters; a shorter line is too common to identify an answer
+MOST = 0.8  # the part of an answer's lines that another file may contain by chance
+# the goal contains the whole content of this file
+BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}
 ANSWER = """
 from course_pkg import check, join
 import rospy
@@ -40,13 +41,13 @@ def edition(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def lines_of(source: str) -> list[str]:
-    """Return the lines of a source that say something."""
+    """Return the lines of a source that are long enough to identify an answer."""
     stripped = (line.strip() for line in source.splitlines())
     return [line for line in stripped if len(line) >= SHORT and not line.startswith("%%")]
 
 
 def answers(edition: Path) -> dict[str, list[str]]:
-    """Return, by part, the lines of the solution that its cell in the edition does not have."""
+    """Return, for each part, the lines of the solution that the cell in the edition does not contain."""
     found = {}
     for path in NotebookStore().solutions():
         released = {cell["id"]: cell["source"] for cell in read(edition / "notebooks" / path.name)["cells"]}
@@ -58,7 +59,7 @@ def answers(edition: Path) -> dict[str, list[str]]:
 
 
 def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
-    """No released file has the lines of a solution's exercise cell, except definitions that a goal states."""
+    """No released file contains a solution's lines, except definitions that are in a goal."""
     wanted = {part: lines for part, lines in answers(edition).items() if lines}
     assert len(wanted) > 95
     found = {}
@@ -76,7 +77,10 @@ def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
 
 
 def test_what_students_must_not_have_is_left_out(edition: Path) -> None:
-    """There are no solutions, tests, example answers, fixtures, recordings, private checks and no history."""
+    """The edition has no solutions, tests, example answers, fixtures, recordings or private checks.
+
+    It has no git history.
+    """
     names = [*files_of(edition), *zipped(edition)]
     secret = re.compile(
         r"(solutions|tests|\.ci)/|.*/chapters/(.*(answers|fixtures)\.py|.*recordings\.json|private_)"
@@ -86,7 +90,7 @@ def test_what_students_must_not_have_is_left_out(edition: Path) -> None:
 
 
 def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
-    """Each chapter's notebook is the same, byte for byte, as the one in notebooks/."""
+    """Each released notebook has the same bytes as the notebook in notebooks/."""
     for path in NotebookStore().solutions():
         assert (edition / "notebooks" / path.name).read_bytes() == (
             ROOT / "notebooks" / path.name
@@ -94,13 +98,13 @@ def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
 
 
 def zipped(edition: Path) -> dict[str, zipfile.ZipInfo]:
-    """Return the members of the edition's zip, by their paths inside of its folder."""
+    """Return the members of the edition's zip, by their paths in its folder."""
     with zipfile.ZipFile(f"{edition}.zip") as archive:
         return {info.filename.removeprefix(f"{edition.name}/"): info for info in archive.infolist()}
 
 
 def test_folder_repository_and_zip_have_the_same_files(edition: Path, tmp_path: Path) -> None:
-    """A clone and the unpacked zip have the files of the folder, and `course` is a program in each."""
+    """A clone and the unpacked zip have the same files as the folder, and `course` is executable in each."""
     git(tmp_path, "clone", "--quiet", str(edition), "clone")
     subprocess.run(["unzip", "-q", f"{edition}.zip", "-d", tmp_path / "zip"], check=True)
     unpacked = tmp_path / "zip" / edition.name
@@ -110,7 +114,7 @@ def test_folder_repository_and_zip_have_the_same_files(edition: Path, tmp_path: 
 
 
 def test_the_readme_is_for_students(edition: Path) -> None:
-    """README has the first command, no command that needs the solutions, and no link that leads nowhere."""
+    """README contains the first command, but no command that needs the solutions, and no broken link."""
     text = (edition / "README.md").read_text("utf-8")
     assert "./course lab" in text
     assert [
@@ -127,7 +131,10 @@ def test_the_readme_is_for_students(edition: Path) -> None:
     [["grade", "x"], ["grade-one", "x", "--out", "y"], ["release", "x"], ["sync"], ["test"], ["site"]],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
-    """The message comes before a set-up, names the students' edition, and says where the command works."""
+    """The message comes before the set-up.
+
+    It contains "students' edition", and says where the command works.
+    """
     nowhere = {**os.environ, "XDG_CACHE_HOME": "/proc/nowhere"}
     done = subprocess.run(
         [edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False
@@ -138,14 +145,14 @@ def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: l
 
 
 def test_the_first_command_is_there(edition: Path) -> None:
-    """`./course --help` works in the edition with any Python."""
+    """`./course --help` works in the edition with every version of Python."""
     done = subprocess.run([edition / "course", "--help"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "\n    lab" in done.stdout
 
 
 def test_every_check_is_there(edition: Path) -> None:
-    """Each part has the same points and the same goal as in the instructors' edition, without solutions."""
+    """Each part has the same points and the same goal as in the instructors' edition."""
     program = """
 import json
 import course_pkg
@@ -158,13 +165,13 @@ print(json.dumps([course_pkg.__file__, [[part.check, part.points, part.goal] for
 
 
 def test_a_check_passes_a_right_answer(edition: Path, master: PrivateMaster, tmp_path: Path) -> None:
-    """In the edition, `check("05.1")` examines a service on the graph, and passes it."""
+    """In the edition, `check("05.1")` checks a real service, and the check passes."""
     printed = python_in(edition, ANSWER, COURSE_STATE=str(tmp_path), ROS_MASTER_URI=str(master.uri))
     assert printed.startswith("05.1 passed"), printed
 
 
 def test_some_chapters(tmp_path: Path) -> None:
-    """--chapters releases these notebooks; README, links and progress know no others."""
+    """--chapters releases only these notebooks; README, links and progress contain no others."""
     edition = make_release(tmp_path / "some", chapters=("05", "06"))
     names = [path.name for path in sorted((edition / "notebooks").iterdir())]
     assert names == ["05_write_a_server.ipynb", "06_write_a_client.ipynb"]
@@ -190,7 +197,7 @@ def links(notebook: Notebook) -> list[str]:
 def test_the_edition_sets_itself_up_and_passes_all_answers_of_a_chapter(
     edition: Path, tmp_path: Path
 ) -> None:
-    """`./course run` works in a fresh clone; its notebook with right answers passes all its checks."""
+    """`./course run` works in a new clone, and all checks pass in its notebook with the right answers."""
     git(tmp_path, "clone", "--quiet", str(edition), "clone")
     clone = tmp_path / "clone"
     notebook = clone / "notebooks" / "05_write_a_server.ipynb"

@@ -32,7 +32,7 @@ def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        start_new_session=True,  # so that a Ctrl-C for the tests does not reach this process, too
+        start_new_session=True,  # so that a Ctrl-C that ends the tests does not reach this process
     ) as process:
         try:
             yield process
@@ -83,7 +83,7 @@ def having(pattern: bytes, pids: list[int]) -> list[int]:
     """Return the processes of `pids` whose command line contains `pattern`; NUL separates the arguments."""
     found = []
     for pid in pids:
-        with suppress(OSError):  # The process may have ended.
+        with suppress(OSError):  # the process may have ended
             if pattern in Path(f"/proc/{pid}/cmdline").read_bytes():
                 found.append(pid)
     return found

@@ -19,7 +19,7 @@ class SocketsHandler(JupyterHandler):  # type: ignore[misc]
         handlers = [
             it
             for it in gc.get_objects()
-            # isinstance() would fail for a weakref.proxy whose object no longer exists.
+            # isinstance() would fail for a weakref.proxy whose object does not exist any more
             if issubclass(type(it), KernelWebsocketHandler) and it.ws_connection
         ]
         streams = [handler.ws_connection.stream for handler in handlers]

@@ -1,4 +1,4 @@
-"""The shell of `course run bash` and of JupyterLab's terminals."""
+"""The shell of `course run bash` and of the terminals in JupyterLab."""
 
 from __future__ import annotations
 
@@ -43,7 +43,10 @@ def shell(home: Path, commands: str) -> str:
 
 
 def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
-    """The shell uses the course's Python, tools and master. The user's aliases and prompt stay."""
+    """The shell uses the course's Python, tools and master, but the user's aliases and prompt.
+
+    The user's aliases and prompt stay.
+    """
     look = "echo py:$(python3 -c 'print(3)') uri:$ROS_MASTER_URI ip:${ROS_IP-none}"
     seen = shell(home, f"{look}; mine; rosservice list")
     assert "py:3 uri:http://localhost:" in seen
@@ -54,7 +57,7 @@ def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
 
 
 def test_tab_completes_the_tools_of_ros(home: Path) -> None:
-    """The Tab completion of rosrun and rosservice works, and lists the course's package."""
+    """The Tab key completes arguments of rosrun and rosservice, and lists the course's package."""
     tab = "COMP_WORDS=(rosrun course_p) COMP_CWORD=1; _roscomplete_exe; echo found:${COMPREPLY[*]}"
     seen = shell(home, f"complete -p rosrun rosservice rossrv roslaunch; {tab}")
     for tool in ("rosrun", "rosservice", "rossrv", "roslaunch"):

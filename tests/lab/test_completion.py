@@ -13,9 +13,9 @@ TAB = "\t"
 
 
 def test_tab_completes_services_and_requests(tmp_path: Path) -> None:
-    """The Tab key completes the name of a service. Then it types a request whose values are all zero."""
+    """The Tab key completes the name of a service. Then it completes the request with zero for each value."""
     lines = [SWITCH, f"rosservice call /sw{TAB}rep{TAB}", f"rosservice call /switch/set {TAB}", "kill %1"]
     seen = shell(tmp_path, "\n".join(lines))
-    assert 'message: "closed"' in seen  # the response of /switch/report
+    assert 'message: "closed"' in seen  # this is the response of /switch/report
     assert '/switch/set "data: false"' in seen
     assert 'message: "already closed"' in seen

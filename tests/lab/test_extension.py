@@ -1,4 +1,4 @@
-"""The server extension: TCP_NODELAY on a kernel's websocket, and checkpoints in the cache."""
+"""The server extension: Tests of TCP_NODELAY on a kernel's websocket, and of the checkpoints in the cache."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.lab.commands import ROOT
 
 
 class Log:
-    """A logger that stores its warnings."""
+    """A logger that collects its warnings."""
 
     def __init__(self) -> None:
         self.warnings: list[str] = []
@@ -36,7 +36,7 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run `work` on another thread, because a browser of another test may block this thread's event loop."""
+    """Run `work` on another thread. The browser of another test may use the event loop of this thread."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 
@@ -69,7 +69,7 @@ async def ask(host: str, path: str, method: str = "GET") -> object:
 
 
 async def options_of_a_page(host: str) -> object:
-    """Open a kernel's websocket as a page does, and return the options of the server's sockets."""
+    """Open a kernel's websocket in the same way as a page, and return the options of the server's sockets."""
     kernel = await ask(host, "/api/kernels", "POST")
     assert isinstance(kernel, dict)
     page = await websocket_connect(f"ws://{host}/api/kernels/{kernel['id']}/channels?token=t&session_id=s")
@@ -83,7 +83,7 @@ async def options_of_a_page(host: str) -> object:
 def test_only_the_extension_sets_the_socket_option(
     extensions: tuple[str, ...], seen: list[bool], tmp_path: Path
 ) -> None:
-    """A kernel's websocket has TCP_NODELAY with the extension, and does not have it without."""
+    """With the extension, a kernel's websocket has TCP_NODELAY; without the extension, it does not."""
     with server(tmp_path, *extensions) as host:
         assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == seen
 
@@ -121,13 +121,13 @@ def kept(tmp_path: Path) -> CachedCheckpoints:
 
 
 def make(kept: CachedCheckpoints, path: str) -> None:
-    """Create a checkpoint as the server does."""
+    """Create a checkpoint in the same way as the server."""
     manager = SimpleNamespace(_get_os_path=lambda name: str(Path(kept.root_dir, name)))
     completed(kept.create_checkpoint(manager, path))
 
 
 def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpoints, tmp_path: Path) -> None:
-    """The checkpoints of a chapter and its solution are different files, and are not in the checkout."""
+    """A chapter and its solution have different checkpoint files, which are not in the checkout."""
     before = sorted((tmp_path / "checkout").rglob("*"))
     for chapter in ("notebooks", "solutions"):
         make(kept, f"{chapter}/05_x.ipynb")
@@ -137,7 +137,7 @@ def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpo
 
 
 def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
-    """The checkpoint of a path that leads out of the checkout is refused."""
+    """A path that leads out of the checkout gets no checkpoint."""
     with pytest.raises(HTTPError, match="404"):
         kept.checkpoint_path("checkpoint", "../elsewhere.ipynb")
 
@@ -150,14 +150,14 @@ def names(manager: CourseContents, path: str) -> set[str]:
 
 
 def test_the_root_folder_lists_only_files_for_students(tmp_path: Path) -> None:
-    """The list hides the repository's files only in the root folder, and never a student's own files."""
+    """Only the list of the root folder hides files of the repository; it shows all files of a student."""
     for folder in (*HIDDEN, "notebooks", "figures", "workspace/src/my_arm/tests"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "my_notes.md").touch()
     manager = CourseContents(root_dir=str(tmp_path))
     assert names(manager, "") == names(manager, "/") == {"notebooks", "figures", "workspace", "my_notes.md"}
     assert names(manager, "workspace/src/my_arm") == {"tests"}
-    assert names(manager, "solutions") == set()  # The folder is hidden, but it can be opened by its path.
+    assert names(manager, "solutions") == set()  # the folder is hidden, but a user can open it by its path
     manager.everything = True
     assert names(manager, "") >= set(HIDDEN)
 
@@ -173,7 +173,7 @@ def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
 
 
 def test_every_file_of_the_repository_is_listed_or_hidden_on_purpose() -> None:
-    """A new file in the repository's root folder must be in HIDDEN, or be meant for students."""
+    """Each file in the repository's root folder is listed in HIDDEN, or students need it."""
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     top = {path.partition("/")[0] for path in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} == {*HIDDEN, "notebooks", "figures"}

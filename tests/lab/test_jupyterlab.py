@@ -56,7 +56,7 @@ class Service:
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Create an empty notebook in the checkout, because the server opens only files in the checkout."""
+    """Create an empty notebook in the checkout, because the server opens only files there."""
     path = ROOT / "tests" / "lab" / f"empty-{os.getpid()}.ipynb"
     path.write_text(json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}))
     yield str(path)
@@ -65,7 +65,10 @@ def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start one server for all tests that do not end it. Two extensions are installed as with pip."""
+    """Start one server for all tests that do not end it.
+
+    Two extensions are installed in the same way as by pip.
+    """
     folder = tmp_path_factory.mktemp("installed")
     enabled = folder / "jupyter_server_config.d" / "sockets.json"
     front_end = folder / "labextensions" / "example" / "package.json"
@@ -89,7 +92,7 @@ def test_the_address_opens_the_notebook_and_its_kernel_runs(served: Service, not
 
 
 def test_extensions_that_a_user_installs_are_loaded(served: Service) -> None:
-    """A server extension answers at its address, and the page contains a front-end extension."""
+    """A server extension answers requests, and the page contains a front-end extension."""
     assert served.get("/sockets") == []
     assert "example-extension" in served.text(served.path)
 
@@ -108,7 +111,7 @@ def test_each_start_opens_only_its_notebook(served: Service, notebook: str) -> N
 
 
 def test_nothing_listens_beyond_this_host(served: Service) -> None:
-    """Server, kernel and master listen on 127.0.0.1 and nowhere else."""
+    """The server, the kernel and the master listen only on 127.0.0.1."""
     eventually(served.kernels)
     family = [served.process.pid, *below(served.process)]
     assert served.port in listening_ports(served.process.pid)
@@ -119,14 +122,14 @@ def foreign_sockets(pids: list[int]) -> list[tuple[str, int]]:
     """Return the addresses other than 127.0.0.1 on which the processes listen."""
     found = []
     for pid in pids:
-        with suppress(psutil.Error):  # The process may have ended.
+        with suppress(psutil.Error):  # the process may have ended
             sockets = psutil.Process(pid).net_connections("inet")
             found += [sock.laddr for sock in sockets if sock.status == psutil.CONN_LISTEN]
     return [address for address in found if address.ip != "127.0.0.1"]
 
 
 def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Service, notebook: str) -> None:
-    """A new checkpoint is listed, but no folder .ipynb_checkpoints is created next to the notebook."""
+    """A new checkpoint is listed, but there is no folder .ipynb_checkpoints next to the notebook."""
     at = f"/api/contents/{Path(notebook).relative_to(ROOT)}/checkpoints"
     served.post(at)
     assert [found["id"] for found in served.get(at)] == ["checkpoint"]
@@ -134,7 +137,7 @@ def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Service, notebook:
 
 
 def test_the_terminal_is_the_courses_shell(served: Service) -> None:
-    """A terminal of JupyterLab runs bash with the course's settings."""
+    """A terminal in JupyterLab runs bash with the course's settings."""
     served.post("/api/terminals")
     assert eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
 
@@ -160,7 +163,7 @@ def test_a_signal_ends_everything(number: signal.Signals, notebook: str) -> None
 
 
 def test_nothing_outlives_a_killed_lab(notebook: str) -> None:
-    """After SIGKILL of `course lab` no process and no used port is left, and the next start works."""
+    """After SIGKILL of `course lab`, no process is left, its ports are free, and the next start works."""
     port = str(free_port())
     for _ in range(2):
         with lab(notebook, "--port", port) as (process, address):
@@ -173,7 +176,7 @@ def test_nothing_outlives_a_killed_lab(notebook: str) -> None:
 
 
 def test_a_killed_kernel_is_replaced(served: Service) -> None:
-    """After SIGKILL of the kernel, the server starts another one."""
+    """After SIGKILL of the kernel, the server starts a new kernel."""
     [victim] = eventually(lambda: having(b"ipykernel_launcher", below(served.process)))
     os.kill(victim, signal.SIGKILL)
     assert eventually(
@@ -219,7 +222,7 @@ def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> No
 
 
 def test_a_workspace_in_which_catkin_cannot_build_is_named(tmp_path: Path) -> None:
-    """`course lab` prints a warning, and starts JupyterLab, because only some chapters need the workspace."""
+    """`course lab` prints a warning and starts JupyterLab, because only some chapters need the workspace."""
     folder = str(tmp_path / "my ws")
     with running("lab", "--no-browser", COURSE_WORKSPACE=folder) as process:
         assert process.stdout

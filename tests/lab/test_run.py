@@ -73,7 +73,7 @@ def test_the_course_is_a_package_like_any_other() -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_the_command_and_its_master(number: signal.Signals) -> None:
-    """SIGINT, SIGTERM and SIGHUP reach the command, and afterwards no process is left."""
+    """SIGINT, SIGTERM and SIGHUP reach the command; after its end, no process is left."""
     script = "trap 'echo heard; exit 3' INT TERM HUP; echo up; while :; do sleep 0.05; done"
     with running("run", "bash", "-c", script) as process:
         assert process.stdout
@@ -103,15 +103,18 @@ def test_nothing_outlives_a_killed_run() -> None:
     ids=["a node", "without a parent or session", "ignores SIGTERM"],
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
-    """When a command ends, all processes that it has left in the background end, too."""
-    tag = str(tmp_path)  # Only these processes have this text in their environment.
+    """When a command ends, all its background processes end, too."""
+    tag = str(tmp_path)  # only these processes have this text in their environment
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []
 
 
 def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
-    """In `course run bash`, Ctrl-C ends only the foreground job, Ctrl-Z stops it, and exit ends all jobs."""
+    """In `course run bash`, Ctrl-C ends only the foreground job.
+
+    Ctrl-Z suspends it, and exit ends all jobs.
+    """
     tag = f"course-run-{time.monotonic_ns()}"
     shell = pexpect.spawn(
         str(ROOT / "course"), ["run", "bash"], env={**user_environment(), "TAG": tag}, timeout=30
@@ -134,7 +137,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
         shell.expect_exact("Stopped")
         assert alive(background[0])
         assert alive(stopped[0])
-        shell.sendline("kill %2")  # because with a stopped job, the first `exit` only prints a warning
+        shell.sendline("kill %2")  # while a job is suspended, the first `exit` only prints a warning
         assert all_gone(stopped)
         shell.sendline("exit 7")
         shell.expect(pexpect.EOF)
@@ -149,12 +152,12 @@ def tagged(tag: str) -> list[int]:
     """Return the processes that have `tag` in their environment."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
-        with suppress(OSError):  # The process may have ended, or may belong to another user.
+        with suppress(OSError):  # the process may have ended, or may belong to another user
             if tag.encode() in environment.read_bytes():
                 found.append(int(environment.parent.name))
     return found
 
 
 def names(pids: list[int]) -> list[str]:
-    """Return the command names of processes."""
+    """Return the command names of these processes."""
     return [Path(f"/proc/{pid}/comm").read_text().strip() for pid in pids if alive(pid)]

@@ -1,4 +1,4 @@
-"""JupyterLab's terminals: the commands that a student types on a robot's computer work there, too."""
+"""JupyterLab's terminals: the commands that a student types on a robot's computer also work there."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB, CTRL_C = "\t", "\x03"
-BUSY = 240.0  # s; the time limit for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # s; time limit for commands that take 3 s on an idle machine, such as catkin_make
 
 
 class Terminal:
@@ -77,10 +77,13 @@ def listening(pid: int) -> set[str]:
 
 @pytest.fixture(scope="module")
 def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
-    """Start `course lab` with a temporary folder for own packages; yield a terminal of it."""
+    """Start `course lab` with a temporary folder for the student's packages.
+
+    Yield a terminal of JupyterLab.
+    """
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # because a user may type `course lab` in any folder
+        patch.chdir(state)  # a user may type `course lab` in any folder
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -89,7 +92,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
             terminal = Terminal(shell)
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
-            assert rosout  # a test that starts another /rosout can end this one
+            assert rosout  # a test that starts another node /rosout can end this node
             try:
                 yield terminal
             finally:
@@ -100,12 +103,12 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
-    """A terminal starts in the folder that contains `notebooks`, because the chapters say so."""
+    """A terminal starts in the folder that contains `notebooks`, as the chapters say."""
     assert Path(terminal.run("pwd").strip()) == ROOT
 
 
 def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
-    """The nodes, the services and the parameters are the same as after a start of roscore."""
+    """The nodes, services and parameters are the same as after `roscore`."""
     assert terminal.run("rosnode list").split() == ["/rosout"]
     assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
     assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]
@@ -134,7 +137,7 @@ def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None
 
 
 def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
-    """These commands work: catkin_make, source devel/setup.bash, rossrv, roscd, rosrun, and the Tab key."""
+    """A student can use catkin_make, devel/setup.bash, rossrv, roscd, rosrun, and the Tab key."""
     root = Path(terminal.environment["COURSE_STATE"], "workspace")
     assert (root / "src").is_dir()
     lists = GOOD["CMakeLists.txt"] + INSTALLED

@@ -1,4 +1,4 @@
-"""The course's server and client, as a student uses them in a terminal."""
+"""The course's server and client, used in a terminal as a student does."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_rosservice_call(server: NodeProcess) -> None:
 
 
 def test_client_prints_area_and_volume(server: NodeProcess) -> None:
-    """The client prints both values, each on its own line, and nothing else."""
+    """The client prints only the two values, each on a separate line."""
     done = terminal("rosrun", "course_pkg", "client", "1.2", "5.2", "8.9")
     assert (done.returncode, done.stdout, done.stderr) == (0, "area: 6.24\nvolume: 55.54\n", "")
 
@@ -63,7 +63,10 @@ def test_client_with_a_wrong_line(words: list[str]) -> None:
     ],
 )
 def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], message: str) -> None:
-    """The server refuses an invalid side. The client prints the server's message, and exits with status 1."""
+    """The server refuses an invalid length of a side.
+
+    The client prints the server's message, and exits with status 1.
+    """
     done = terminal("rosrun", "course_pkg", "client", *sides)
     assert done.returncode == 1
     assert f"service cannot process request: {message}" in done.stderr
@@ -110,7 +113,7 @@ def test_remapping(master: PrivateMaster) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_server(server: NodeProcess, master: PrivateMaster, number: signal.Signals) -> None:
-    """After SIGINT or SIGTERM, the server ends within 2 s without a traceback, and is unregistered."""
+    """After SIGINT or SIGTERM, the server ends within 2 s without a traceback and unregisters."""
     started = time.monotonic()
     os.kill(server.pid, number)
     assert server.wait(5) == 0
@@ -120,7 +123,7 @@ def test_a_signal_ends_the_server(server: NodeProcess, master: PrivateMaster, nu
 
 
 def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A server that still waits for a master ends after Ctrl-C without a traceback."""
+    """If a server is still waiting for a master, it ends after Ctrl-C without a traceback."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         eventually(lambda: "Waiting for a master" in process.output())
@@ -148,5 +151,5 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     ],
 )
 def test_reading_the_sides(words: list[str], sides: tuple[float, float, float] | None) -> None:
-    """Three numbers in any notation of Python are accepted. Other arguments give None."""
+    """Three numbers in any notation of Python are accepted. For other arguments, the result is None."""
     assert read_sides(words) == sides

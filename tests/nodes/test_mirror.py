@@ -41,7 +41,7 @@ def simulator() -> Iterator[NodeProcess]:
 
 
 def test_a_joint_state_has_matching_positions_and_velocities() -> None:
-    """The velocity is the derivative of the position, and each position stays within the joint's limits."""
+    """The velocity is the derivative of the position, and each position is within the joint's limits."""
     step = 1e-5
     for at in (0.0, 0.7, 3.1, 100.0):
         now, soon = joint_state(at), joint_state(at + step)
@@ -79,7 +79,7 @@ def test_the_mirror_image_has_the_opposite_signs() -> None:
     ],
 )
 def test_an_invalid_joint_state_is_refused(odd: JointState, message: str) -> None:
-    """Wrong lengths and values that are not finite numbers raise an error."""
+    """Lists of different lengths, and values that are not finite, raise an error."""
     with pytest.raises(ValueError, match=message):
         mirrored(odd)
 
@@ -91,13 +91,14 @@ def test_a_joint_state_may_have_no_joints_or_no_velocities(fine: JointState) -> 
 
 
 def test_the_robot_publishes_at_its_rate(kernel: Kernel) -> None:
-    """The robot publishes states at the given rate, with increasing times and without jumps of the joints."""
+    """The robot publishes states at the given rate. The times increase, and the positions have no jumps."""
     kernel.run(LISTEN)
     with NodeProcess(["rosrun", "course_pkg", "robot", "_rate:=100"]):
         kernel.run("heard = node.subscribe('/joint_states', JointState).wait(50, timeout=20)")
     stamps = kernel.run("result = [message.header.stamp.to_sec() for message in heard]")
     assert stamps == sorted(stamps)
-    assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05  # 0.05 s would be the default, 20 Hz
+    # the default rate of 20 Hz would give 0.05 s
+    assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05
     jumps = kernel.run(
         "result = [max(abs(b - a) for a, b in zip(one.position, next.position))"
         " for one, next in zip(heard, heard[1:])]"
@@ -136,7 +137,7 @@ def test_an_invalid_message_is_ignored(simulator: NodeProcess, kernel: Kernel) -
 
 
 def test_the_launch_file_starts_both(kernel: Kernel) -> None:
-    """The launch file has an argument for the rate, and an argument that omits the simulator."""
+    """The launch file has one argument for the rate, and one argument that leaves out the simulator."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch("course_pkg", "mirror.launch", "rate:=50"):
         kernel.run("shown = node.subscribe('/mirrored_joints', JointState).wait(20, timeout=20)")
@@ -150,7 +151,7 @@ def test_the_launch_file_starts_both(kernel: Kernel) -> None:
 @pytest.mark.parametrize("program", ["robot", "simulator"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: PrivateMaster) -> None:
-    """After SIGINT or SIGTERM, each node ends without a traceback, and is unregistered."""
+    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(f"/{program}/get_loggers")
         os.kill(process.pid, number)
@@ -167,7 +168,7 @@ def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: P
     ],
 )
 def test_an_invalid_parameter_is_refused(command: tuple[str, ...], message: str) -> None:
-    """The message names the parameter and its value, and the program ends with status 1."""
+    """The message contains the parameter and its value, and the exit status of the program is 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert message in process.output()

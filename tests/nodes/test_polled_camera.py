@@ -49,7 +49,7 @@ def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[in
     [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
 )
 def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> None:
-    """The error message names the limits, and the next call works."""
+    """The error message contains the limits, and the next call works."""
     with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
         take(*asked)
     assert take().image.data
@@ -57,7 +57,7 @@ def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> No
 
 @pytest.mark.usefixtures("camera")
 def test_a_picture_shows_the_customers_at_the_counter() -> None:
-    """While shop_camera runs, the picture shows its customers. Without it, the number is random."""
+    """While shop_camera runs, the picture shows its customers. Without shop_camera, the number is random."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):
@@ -87,7 +87,7 @@ def test_the_camera_can_publish_a_stream() -> None:
 
 @pytest.mark.parametrize("settings", [[], ["_stream:=30"]])
 def test_an_interrupt_ends_the_camera(settings: list[str], master: PrivateMaster) -> None:
-    """After SIGINT, the camera ends without a traceback, and is unregistered."""
+    """After SIGINT, the camera ends without a traceback and unregisters."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", *settings]) as process:
         process.wait_for_service("/request_image")
         os.kill(process.pid, signal.SIGINT)

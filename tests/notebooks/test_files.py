@@ -1,4 +1,4 @@
-"""Files that notebooks write do not disturb ROS, and all checks in the stored solutions have passed."""
+"""The files that notebooks write do not disturb ROS, and each stored check has passed."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.mark.parametrize("path", sorted((ROOT / "solutions").glob("*.ipynb")), ids=lambda path: path.stem)
 def test_no_file_has_the_name_of_one_of_the_course(path: Path) -> None:
-    """If two files X exist, `roslaunch course_pkg X` refuses to choose one.
+    """If there are two files X, `roslaunch course_pkg X` does not choose one of them, and fails.
 
-    Files below src/ belong to a package of the student.
+    The files below src/ belong to a student's package.
     """
     written = {
         Path(found).name

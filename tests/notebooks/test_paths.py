@@ -19,7 +19,10 @@ RANGE = re.compile(r"\[(\d\d)\]\(\w+\.ipynb\) to \[(\d\d)\]")
 
 
 def needed(chapter: Chapter) -> set[str]:
-    """Return the numbers of the chapters that a chapter needs, from the first sentence about this."""
+    """Return the numbers of the chapters that a chapter requires.
+
+    They are in the first sentence about requirements.
+    """
     sentence = chapter.need.split(". ")[0]
     ranges = RANGE.findall(sentence)
     between = {f"{number:02}" for first, last in ranges for number in range(int(first), int(last) + 1)}

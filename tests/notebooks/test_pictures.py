@@ -20,11 +20,11 @@ ROOT = Path(__file__).parents[2]
 SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 NAMES = "|".join([*panels.__all__, "predictions"])
 OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
-LIMIT = 1_000_000  # bytes; GitHub does not show a larger notebook
+LIMIT = 1_000_000  # bytes; GitHub does not show larger notebooks
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield the outputs of a stored notebook that have a plain text, with this text."""
+    """Yield each output with a plain text in a stored notebook, together with this text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):
@@ -33,7 +33,7 @@ def outputs(path: Path) -> Iterator[tuple[str, Output]]:
 
 @pytest.mark.parametrize("path", SOLUTIONS, ids=lambda path: path.stem)
 def test_each_panel_and_plot_has_a_picture(path: Path) -> None:
-    """The picture of a panel is well-formed and has a title."""
+    """The picture of each panel is well-formed XML and has a title."""
     for text, output in outputs(path):
         if text.startswith("<Figure"):
             assert SVG in output["data"], text
@@ -49,7 +49,7 @@ def test_a_stored_notebook_is_small(path: Path) -> None:
 
 
 def test_page_of_nbconvert_shows_the_pictures() -> None:
-    """`jupyter nbconvert --to html` starts no kernel and uses no template of the course."""
+    """`jupyter nbconvert --to html` starts no kernel and does not use the course's templates."""
     path = next(path for path in SOLUTIONS if path.name.startswith("05"))
     page, _ = HTMLExporter().from_filename(str(path))  # type: ignore[no-untyped-call]
     drawn = [output for _, output in outputs(path) if SVG in output["data"]]

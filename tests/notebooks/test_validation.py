@@ -1,4 +1,4 @@
-"""nbval runs each notebook from the top, in a kernel with its own master, and compares the outputs."""
+"""nbval runs each notebook from its first cell, in a kernel with its own master, and compares the outputs."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ NAMES = sorted(path.name for path in (ROOT / "solutions").glob("*.ipynb"))
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("folder", ["solutions", pytest.param("notebooks", marks=pytest.mark.when_changed)])
 def test_a_notebook_runs_to_its_end(folder: str, name: str) -> None:
-    """A solution repeats its stored outputs; in a student's notebook, only raises-exception cells fail."""
+    """A solution gives its stored outputs again.
+
+    In a student's notebook, only cells with the tag raises-exception fail.
+    """
     result = validate([ROOT / folder / name], workers=1, timeout=600, compare=folder == "solutions")
     assert result.returncode == 0, result.stdout[-6000:]

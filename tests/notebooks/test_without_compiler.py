@@ -20,8 +20,11 @@ def shown(cell: Cell) -> str:
 
 @pytest.mark.timeout(300)
 def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The checks are "not attempted"; they name the missing tool and the command that installs it."""
-    monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake uses it, too
+    """The checks are "not attempted".
+
+    Their text contains the missing tool and the command that installs it.
+    """
+    monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake uses this variable, too
     notebook = read(next((ROOT / "solutions").glob("13_*.ipynb")))
     executed: list[Notebook] = []
     assert run_all({"13 without a compiler": notebook}, lambda _, ran: executed.append(ran)) == {}

@@ -38,12 +38,12 @@ def store(verdict: str, *checks: str) -> None:
 
 
 def complete(chapter: str) -> None:
-    """Store that all parts of a chapter have passed."""
+    """Store a passed result for each part of a chapter."""
     store("passed", *(part.check for part in parts_of(chapter)))
 
 
 def predicted(key: str, answer: str, actual: str) -> None:
-    """Make the prediction `answer`, and compare it with the result `actual`."""
+    """Store the prediction `answer`, and compare it with the result `actual`."""
     model = PredictionModel(key, "What does the client see?", (), PredictionStore())
     model.answer(answer)
     model.compare(actual)
@@ -61,7 +61,10 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_parts_points_and_predictions_are_counted() -> None:
-    """The overview counts a part that passed once, and only predictions made before the result was known."""
+    """The overview counts parts that have passed once.
+
+    It counts predictions that were made before the result was known.
+    """
     store("passed", "05.1", "05.2")
     store("not yet", "05.2", "05.3")
     predicted("05.none", "an error", "an error")
@@ -92,7 +95,7 @@ def test_parts_points_and_predictions_are_counted() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
-    """The next steps leave out complete chapters, and paths without the current chapter."""
+    """The next steps contain neither complete chapters nor paths without the current chapter."""
     complete("00")
     text = " ".join(str(progress()).split())
     assert "Next: Chapter 01, Name things and find them, for the whole course" in text
@@ -106,7 +109,7 @@ def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_at_the_end_there_is_nothing_left() -> None:
-    """If all parts are passed, the overview says so in place of a next step."""
+    """If all parts have passed, the overview says so; there is no next step."""
     for number in chapters():
         complete(number)
     assert "Next: You have passed all parts of the course." in str(progress())
@@ -114,14 +117,20 @@ def test_at_the_end_there_is_nothing_left() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_an_unknown_chapter_is_refused() -> None:
-    """The message names the first and the last chapter. A number without its zero is accepted."""
+    """The message contains the numbers of the first and the last chapter.
+
+    A number without its leading zero is accepted.
+    """
     with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give a number from 00 to 16"):
         progress("99")
     assert str(progress("5")) == str(progress("05"))
 
 
 def test_damaged_records_are_reported_and_the_others_are_shown(state: Path) -> None:
-    """Each form of the overview has a message for each damaged file, and shows all other records."""
+    """For each damaged file, the overview shows a message in each of its forms.
+
+    It also shows all other records.
+    """
     store("passed", "05.1", "05.2")
     (state / "results-2" / "05.2.json").write_text("{")
     (state / "predictions-2.json").write_text('{"05.none": {"key": 5, "question": null}}')
@@ -171,7 +180,10 @@ def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
 
 
 class Tags(HTMLParser):
-    """Collects the tags of a page with their attributes, and asserts that each tag is closed in order."""
+    """Collects the tags of a page with their attributes.
+
+    It asserts that all tags are closed in the right order.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -181,19 +193,19 @@ class Tags(HTMLParser):
         assert self.open == []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Store a tag, and that it is open."""
+        """Record a tag as open."""
         self.found.append((tag, dict(attrs)))
         if tag != "meta":
             self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Assert that this tag was opened last."""
+        """Assert that the tag that was opened last is closed first."""
         assert self.open.pop() == tag
 
 
 @pytest.mark.usefixtures("state")
 def test_the_page_needs_no_other_files() -> None:
-    """The exported page contains its style, but no scripts, links or pictures."""
+    """The exported page contains its style sheet, but no scripts, links or pictures."""
     store("passed", "05.1")
     tags = Tags(page(progress().progress)).found
     names = {name for name, _ in tags}
@@ -226,7 +238,7 @@ def test_the_table_of_predictions_shows_the_progress_in_its_chapter() -> None:
 
 
 def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> None:
-    """The table shows a message about a damaged record, and the cell raises no error."""
+    """The table shows a message about the damaged record, and the cell raises no error."""
     store("passed", "05.1")
     (state / "results-2" / "05.1.json").write_text("{")
     assert "05.1" in predictions("05").row["problems"][0]
@@ -234,7 +246,7 @@ def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> Non
 
 @pytest.mark.usefixtures("state")
 def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
-    """The sandbox of a graded notebook hides the checks. The table then shows only the predictions."""
+    """During grading, the sandbox hides the checks. The table then shows only the predictions."""
     panel = predictions("77")
     assert isinstance(panel, Predictions)
     assert panel.row == {}
@@ -249,7 +261,7 @@ def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> Non
 
 
 def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
-    """`course progress` prints the overview, or writes the files that its options name."""
+    """`course progress` prints the overview, or writes it to the files that the options name."""
     store("passed", "05.1")
     shown = course("progress", "05", COURSE_STATE=str(state))
     assert (shown.returncode, shown.stderr) == (0, "")
@@ -262,7 +274,7 @@ def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
 
 
 def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None:
-    """The message names a file that cannot be written, or an unknown chapter."""
+    """The message contains the name of the file that cannot be written, or the unknown chapter."""
     refused = course("progress", "--csv", str(tmp_path), COURSE_STATE=str(state))
     assert refused.returncode == 1
     assert refused.stderr.startswith(f"course: {tmp_path} cannot be written")
@@ -271,7 +283,7 @@ def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """If two kernels each store a prediction, the file contains both."""
+    """If two kernels store a prediction each, the file contains both predictions."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

@@ -1,4 +1,7 @@
-"""The model of the fault lab without a page. Only the last tests use a real stage on the graph."""
+"""Tests of the model of the panel "Break it", without a page.
+
+Only the last tests cause a real fault on the graph.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,7 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """A stage that causes no fault and records how it is used."""
+    """A stage that causes no fault; it records how it is used."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
@@ -35,7 +38,7 @@ class Paper:
         return Sheet(self, fault.name)
 
     def use(self, sheet: Sheet, tool: str) -> Seen:
-        """Record the use of a tool."""
+        """Record that a tool was used."""
         if self.holds:
             self.holds.wait(10)
         self.done.append(f"{tool} {sheet.name}")
@@ -44,14 +47,14 @@ class Paper:
 
 @dataclass
 class Sheet:
-    """A scene that records when its fault is caused and undone."""
+    """A scene that records when its fault is caused and when it is undone."""
 
     paper: Paper
     name: str
     keeper: Seen = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
 
     def cause(self) -> None:
-        """Record the start, or raise an error."""
+        """Record that the fault is caused, or raise an error."""
         if self.paper.fails:
             raise ConnectionRefusedError(111, "Connection refused")
         self.paper.done.append(f"cause {self.name}")
@@ -62,7 +65,7 @@ class Sheet:
 
 
 class Lab:
-    """A model together with its latest state."""
+    """A model of the panel, with its latest state."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()
@@ -80,25 +83,25 @@ class Lab:
         return self.case
 
     def settle(self) -> None:
-        """Wait until no tool is running."""
+        """Wait until no tool runs."""
         eventually(lambda: self.case["phase"] in ("ready", "over"))
 
     @property
     def case(self) -> dict[str, Plain]:
-        """Return the state of the case that the page gets."""
+        """Return the state of the open case, as the page receives it."""
         return dict(self.state["case"])
 
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """Return a lab with all cases, on a stage that causes no fault."""
+    """Return a model with all cases, on a stage that causes no fault."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
 
 
 def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
-    """The order differs from the catalogue's order, and each fault has the same number in every selection."""
+    """The order differs from that of the catalogue, and a fault has the same number in every selection."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
     assert [case.fault for case in everything] != list(every_fault())
@@ -110,7 +113,7 @@ def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.fault.name)
 def test_each_case_has_plausible_options(case: Case) -> None:
-    """A case offers five different diagnoses: the right one, and four that are wrong for this fault."""
+    """A case has five different diagnoses: the right one, and four that are wrong for this fault."""
     assert len(set(case.diagnoses)) == OPTIONS
     assert case.fault.diagnosis in case.diagnoses
     assert case.fault.remedy in case.remedies
@@ -122,13 +125,13 @@ def test_each_case_has_plausible_options(case: Case) -> None:
 
 
 def test_right_answers_are_not_always_in_one_place() -> None:
-    """The place of the right diagnosis differs from case to case."""
+    """The position of the right diagnosis differs between the cases."""
     places = {case.diagnoses.index(case.fault.diagnosis) for case in cases()}
     assert places == set(range(OPTIONS))
 
 
 def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
-    """Before the answer, the page does not get the fault's name, its reason, or the right option."""
+    """Before the answer, the page does not receive the fault's name, its reason, or the right diagnosis."""
     case = lab.begin("stale")
     assert lab.paper.done == ["cause stale", "again stale"]
     assert case["looks"][0]["said"] == "what again printed"
@@ -140,7 +143,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """A click is ignored while a tool is running; the symptom and the latest eight outputs are kept."""
+    """A click is ignored while a tool runs; the symptom and the latest eight outputs stay on the page."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -159,7 +162,10 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
 
 
 def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
-    """The page shows the reason of the chosen fault. A right answer after that is no first answer."""
+    """The page shows the reason of the fault that the student chose.
+
+    A right answer after this is not a first answer.
+    """
     case = lab.begin("stale")
     wrong = next(
         each for each in every_fault() if each.diagnosis in case["diagnoses"] and each.name != "stale"
@@ -180,7 +186,7 @@ def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
 
 
 def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
-    """The result is saved on disk, and another lab reads it."""
+    """The result is stored on disk, and another model reads it."""
     lab.begin("md5")
     lab.model.answer(named("md5").diagnosis, named("md5").remedy)
     assert lab.state["score"]["first"] == 1
@@ -190,7 +196,7 @@ def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
 
 
 def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
-    """The model shows the right answer; choosing it afterwards does not count as a first answer."""
+    """The model shows the solution; a right answer after this does not count as a first answer."""
     lab.begin("died")
     lab.model.reveal()
     assert lab.case["verdict"]["diagnosis"] == named("died").diagnosis
@@ -202,7 +208,7 @@ def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
 
 
 def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
-    """There are never two faults at the same time."""
+    """There is never more than one fault at a time."""
     lab.begin("stale")
     lab.begin("md5")
     lab.model.close()
@@ -216,7 +222,7 @@ def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
 
 
 def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
-    """If the page is closed while a tool is running, no fault stays on the graph."""
+    """If the page is closed while a tool runs, the fault does not stay on the graph."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -227,7 +233,7 @@ def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
 
 
 def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The symptom and the outputs are kept, the fault is undone, and the answer is not shown."""
+    """The symptom and the outputs are stored, the fault is undone, and the answer is not shown."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
@@ -236,7 +242,7 @@ def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
 
 
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
-    """`explain` knows the error message, and everything that was started is undone."""
+    """`explain` explains the error message, and everything that was started is ended."""
     lab.paper.fails = True
     lab.begin("stale")
     assert "Connection refused" in lab.state["trouble"]
@@ -248,20 +254,23 @@ def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
 
 
 def test_an_unknown_fault_is_refused() -> None:
-    """An unknown name of a fault raises an error that lists the known names."""
+    """An unknown name raises an error that lists the known names."""
     with pytest.raises(UnknownFault, match="groups serving, calling, masters"):
         BreakIt("rust")
 
 
 def test_the_repr_of_the_lab_is_the_same_in_every_run(tmp_path: Path) -> None:
-    """The text of the lab is the same in every run, so nbval can compare it."""
+    """The text of the panel is the same in every run, so that nbval can compare it."""
     store = CaseStore(tmp_path / "cases.json")
     assert repr(BreakIt(store=store)) == "BreakIt()"
     assert repr(BreakIt("stale", "serving", store=store)) == "BreakIt('stale', 'serving')"
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """Showing the lab changes nothing. Opening a case causes its fault; hiding or closing the lab ends it."""
+    """When the panel is shown, nothing changes. Opening a case causes its fault.
+
+    Hiding or closing the lab ends it.
+    """
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

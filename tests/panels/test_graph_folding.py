@@ -1,4 +1,4 @@
-"""Namespaces in the picture of the graph: with a frame, or folded into one box."""
+"""Namespaces in the picture of the graph: with a frame, or as one folded box."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot of topics, each as (publisher, topic, subscriber), and of services by node."""
+    """Return a snapshot of topics, given as (publisher, topic, subscriber), and of the services of nodes."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -49,18 +49,18 @@ NESTED = graph(
 
 
 def many(count: int) -> Snapshot:
-    """Return a snapshot of `count` turtles; each is a namespace with three topics."""
+    """Return a snapshot of `count` turtles; each turtle has a namespace with three topics."""
     kinds = ("pose", "color", "scan")
     return graph(*(("/sim", f"/turtle{n}/{kind}", "/watch") for n in range(count) for kind in kinds))
 
 
 def names(shown: Picture) -> set[str]:
-    """Return the shapes that are drawn."""
+    """Return the names of the visible shapes."""
     return {each.name for each in shown.shapes}
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A namespace with one shape is not used; if two have the same shapes, the inner one is used."""
+    """A namespace needs two shapes; if two namespaces have the same shapes, only the inner one is used."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -75,7 +75,10 @@ def test_a_small_graph_is_framed_and_not_folded() -> None:
 
 
 def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
-    """A line to a shape in the namespace leads to the box, once for each direction and kind."""
+    """A line to a shape in the folded namespace leads to the box.
+
+    There is one for each direction and kind.
+    """
     shown = folded(picture(TURTLE), {"/turtle1/": True})
     assert names(shown) == {"/sim", "/monitor", "/teleop", "/clear", "/turtle1/"}
     box = "namespace /turtle1/"
@@ -94,7 +97,7 @@ def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
 
 
 def test_lines_inside_a_box_are_not_drawn() -> None:
-    """A box has no line to itself."""
+    """A line inside the namespace is not drawn as a line from the box to itself."""
     shown = folded(picture(NESTED), {"/robot/": True})
     assert names(shown) == {"/screen", "/robot/"}
     assert set(shown.lines) == {
@@ -104,7 +107,7 @@ def test_lines_inside_a_box_are_not_drawn() -> None:
 
 
 def test_a_box_within_a_frame() -> None:
-    """An inner namespace is folded separately and is drawn in the frame of the outer one."""
+    """An inner namespace can be folded alone; its box is in the frame of the outer namespace."""
     shown = folded(picture(NESTED), {"/robot/arm/": True})
     frames = {frame.name: frame.members for frame in shown.frames}
     assert set(frames) == {"/robot/", "/robot/base/"}
@@ -113,7 +116,7 @@ def test_a_box_within_a_frame() -> None:
 
 
 def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
-    """In a large graph, namespaces are folded, except one that the student has unfolded."""
+    """In a large graph, all namespaces are folded, except those that the student has unfolded."""
     crowd, few = picture(many(CROWD // 3)), picture(many(3))
     assert len(crowd.shapes) > CROWD
     assert len(folded(crowd, {}).shapes) == 2 + CROWD // 3
@@ -124,7 +127,7 @@ def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
 
 
 def test_a_namespace_with_most_shapes_is_not_folded() -> None:
-    """A namespace that contains most of the graph is not folded; the namespaces inside it are."""
+    """A namespace that contains most of the graph is not folded, but the namespaces inside it are."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
     assert [frame.name for frame in shown.frames] == ["/all/"]
@@ -132,7 +135,7 @@ def test_a_namespace_with_most_shapes_is_not_folded() -> None:
 
 
 def test_a_box_shows_that_a_node_does_not_answer() -> None:
-    """A dead node is visible even if its namespace is folded."""
+    """A folded namespace shows that it contains a node that does not answer."""
     seen = graph(("/robot/a", "/robot/x", "/robot/b"))
     nodes = tuple(NodeSeen(each.name, each.uri, "refused") for each in seen.nodes[:1]) + seen.nodes[1:]
     whole = picture(Snapshot(seen.master, nodes, seen.topics, seen.services))
@@ -156,7 +159,7 @@ def test_a_frame_contains_exactly_its_shapes() -> None:
 
 
 def test_a_wide_drawing_is_turned_upright() -> None:
-    """A long chain of nodes is drawn from top to bottom instead of several pages wide."""
+    """A long chain of nodes is drawn from top to bottom, because it would be several pages wide."""
     chain = graph(*((f"/node_{n}", f"/topic_{n}", f"/node_{n + 1}") for n in range(9)))
     layout = laid_out(picture(chain))
     assert layout.width < WIDE
@@ -168,7 +171,10 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """A frame and its box have the same key, so the focus stays. Both say whether they are expanded."""
+    """A frame and its box have the same key, so that the focus stays on it.
+
+    Both say whether the namespace is expanded.
+    """
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")
@@ -180,7 +186,7 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Return a model, and the list of its messages."""
+    """Return a model, and the list of the messages that it sends."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 
@@ -211,7 +217,7 @@ def test_the_list_contains_folded_shapes() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """If loggers are shown, the two logger services of each node form one group."""
+    """If the loggers are shown, the two logger services of each node are a namespace."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Return a snapshot of the nodes that the topics and services name."""
+    """Return a snapshot of all nodes of these topics and services."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(
@@ -42,7 +42,10 @@ WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/
 
 
 def test_lines_have_the_direction_of_the_data() -> None:
-    """Lines lead from publisher to topic to subscriber, and both ways between a node and its service."""
+    """Lines lead from the publisher to the topic and to the subscriber.
+
+    Between a node and its service, they have both directions.
+    """
     assert set(picture(WHOLE).lines) == {
         Line("node /talker", "topic /chatter"),
         Line("topic /chatter", "node /listener"),
@@ -63,20 +66,20 @@ def test_rosout_and_loggers_are_hidden_by_default() -> None:
 
 
 def test_a_hidden_node_hides_its_services_and_its_own_topics() -> None:
-    """No line leads to a node that is not drawn."""
+    """A hidden node has no lines; its services and its own topics are hidden, too."""
     shown = picture(WHOLE, hide=["/server", "/talker"])
     assert {shape.name for shape in shown.shapes} == {"/listener", "/chatter"}
     assert shown.lines == (Line("topic /chatter", "node /listener"),)
 
 
 def test_the_order_of_the_snapshot_does_not_matter() -> None:
-    """The same graph gives the same picture and the same drawing."""
+    """The same graph always gives the same picture and the same drawing."""
     turned = Snapshot(WHOLE.master, WHOLE.nodes[::-1], WHOLE.topics[::-1], WHOLE.services[::-1])
     assert picture(turned) == picture(WHOLE)
 
 
 def test_the_graph_as_text_contains_no_port() -> None:
-    """The text is the same in every run: it lists what each node publishes, subscribes to and serves."""
+    """The text is the same in every run; it lists what each node publishes, subscribes to and serves."""
     assert graph_text(WHOLE) == (
         "/listener\n  subscribes /chatter  (std_msgs/String)\n"
         "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
@@ -113,7 +116,7 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
 
 
 def test_each_shape_has_an_accessible_name() -> None:
-    """Each shape is a button with a name; the name of a node that does not answer says so."""
+    """Each shape is a button with an accessible name; if a node does not answer, the name says so."""
     root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
@@ -126,7 +129,7 @@ def test_each_shape_has_an_accessible_name() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # an arrow for each line, two for the service, and the service's shape
+    )  # one arrow for each line, two for the service, and the shape of the service
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
@@ -138,7 +141,7 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
 
 
 class Wall:
-    """A model and its messages."""
+    """A model and the messages that it sends."""
 
     def __init__(self, **options: str) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -146,7 +149,7 @@ class Wall:
 
 
 def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
-    """A change of a hidden node does not draw the picture again."""
+    """If only a hidden node changes, the picture is not drawn again."""
     wall = Wall()
     wall.model.see(WHOLE)
     more = ServiceSeen("/server/set_logger_level", "roscpp/SetLoggerLevel", "/server", "x", "answered")
@@ -155,7 +158,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
 
 
 def test_a_choice_draws_again() -> None:
-    """The option shows the hidden names."""
+    """After a change of this option, the hidden names are drawn."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
     wall.model.choose(noise=True, show_own=False)
@@ -164,7 +167,7 @@ def test_a_choice_draws_again() -> None:
 
 
 def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Without Graphviz, one sentence names what to install, and the list contains the whole graph."""
+    """Without Graphviz, one sentence says what to install, and the list still contains the whole graph."""
     monkeypatch.setenv("PATH", str(tmp_path))
     wall = Wall()
     wall.model.see(WHOLE)
@@ -184,7 +187,7 @@ def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp
 def test_graphviz_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str
 ) -> None:
-    """If Graphviz hangs or fails, the panel shows one sentence and continues."""
+    """If Graphviz fails or does not end, the panel shows one sentence and continues."""
     dot = tmp_path / "dot"
     dot.write_text(f"#!/bin/sh\n{script}\n")
     dot.chmod(0o755)
@@ -194,7 +197,7 @@ def test_graphviz_has_a_deadline(
 
 
 def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
-    """Without a master the panel shows the reason; when the master is back, it shows the picture again."""
+    """Without a master, the panel shows the reason; when there is a master again, it shows the picture."""
     wall = Wall()
     wall.model.see(WHOLE)
     wall.model.lose("No master answers.")
@@ -204,6 +207,6 @@ def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
 
 
 def test_an_empty_graph_needs_no_graphviz(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """An empty graph is not an error."""
+    """An empty graph raises no error."""
     monkeypatch.setenv("PATH", str(tmp_path))
     assert laid_out(picture(snapshot())) == Layout()

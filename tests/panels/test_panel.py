@@ -1,4 +1,4 @@
-"""What all panels share: the poller, the explanation of an error, and the files of their front ends."""
+"""Functions that all panels use: the poller, explanations of errors, and the files of the front ends."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """The panel shows cause, remedy and chapter beside the error message."""
+    """The panel shows the cause, what to do, and the chapter, next to the error message."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -55,7 +55,7 @@ def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Pane
 
 
 def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -> None:
-    """The explanation of the panel's own error has priority; an unknown error has no explanation."""
+    """The explanation of the panel's own error comes first; an unknown error gets no explanation."""
     panel = TypeBrowser()
     panel.complain(GraphError("ServiceException: service [/x] unavailable"))
     assert "No node provides" in panel.explained["cause"]
@@ -67,7 +67,7 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -
 
 
 def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaster) -> None:
-    """The wire view shows how a call failed, and offers an explanation."""
+    """The wire view shows how a call failed, and an explanation of the error."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_MASTER_URI", master.uri)
         with caused("returns_none"):
@@ -79,7 +79,7 @@ def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaste
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_framed(entry: Path) -> None:
-    """The script of each panel uses the shared frame, and declares no name twice."""
+    """The script of each panel uses the common frame, and declares no name twice."""
     joined = module(entry, PANELS / "explained.js")
     assert joined.count("export default { render: framed(render) };") == 1
     assert joined.count("export ") == 1
@@ -88,7 +88,7 @@ def test_each_panel_is_framed(entry: Path) -> None:
 
 
 class Polled:
-    """A value that is polled, and what the poller reported."""
+    """A value that a poller reads, and the poller's reports."""
 
     def __init__(self) -> None:
         self.now: object = 1
@@ -114,7 +114,7 @@ class Polled:
 
 @pytest.fixture
 def polled() -> Iterator[Polled]:
-    """Return a polled value, and stop its poller after the test."""
+    """Yield a polled value, and stop its poller after the test."""
     polled = Polled()
     yield polled
     polled.poller.stop()
@@ -137,7 +137,10 @@ def test_a_value_is_reported_once(polled: Polled) -> None:
 
 
 def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> None:
-    """A repeated error is not reported again; the next value is, even if it equals an earlier one."""
+    """A repeated error is not reported again.
+
+    The next value is reported, even if it is equal to an earlier value.
+    """
     polled.now = OSError("gone")
     polled.poller.start()
     eventually(lambda: polled.failed)
@@ -148,7 +151,7 @@ def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> N
 
 
 def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> None:
-    """An error of the callback is reported, and so is the next change."""
+    """An error in the callback is reported, and the next change of the value is reported, too."""
     values: list[object] = []
 
     def changed(value: object) -> None:
@@ -163,7 +166,7 @@ def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> Non
 
 
 def test_stop_ends_the_thread(polled: Polled) -> None:
-    """After stop() no thread is left, and start() begins again."""
+    """After stop(), there is no thread; start() starts a new one."""
     polled.poller.start()
     polled.poller.start()
     eventually(lambda: polled.seen)
@@ -175,7 +178,7 @@ def test_stop_ends_the_thread(polled: Polled) -> None:
 
 
 def test_each_import_is_inserted_once(tmp_path: Path) -> None:
-    """A module that two others import is in the joined script once, before both."""
+    """If two modules import a third one, the script contains the third module once, before the other two."""
     (tmp_path / "kit.js").write_text("export const one = 1;\n")
     (tmp_path / "a.js").write_text(
         'import { one } from "./kit.js";\nexport function two() { return one + one; }\n'
@@ -202,13 +205,13 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """The parametrised test above covers every panel."""
+    """The test above is run for every panel."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 
 
 def test_style_sheets_are_in_the_given_order(tmp_path: Path) -> None:
-    """The shared styles come first, so that a panel can override them."""
+    """The common styles come first, so that a panel can override them."""
     (tmp_path / "a.css").write_text("a {}")
     (tmp_path / "b.css").write_text("b {}")
     assert sheet(tmp_path / "a.css", tmp_path / "b.css") == "a {}\nb {}"
@@ -216,7 +219,7 @@ def test_style_sheets_are_in_the_given_order(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
-    """The model of a panel imports neither rospy nor IPython nor the widgets."""
+    """A panel's model imports neither rospy nor IPython nor ipywidgets."""
     names = "{'rospy', 'IPython', 'ipywidgets'} & set(sys.modules)"
     code = f"import sys, course_pkg.panels.{model}; print(sorted({names}))"
     done = subprocess.run(
@@ -226,7 +229,7 @@ def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
 
 
 def test_no_name_of_the_course_imports_matplotlib() -> None:
-    """Only a notebook that draws a figure imports matplotlib."""
+    """Matplotlib is imported only by a notebook that draws a plot."""
     names = "[getattr(course_pkg, name) for name in course_pkg.__all__]"
     code = f"import sys, course_pkg; {names}; print('matplotlib' in sys.modules)"
     done = subprocess.run(

@@ -45,7 +45,10 @@ def test_an_answer_outlives_the_kernel(model: PredictionModel, store: Prediction
 
 
 def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
-    """The answer at the time of the comparison is the prediction; the page marks a later change."""
+    """The answer at the time of the comparison is the prediction.
+
+    The page shows if the answer was changed later.
+    """
     model.answer("an empty reply")
     record = model.compare("an error")
     assert record.first == "an empty reply"
@@ -57,7 +60,7 @@ def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
 
 
 def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
-    """If the cell runs again, a later answer does not replace the prediction."""
+    """If the cell with the comparison runs again, a later answer does not replace the prediction."""
     model.compare("an error")
     model.answer("an error")
     record = model.compare("an error")
@@ -73,13 +76,16 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str
 ) -> None:
-    """2.50 equals 2.5, and upper case does not matter."""
+    """2.50 is equal to 2.5, and upper case is equal to lower case."""
     model.answer(predicted)
     assert stretch in model.compare(actual).verdict
 
 
 def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
-    """Chapter 05 lists its own predictions by key, in the same order for all answers."""
+    """The table of chapter 05 lists its own predictions by key.
+
+    Their order does not depend on the answers.
+    """
     for key in ("05.b", "06.a", "05.a"):
         PredictionModel(key, "?", (), store).answer("yes")
     assert [record.key for record in of_chapter(store.read().values(), "05")] == ["05.a", "05.b"]
@@ -87,7 +93,7 @@ def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
 
 
 def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> None:
-    """A file of another program is not changed, and the error names it."""
+    """A file of another program is not changed, and the error contains its path."""
     store.path.parent.mkdir()
     store.path.write_text("{")
     with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file to"):
@@ -96,7 +102,7 @@ def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> 
 
 
 def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
-    """A reader never gets a half-written file while another thread writes."""
+    """While another thread writes, a reader always gets a complete file."""
     stop = threading.Event()
     store.write(PredictionModel("05.x", "?" * 5000, (), store).record)
 
@@ -117,7 +123,7 @@ def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
 
 
 def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The store is in the course's state folder by default."""
+    """By default, the store is in the course's state folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     assert PredictionStore().path == tmp_path / "predictions-2.json"
 
@@ -125,7 +131,7 @@ def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tm
 def test_answers_of_the_first_edition_belong_to_other_questions(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """First-edition files are kept and not read, because their keys have the old chapter numbers."""
+    """Files of the first edition are neither read nor changed. Their keys contain the old chapter numbers."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     prediction = {"key": "08.once", "question": "Where is the turtle?", "answer": "one metre"}
     choice = {"key": "08.cases", "question": "Which fits?", "cases": 1, "chosen": {CASES[0][0]: "a service"}}
@@ -142,7 +148,7 @@ def test_answers_of_the_first_edition_belong_to_other_questions(
 
 
 def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
-    """text/plain contains the result only; it does not depend on the answer."""
+    """text/plain contains only the result; it does not depend on the student's answer."""
     texts = []
     for answer in ("", "an error", "an empty reply"):
         prediction = Question("05.reply_none", "What?", CHOICES, store=store)
@@ -155,7 +161,7 @@ def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
 
 
 def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
-    """The prediction shows the stored answer, the comparison both values, and the summary one row."""
+    """The prediction shows the stored answer, the comparison shows both values, and the table has one row."""
     Question("05.x", "What?", CHOICES, store=store).received("answer", {"answer": "an error"})
     prediction = Question("05.x", "What?", CHOICES, store=store)
     assert prediction.answer == "an error"
@@ -172,18 +178,18 @@ def choice_store(tmp_path: Path) -> ChoiceStore:
 
 @pytest.fixture
 def choices_model(choice_store: ChoiceStore) -> ChoicesModel:
-    """Return a choice for three cases of chapter 03."""
+    """Return the model of three cases of chapter 03."""
     return ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, choice_store)
 
 
 def decide(choices_model: ChoicesModel, *options: str) -> None:
-    """Choose an option for each case."""
+    """Choose an option for each case, in order."""
     for number, option in enumerate(options):
         choices_model.choose(number, option)
 
 
 def test_a_choice_outlives_the_kernel(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
-    """A choices_model that is created later reads the stored choice, which can still be changed."""
+    """A model that is created later reads the stored choice, and the student can still change it."""
     decide(choices_model, "a topic", "a topic")
     again = ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, ChoiceStore(choice_store.path))
     assert again.chosen == ["a topic", "a topic", ""]
@@ -204,7 +210,7 @@ def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesM
 
 
 def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: ChoicesModel) -> None:
-    """A choice that is made while the reasons are visible is not stored."""
+    """While the reasons are visible, a choice is not stored."""
     decide(choices_model, *["a topic"] * 3)
     choices_model.compare()
     choices_model.choose(1, "a service")
@@ -212,7 +218,7 @@ def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: Choice
 
 
 def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
-    """A second attempt is possible and shown; the stored first choice does not change."""
+    """A second attempt is possible and shown, but the stored first choice does not change."""
     decide(choices_model, "a topic", "a topic", "a service")
     assert choices_model.compare().fit == 1
     assert choices_model.again().shown is False
@@ -224,7 +230,7 @@ def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
 
 
 def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
-    """A stored choice is used only for the same text of the case and for an existing option."""
+    """A stored choice is only used if the text of the case is the same and the option still exists."""
     decide(choices_model, *["a topic"] * 3)
     others = [("Another case", "a topic", "Because."), CASES[1], CASES[2]]
     assert ChoicesModel("03.cases", "?", OPTIONS, others, choice_store).chosen == ["", "a topic", "a topic"]
@@ -243,13 +249,13 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
 def test_a_mistake_of_the_author_raises_an_error(
     cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
 ) -> None:
-    """A prediction whose right answer is not among its options raises an error."""
+    """If the right answer of a case is not among the options, an error is raised."""
     with pytest.raises(NotAChoice, match=stretch):
         ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
 
 
 def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: ChoiceStore) -> None:
-    """A file of another program is not changed, and the error names it."""
+    """A file of another program is not changed, and the error contains its path."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
     with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move the file"):
@@ -257,7 +263,7 @@ def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: Ch
 
 
 def test_a_page_learns_the_answers_only_when_they_are_shown(choice_store: ChoiceStore) -> None:
-    """Neither the widget's state nor its text contains an answer before the button is pressed."""
+    """Before the button is pressed, neither the widget's state nor its text contains an answer."""
     panel = Choices("03.cases", "Which fits?", OPTIONS, CASES, store=choice_store)
     assert "Somebody waits" not in str(panel.get_state())
     for number in range(3):
@@ -273,7 +279,7 @@ def test_a_page_learns_the_answers_only_when_they_are_shown(choice_store: Choice
 def test_the_summary_of_a_chapter_lists_them(
     choices_model: ChoicesModel, choice_store: ChoiceStore, tmp_path: Path
 ) -> None:
-    """predictions("03") shows how many predictions were right, and which are not compared yet."""
+    """predictions("03") shows how many predictions were right, and which of them were not compared yet."""
     none = PredictionStore(tmp_path / "none.json")
     decide(choices_model, "a topic", "a topic")
     row = Predictions("03", store=none, choices=choice_store).records[0]

@@ -17,7 +17,7 @@ EMPTY = "---\n"
 
 
 class Caller:
-    """Answers a geometry request, or fails in the way that the test has set."""
+    """Returns a geometry response, or fails in the way that the test has chosen."""
 
     def __init__(self) -> None:
         self.requests: list[Message] = []
@@ -28,7 +28,7 @@ class Caller:
         self.cancelled = False
 
     def call(self, request: Message, /, *, timeout: float) -> Message:
-        """Store the request, wait for the release, and answer."""
+        """Store the request, wait until the test releases the call, and respond."""
         self.requests.append(request)
         assert self.release.wait(min(timeout, 10))
         if self.cancelled:
@@ -57,14 +57,14 @@ TYPES = {
 
 
 def find_type(name: str) -> ServiceType:
-    """Return one of two known types."""
+    """Return one of the two types that this module knows."""
     if name not in TYPES:
         raise UnknownType(name, f"{name} is not known here.")
     return TYPES[name]
 
 
 class Harness:
-    """A model with all its messages."""
+    """A model with all messages that it sent."""
 
     def __init__(self) -> None:
         self.caller = Caller()
@@ -75,7 +75,7 @@ class Harness:
 
     @property
     def state(self) -> dict[str, Plain]:
-        """Return all messages, the latest of each part."""
+        """Return the latest value of each part of the state."""
         return {name: value for message in self.messages for name, value in message.items()}
 
     def ended(self) -> dict[str, Plain]:
@@ -93,7 +93,7 @@ GOOD = {"length": "1.2", "width": "5.2", "height": "8.9"}
 
 @pytest.fixture
 def harness() -> Harness:
-    """Return a model in which the geometry service is selected."""
+    """Return a model in which the geometry service is already selected."""
     harness = Harness()
     harness.model.offer([GEOMETRY_OFFER])
     harness.model.pick("/getGeometry")
@@ -101,7 +101,7 @@ def harness() -> Harness:
 
 
 def test_a_call_is_two_messages(harness: Harness) -> None:
-    """The page receives the start and the end of the call once each."""
+    """The page receives one message at the start of the call, and one at its end."""
     before = len(harness.messages)
     harness.model.start(GOOD, "5")
     outcome = harness.ended()
@@ -113,7 +113,7 @@ def test_a_call_is_two_messages(harness: Harness) -> None:
 
 
 def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness) -> None:
-    """Each wrong field is named with the allowed values, and no request is sent."""
+    """For each wrong field, the allowed values are shown, and no request is sent."""
     harness.model.start({"length": "abc", "width": "5.2", "height": "1e39"}, "5")
     check = harness.state["check"]
     assert set(check["errors"]) == {"length", "height"}
@@ -125,14 +125,14 @@ def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness
 
 @pytest.mark.parametrize("deadline", ["", "0", "-1", "soon", "nan", "inf", "1e9"])
 def test_a_deadline_is_a_number_of_seconds(harness: Harness, deadline: str) -> None:
-    """An invalid deadline is refused in the same way as a wrong field."""
+    """An invalid timeout is treated like a wrong field."""
     harness.model.start(GOOD, deadline)
     assert "at most 3600" in harness.state["check"]["errors"]["@deadline"]
     assert harness.caller.requests == []
 
 
 def test_the_commands_follow_the_draft(harness: Harness) -> None:
-    """Both commands contain the typed values; while a value is wrong, there are no commands."""
+    """Both commands contain the typed values; if a value is wrong, there are no commands."""
     harness.model.edit(GOOD)
     check = harness.state["check"]
     assert check["shell"] == "rosservice call /getGeometry 1.2 5.2 8.9"
@@ -142,7 +142,7 @@ def test_the_commands_follow_the_draft(harness: Harness) -> None:
 
 
 def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
-    """No second call begins while a call is running."""
+    """While a call runs, no second call begins."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     harness.model.start(GOOD, "5")
@@ -154,7 +154,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
 
 
 def test_cancel_ends_the_call(harness: Harness) -> None:
-    """A cancelled call is shown as cancelled, and the next one works."""
+    """A cancelled call is shown as cancelled, and the next call works."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)
@@ -175,7 +175,7 @@ def test_an_error_message_is_shown_unchanged_and_explained(harness: Harness) -> 
 
 
 def test_history_is_bounded_and_can_refill_the_form(harness: Harness) -> None:
-    """The latest call is first, with its request; the oldest ones are removed."""
+    """The latest call comes first, with its request; the oldest calls are removed."""
     for number in range(HISTORY + 3):
         harness.model.fill({"length": float(number)})
         harness.model.call("5")
@@ -198,7 +198,7 @@ def test_fill_refuses_a_wrong_value_and_keeps_the_form(harness: Harness) -> None
 
 
 def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> None:
-    """A call in a cell raises the error, and the panel shows it, too."""
+    """If a call in a cell fails, the cell raises the error, and the panel shows it, too."""
     harness.caller.raises = RuntimeError("boom")
     with pytest.raises(RuntimeError, match="boom"):
         harness.model.call("5")
@@ -206,7 +206,7 @@ def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> Non
 
 
 def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> None:
-    """If the service disappears, the form stays, with a sentence until the service is back."""
+    """If the service disappears, the form stays; a sentence says so until the service is back."""
     harness.model.edit(GOOD)
     harness.model.offer([])
     assert "is on the graph now" in harness.state["form"]["problem"]
@@ -216,7 +216,7 @@ def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> N
 
 
 def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> None:
-    """If the type changes, the panel explains why the old request is gone, and closes the old connection."""
+    """If the type changes, the panel says why the old request was removed, and closes the old connection."""
     harness.model.call("5")
     harness.model.offer([Offer("/getGeometry", "a/Empty", "/other")])
     form = harness.state["form"]
@@ -227,7 +227,7 @@ def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> No
 
 
 def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
-    """The panel shows the reason in place of the form."""
+    """In place of the form, the panel shows the reason."""
     harness = Harness()
     harness.model.offer([Offer("/x", "no/Such", "/n")])
     harness.model.pick("/x")
@@ -238,7 +238,7 @@ def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
 
 
 def test_a_call_without_a_service_names_the_next_step() -> None:
-    """A call from Python without a service raises an error that names the next step."""
+    """A call from Python without a service raises an error that says what to do next."""
     with pytest.raises(NoServiceSelected, match=r"ServicePanel\('/getGeometry'\)"):
         Harness().model.call("5")
 
@@ -254,7 +254,7 @@ def test_logger_services_come_last() -> None:
 
 
 def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness: Harness) -> None:
-    """The response of the previous service is not shown under the new one."""
+    """The response of the previous service is not shown for the new service."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)
@@ -266,7 +266,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """Each input is really called, and the result is shown beside it."""
+    """The service is really called with each input, and the outcome is shown with the input."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

@@ -16,14 +16,14 @@ pytestmark = pytest.mark.usefixtures("server")
 
 @pytest.fixture
 def panel() -> Iterator[ServicePanel]:
-    """Open a panel, and close it after the test."""
+    """Yield a panel, and close it after the test."""
     panel = ServicePanel("/getGeometry")
     yield panel
     panel.close()
 
 
 def threads() -> list[str]:
-    """Return the threads that panels have started."""
+    """Return the names of the threads that panels have started."""
     return sorted(thread.name for thread in threading.enumerate() if thread.name.startswith("panel-"))
 
 
@@ -33,7 +33,7 @@ def ended(panel: ServicePanel) -> dict[str, Plain]:
 
 
 def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
-    """A message of the page causes a real call, and the response is in the traits."""
+    """A message from the page causes a real call, and the traits contain the response."""
     panel.received("call", {"draft": {"length": "1.2", "width": "5.2", "height": "8.9"}, "deadline": "5"})
     outcome = ended(panel)
     assert outcome["phase"] == "done"
@@ -43,7 +43,7 @@ def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
     ]
     assert (
         panel.check["shell"] == "rosservice call /getGeometry 0.0 0.0 0.0"
-    )  # the page sends the draft first
+    )  # the page sends the texts of the form first
 
 
 def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
@@ -67,14 +67,14 @@ def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
 
 
 def test_the_service_is_described(panel: ServicePanel) -> None:
-    """Type, node and fields come from the graph and from the definition of the type."""
+    """The type, the node and the fields come from the graph and from the definition of the type."""
     assert (panel.form["type"], panel.form["node"]) == ("course_pkg/geometry", "/SERVER_NODE")
     assert [field["name"] for field in panel.form["request"]["fields"]] == ["length", "width", "height"]
     assert {each["name"]: each["tool"] for each in panel.services}["/SERVER_NODE/get_loggers"] is True
 
 
 def test_no_thread_without_a_page(panel: ServicePanel) -> None:
-    """The panel follows the graph only while a page shows it; closing ends its threads."""
+    """Only while a page shows the panel, a thread reads the graph; close() ends all threads."""
     assert threads() == []
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
     panel._dispatch(panel, {"kind": "hello", "view": "b"}, [])
@@ -89,13 +89,13 @@ def test_no_thread_without_a_page(panel: ServicePanel) -> None:
 
 
 def test_an_error_in_a_click_is_shown_in_the_panel(panel: ServicePanel) -> None:
-    """If a message of the page is not valid, the panel shows the error, and no cell fails."""
+    """If a message from the page is not valid, the panel shows the error; no cell fails."""
     panel._dispatch(panel, {"kind": "call"}, [])
     assert panel.notice == "KeyError: 'draft'"
 
 
 def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
-    """The recorded responses of a page without a kernel come from real calls."""
+    """The outcomes that a page without a kernel shows come from real calls."""
     panel.record([{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": -1.0}])
     assert [each["draft"]["length"] for each in panel.recording] == ["1.0", "-1.0"]
     assert panel.recording[0]["outcome"]["rows"][0]["text"] == "2.0"
@@ -103,7 +103,7 @@ def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
 
 @pytest.mark.parametrize("panel_class", [ServicePanel, GraphPanel])
 def test_without_a_master_it_shows_the_reason(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
-    """Without a master the panel opens and gives the reason for being empty."""
+    """Without a master, the panel opens, and says why it is empty."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
     panel = panel_class()
     assert "localhost:9" in panel.trouble

@@ -1,4 +1,4 @@
-"""Each panel has a still picture: an SVG with a title that any viewer of notebooks can show."""
+"""Each panel has a still picture, which every viewer of notebooks can show: an SVG with a title."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def service_state() -> State:
 
 
 def topic_state() -> State:
-    """Return the state of a topic panel that knows its type."""
+    """Return the state of a topic panel whose type is known."""
     message = schema(message_type("std_msgs/Float64"))
     about = {
         "topic": "/speed",
@@ -74,7 +74,7 @@ def topic_state() -> State:
 
 
 def types_state() -> State:
-    """Return the state of a type browser in which a type is open."""
+    """Return the state of a type browser with an open type."""
     fields = [{"name": "data", "type": "bool", "help": "on or off", "fields": []}]
     parts = [
         {"title": "Request", "help": "", "fields": fields, "constants": []},
@@ -87,7 +87,7 @@ def types_state() -> State:
 
 
 def wire_state() -> State:
-    """Return the state of a wire view of a call that failed, with a port that differs from run to run."""
+    """Return the state of a wire view of a failed call; it contains a port that differs in each run."""
     piece = {
         "role": "ok",
         "at": 0,
@@ -139,7 +139,7 @@ def turtles_state() -> State:
 
 
 def question() -> State:
-    """Return the state of a prediction to enter."""
+    """Return the state of a prediction without an answer."""
     return _traits(Question("05.x", "Is 1 < 2 & `x` true? " * 9, ["yes", "no", "it depends on " * 9]))
 
 
@@ -162,7 +162,7 @@ STATES: dict[str, tuple[str, Callable[[], State]]] = {
 
 
 def _traits(panel: object) -> State:
-    """Return the traits that the page of a panel gets, and close the panel."""
+    """Return the traits that the page receives, and close the panel."""
     state: State = panel.get_state()  # type: ignore[attr-defined]
     panel.close()  # type: ignore[attr-defined]
     return state
@@ -175,14 +175,14 @@ def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """No panel is without a picture, and each picture is drawn by a test."""
+    """Each kind of panel has a picture, and each picture is tested here."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 
 
 @pytest.mark.parametrize("name", STATES)
 def test_a_picture_is_complete(name: str) -> None:
-    """The SVG is well-formed and complete, has a title and a background, and is the same each time."""
+    """The SVG is well-formed, contains a title and a background, and is the same each time."""
     panel, state = STATES[name]
     given = state()
     first = STILLS[panel].draw(given)
@@ -203,7 +203,7 @@ def test_a_picture_is_complete(name: str) -> None:
 
 
 def test_values_that_differ_in_each_run_are_left_out() -> None:
-    """A picture that is not marked as measured contains no port, no time of day and no process number."""
+    """If a picture is not marked as measured, it contains no port, no time of day and no process id."""
     graph = STILLS["graph"].draw(graph_state())
     assert "1700000000000" not in graph
     assert "1 topic" in graph
@@ -215,14 +215,14 @@ def test_values_that_differ_in_each_run_are_left_out() -> None:
 
 
 def test_turtles_are_shown_even_if_the_simulator_has_ended() -> None:
-    """The picture shows the turtles as they were before, with their trails."""
+    """The picture shows the turtles at their last positions, with their trails."""
     drawn = STILLS["turtles"].draw(turtles_state())
     assert ">turtle1</text>" in drawn
     assert "<polyline" in drawn
 
 
 def test_a_timeline_shows_bars_arrows_and_sentences() -> None:
-    """A call is a bar of its caller, a bar of its handler, and two arrows."""
+    """For a call, there is a bar in the row of the caller, a bar in the row of the server, and two arrows."""
     drawn = STILLS["timeline"].draw(timeline())
     assert "waits for /b" in drawn
     assert drawn.count("<polygon") == 2
@@ -230,7 +230,7 @@ def test_a_timeline_shows_bars_arrows_and_sentences() -> None:
 
 
 def test_lines_fit_and_keep_every_word() -> None:
-    """A paragraph is broken between words, and a word that is too long is broken, too."""
+    """A paragraph is wrapped between words; a word that is longer than a line is broken."""
     text = "a word " * 30 + "x" * 200
     lines = wrapped(text, PLAIN, 200)
     assert all(PLAIN.width(line) <= 200 for line in lines)
@@ -239,7 +239,7 @@ def test_lines_fit_and_keep_every_word() -> None:
 
 
 def test_text_from_outside_stays_text() -> None:
-    """Markup, and characters that XML does not allow, do not break a picture."""
+    """Text with markup, or with characters that XML forbids, does not damage a picture."""
     written = Paper("<b>&\x00")
     written.write("<script>\x1b[31m")
     root = fromstring(written.svg())  # noqa: S314 - it is our own

@@ -17,7 +17,7 @@ SETTINGS = {"rate": "10", "queue": "10", "latch": False, "path": "data"}
 
 @pytest.fixture
 def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
-    """Show a panel of /speed, and close it after the test."""
+    """Yield a panel of /speed that is shown, and close it after the test."""
     assert master.uri
     panel = TopicPanel("/speed", "std_msgs/Float64")
     panel.received("hello", {})
@@ -30,7 +30,7 @@ def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
 
 
 def click(panel: TopicPanel, action: str, data: str, **settings: object) -> None:
-    """Click as the page does."""
+    """Click in the same way as the page."""
     content = {"action": action, "draft": {"data": data}, "settings": {**SETTINGS, **settings}}
     panel.received("act", content)
 
@@ -41,7 +41,10 @@ def sent_to(panel: TopicPanel) -> set[str]:
 
 
 def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: PrivateMaster) -> None:
-    """A shown panel is a node that subscribes; showing it again adds none; hiding it removes the node."""
+    """A visible panel is a node that subscribes; showing it twice adds no second node.
+
+    Hiding it removes the node.
+    """
     panel.shown()
     topic = next(each for each in look(master.uri).topics if each.name == "/speed")
     assert topic.subscribers == (panel.connections["own"],)
@@ -51,7 +54,7 @@ def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: Pri
 
 
 def test_no_page_no_node(master: PrivateMaster) -> None:
-    """A panel that no page shows starts no process, but has its form and its commands."""
+    """If no page shows a panel, it starts no process, but it has a form and commands."""
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert panel.check["once"] == "rostopic pub --once /speed std_msgs/Float64 0.0"
     assert panel.trouble == ""
@@ -73,7 +76,7 @@ def test_a_click_publishes_for_real(panel: TopicPanel, kernel: Kernel) -> None:
 
 
 def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> None:
-    """A rate continues only while a page shows the panel, so that it can be stopped."""
+    """A repetition continues only while a page shows the panel, because otherwise nobody could stop it."""
     kernel.run("""
         from course_pkg.ros import join
         from tests.support import eventually
@@ -101,7 +104,7 @@ def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) 
 
 
 def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master: PrivateMaster) -> None:
-    """After many quick shows and hides there is one node, or none."""
+    """After the panel was shown and hidden quickly many times, there is at most one node."""
     for _ in range(8):
         panel.hidden()
         panel.shown()
@@ -113,7 +116,7 @@ def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master:
 
 
 def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
-    """A publisher of another type is named with its type."""
+    """The panel names a publisher of another type, with its type."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -124,7 +127,7 @@ def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
 
 
 def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
-    """A panel without a type takes the type of the publisher."""
+    """A panel without a type uses the type of the publisher."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -137,12 +140,12 @@ def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
 
 
 def test_the_text_is_the_same_in_every_run(panel: TopicPanel) -> None:
-    """text/plain contains the topic's name and nothing that changes."""
+    """text/plain contains the name of the topic, but no changing value."""
     assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "TopicPanel('/speed')"
 
 
 def test_a_mistake_in_the_cell_raises_an_error() -> None:
-    """An unknown type and an invalid name raise errors."""
+    """An unknown type raises an error, and so does an invalid name."""
     with pytest.raises(UnknownType, match="Flaot64"):
         TopicPanel("/speed", "std_msgs/Flaot64")
     with pytest.raises(NotATopic):
@@ -150,7 +153,7 @@ def test_a_mistake_in_the_cell_raises_an_error() -> None:
 
 
 def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The panel shows the form, and the reason why it receives nothing."""
+    """The panel shows the form, and the reason why it receives no messages."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert "No ROS master" in panel.trouble
@@ -158,7 +161,7 @@ def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyP
 
 
 def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A panel that was shown before join() finds the master that join() starts."""
+    """A panel that was shown before join() uses the master that join() starts."""
     with PrivateMaster() as master:
         monkeypatch.setenv("ROS_HOSTNAME", "localhost")
         monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")

@@ -25,27 +25,27 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model and its messages, by keyword."""
+    """A model, and the messages that it sends; each is a keyword argument."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
         self.model = TypeModel(lambda **parts: self.said.append(parts))
 
     def last(self, name: str) -> Plain:
-        """Return the latest message of one kind."""
+        """Return the latest message with this keyword."""
         return next(each[name] for each in reversed(self.said) if name in each)
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder for packages that is on both paths."""
+    """Return a folder for packages; it is on ROS_PACKAGE_PATH and on sys.path."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     monkeypatch.syspath_prepend(str(tmp_path / "python"))
     return tmp_path
 
 
 def test_a_service_type_has_fields_comments_and_lines() -> None:
-    """The browser shows fields, MD5, text, and commands that work unchanged."""
+    """The browser shows the fields, the MD5 and the text, and commands that work unchanged."""
     told = described("std_srvs/SetBool", "srv")
     request, response = told["parts"]
     assert [(each["type"], each["name"]) for each in request["fields"]] == [("bool", "data")]
@@ -63,7 +63,7 @@ def test_a_service_type_has_fields_comments_and_lines() -> None:
 
 
 def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
-    """Nested messages and arrays list their own fields; a time lists its two parts."""
+    """Nested messages and arrays of messages have their own fields; a time has two fields."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (
@@ -77,7 +77,10 @@ def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
 
 
 def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
-    """For an invalid definition the browser shows the error with its line, and the text."""
+    """For an invalid definition, the browser shows the error with its line number.
+
+    It also shows the text of the file.
+    """
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
     assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
@@ -86,7 +89,7 @@ def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
 
 
 def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
-    """A definition that is not built can be shown, but not imported."""
+    """A definition that is not built is shown, but a program cannot import it."""
     package(folder, "raw_types_pkg", New_srv="int8 x\n---\n")
     told = described("raw_types_pkg/New", "srv")
     assert told["warning"] == UNBUILT
@@ -94,7 +97,10 @@ def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
 
 
 def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
-    """The browser shows the built type, and notes that the file differs; changed comments do not count."""
+    """The browser shows the built type, and notes that the file is different.
+
+    A change of comments is no difference.
+    """
     root = package(folder, "made_pkg", Made_srv="int8 x\n---\n", Whole_msg="int8 y\n")
     build(root, folder / "python")
     file = root / "srv" / "Made.srv"
@@ -114,14 +120,14 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """An unknown name leads to a sentence with advice, and to no error on the page."""
+    """For an unknown name, the page shows a sentence with advice, and no error."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")
 
 
 def test_packages_are_those_with_types() -> None:
-    """Each package lists its services and its messages, sorted."""
+    """Each package lists its service types and its message types in alphabetical order."""
     found = packages((("b_pkg/One", "b_pkg/Two"), ("a_pkg/Three", "b_pkg/One")))
     assert found == [
         {"name": "a_pkg", "srv": [], "msg": ["Three"]},
@@ -130,7 +136,7 @@ def test_packages_are_those_with_types() -> None:
 
 
 def test_everything_on_the_path_can_be_opened() -> None:
-    """No type of this machine causes a problem."""
+    """Every type on this machine can be opened without a problem."""
     services, messages = catalogue()
     assert {"std_srvs/SetBool", "course_pkg/geometry"} <= set(services)
     assert "std_msgs/String" in messages
@@ -138,7 +144,7 @@ def test_everything_on_the_path_can_be_opened() -> None:
 
 
 def test_a_changed_file_is_reported(folder: Path) -> None:
-    """When a file changes, the page shows the change without another click."""
+    """When a file changes, the page shows the change without a click."""
     wall = Wall()
     root = package(folder, "short_pkg", Lived_srv="int8 x\n---\n")
     wall.model.update(catalogue())
@@ -161,7 +167,7 @@ def test_an_unchanged_type_is_not_sent_again() -> None:
 
 
 def test_a_name_of_both_halves_is_the_service() -> None:
-    """A service and a message may have the same name; the name then selects the service."""
+    """A service type and a message type may have the same name; then the name means the service type."""
     wall = Wall()
     wall.model.update((("std_srvs/Empty",), ("std_msgs/Empty", "std_srvs/Empty")))
     wall.model.open("std_srvs/Empty")
@@ -171,7 +177,10 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """A service type lists its services and nodes, a message type its topics, publishers and subscribers."""
+    """A service type lists its services with their nodes.
+
+    A message type lists its topics with publishers and subscribers.
+    """
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),
@@ -189,7 +198,7 @@ def test_who_offers_a_type_now() -> None:
 
 @pytest.fixture
 def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
-    """Show a browser on a real master."""
+    """Yield a visible browser on a real master."""
     assert master.uri
     browser = TypeBrowser("course_pkg/geometry")
     browser._dispatch(browser, {"kind": "hello", "view": "a"}, [])
@@ -198,7 +207,7 @@ def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
 
 
 def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) -> None:
-    """A new server and a new file appear while a page shows the browser."""
+    """While a page shows the browser, it also shows a new server and a new file."""
     with NodeProcess.rosrun("course_pkg", "server"):
         who = eventually(lambda: browser.offers.get("srv", {}).get("course_pkg/geometry"), timeout=20)
     assert who == [{"name": "/getGeometry", "served by": ["/SERVER_NODE"]}]
@@ -211,14 +220,14 @@ def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) 
 
 
 def test_the_repr_is_stable(browser: TypeBrowser) -> None:
-    """The repr is that of the cell, and later clicks do not change it."""
+    """The repr is the same before and after clicks."""
     browser._dispatch(browser, {"kind": "open", "name": "std_srvs/Empty", "half": "srv"}, [])
     assert browser.described["name"] == "std_srvs/Empty"
     assert (repr(browser), repr(TypeBrowser())) == ("TypeBrowser('course_pkg/geometry')", "TypeBrowser()")
 
 
 def test_without_a_master_types_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master the types are shown, and a sentence explains why no nodes are listed."""
+    """Without a master, the types are shown, and a sentence says why no nodes are listed."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     browser = TypeBrowser("std_srvs/Trigger")
     assert browser.described["md5"] == "937c9679a518e3a18d831e57125ea522"

@@ -1,8 +1,7 @@
 """Attacks that try to earn points without an answer, or to harm the grader or the next submission.
 
-Each attack is code in a student's cell for exercise 05.1, before the answer in the same cell. The attacks in
-SLOW never end by themselves. The attacks in BUILD are lines of a package's CMakeLists.txt after
-catkin_package().
+Each attack is code before the answer in a student's cell for exercise 05.1. The attacks in SLOW do not end by
+themselves. The attacks in BUILD are lines of a package's CMakeLists.txt after catkin_package().
 """
 
 FORGED = {

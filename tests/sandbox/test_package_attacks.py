@@ -35,7 +35,7 @@ add_custom_target(my_geometry_programs ALL
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests: a build must not leave anything for the next part."""
+    """Return one sandbox worker for all tests, because a build must not affect the next part."""
     with SandboxWorker() as started:
         yield started
 
@@ -59,7 +59,10 @@ def attacked(attack: str) -> str:
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
-    """Check a package with an attack and a wrong server: it earns no points, and ends with a reason."""
+    """Check a package with an attack and a wrong server.
+
+    It must earn no points, and the result must contain a reason.
+    """
     result = examined(worker, {LISTS: attacked(attack), SERVER: NO_SERVER})
     assert points(result) == 0, result
     assert result.record or result.ending
@@ -68,7 +71,7 @@ def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
 
 @pytest.mark.parametrize("attack", BUILD)
 def test_an_attack_in_a_build_earns_no_points(worker: SandboxWorker, attack: str) -> None:
-    """A wrong server earns no points with any attack in its build; a right server passes afterwards."""
+    """With any attack in its build, a wrong server earns no points; the right server passes afterwards."""
     attack_wrong(worker, BUILD[attack])
     assert points(examined(worker, {})) == 3, f"the attack {attack!r} left something"
 
@@ -76,7 +79,7 @@ def test_an_attack_in_a_build_earns_no_points(worker: SandboxWorker, attack: str
 @pytest.mark.slow
 @pytest.mark.parametrize("attack", BUILD_SLOW)
 def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) -> None:
-    """An endless build is ended after its time limit, with a reason."""
+    """A build that does not end is killed after its time limit, and the result contains the reason."""
     began = time.monotonic()
     attack_wrong(worker, BUILD_SLOW[attack])
     assert time.monotonic() - began < find(CHECK).deadline + 60.0
@@ -84,7 +87,7 @@ def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) ->
 
 
 def test_a_forged_type_earns_no_points(worker: SandboxWorker) -> None:
-    """A forged class with the known MD5 sum earns no points, because 07.3 builds a random definition."""
+    """A class with a forged MD5 sum earns no points. 07.3 builds a definition that is drawn at random."""
     from course_pkg.chapters.ch07_build_a_package.checks.packages import geometry_class
 
     forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)

@@ -1,4 +1,4 @@
-"""Tests in the sandbox: a submission tries to read, write, or call what it must not."""
+"""Code in the sandbox tries to read, write or call things that it must not use."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ READABLE = [
     Path("/proc/kcore"),
 ]
 WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
-CALLS = {  # -1 means refused; a successful call returns 0 or a positive number
+CALLS = {  # -1 means that the call was refused; otherwise, a call returns 0 or a positive number
     "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
     "unshare users": "libc.unshare(0x10000000)",
     "unshare network": "libc.unshare(0x40000000)",
@@ -61,13 +61,13 @@ CALLS = {  # -1 means refused; a successful call returns 0 or a positive number
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one worker for all probes."""
+    """Return one sandbox worker for all tests of this module."""
     with SandboxWorker() as started:
         yield started
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Run a cell in a submission, and return the error message that it raises."""
+    """Run a cell as a submission, and return the message of the error that it raises."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
     assert said, "the cell raised no error"
@@ -95,7 +95,7 @@ def test_files_of_the_instructor_cannot_be_read(worker: SandboxWorker) -> None:
 
 
 def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
-    """A student's process contains no module of a check and no hint in its memory."""
+    """The memory of a student's process contains no module of a check and no hint."""
     hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)
     words = told(
         worker,
@@ -113,7 +113,7 @@ def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
 
 
 def test_the_seed_of_the_check_is_not_in_memory(worker: SandboxWorker) -> None:
-    """The student's process does not contain the seed of the check's random inputs."""
+    """The memory of the student's process does not contain the seed of the check's random inputs."""
     job = PartJob(
         "05.1",
         "",
@@ -193,7 +193,10 @@ def test_a_dangerous_system_call_is_refused(worker: SandboxWorker, call: str) ->
 
 
 def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWorker) -> None:
-    """The student's process has no capabilities, has a filter, and cannot see other processes."""
+    """The student's process has no capabilities, and has a filter for system calls.
+
+    It sees only its own processes.
+    """
     words = told(
         worker,
         """
@@ -226,7 +229,7 @@ def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
 
 
 def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
-    """The memory of the next student's process does not contain the text of the previous answer."""
+    """The next student's process does not have the previous answer in its memory."""
     text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))
     assert told(worker, text.replace("' '", "") + "\nraise RuntimeError('left')") == "RuntimeError: left"
     words = told(
@@ -272,7 +275,7 @@ def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
 
 
 def test_a_kernel_cannot_report_a_false_build(worker: SandboxWorker) -> None:
-    """A patched kernel cannot report a successful build: another process runs the check's commands."""
+    """A patched kernel cannot report a successful build. Another process runs the check's commands."""
     wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
     forged = """
 from course_pkg.checking.commands.workbench import CommandFolders

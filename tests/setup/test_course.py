@@ -1,4 +1,4 @@
-"""The `course` script: which Python it uses, and its answers before any set-up."""
+"""The `course` script: the Python that it uses, and its output before any set-up."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ SUBCOMMANDS = (
 
 
 def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course` with `variables` added to the environment."""
+    """Run `course`; its environment also contains `variables`."""
     env = {**os.environ, "ROS_MASTER_URI": "http://localhost:9", **variables}
     return subprocess.run([ROOT / "course", *words], cwd=cwd, env=env, capture_output=True, text=True)
 
 
 @pytest.fixture
 def nowhere(tmp_path: Path) -> dict[str, str]:
-    """Return variables with a cache folder that cannot be created, so every set-up fails."""
+    """Return variables with a cache folder that cannot be created, so that every set-up fails."""
     (tmp_path / "file").write_text("")
     return {"XDG_CACHE_HOME": str(tmp_path / "file")}
 
@@ -46,7 +46,7 @@ def test_an_unknown_command_is_refused_at_once(words: list[str], seen: str, nowh
 
 
 def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str]) -> None:
-    """The error message is one line, and says which variable to set."""
+    """The error message is one line, and contains the variable that the user can set."""
     answer = course("run", "true", **nowhere)
     assert answer.returncode == 1
     assert answer.stderr.count("\n") == 1
@@ -54,14 +54,14 @@ def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str
 
 
 def test_a_space_in_the_name_of_the_cache_is_one_clear_message(tmp_path: Path) -> None:
-    """If the folder name has a space, an error message of one line comes before any download."""
+    """If the cache folder's path has a space, an error message of one line comes before any download."""
     answer = course("run", "true", XDG_CACHE_HOME=str(tmp_path / "a b"))
     assert (answer.returncode, answer.stderr.count("\n")) == (1, 1)
     assert "catkin cannot build in" in answer.stderr
 
 
 def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
-    """The course's Python runs even if the user's python3, PYTHONPATH and PYTHONHOME are broken."""
+    """The course's Python is used even if the user's python3, PYTHONPATH or PYTHONHOME does not work."""
     for name in ("python3", "python", "rosservice"):
         (tmp_path / name).write_text("#!/bin/sh\nexit 66\n")
         (tmp_path / name).chmod(0o755)
@@ -78,7 +78,7 @@ def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
 
 
 def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
-    """A command runs in the current folder, and a link to `course` also works."""
+    """A command runs in the current folder, and a link to `course` works, too."""
     assert course("run", "pwd", cwd=tmp_path).stdout == f"{tmp_path}\n"
     link = tmp_path / "my course"
     link.symlink_to(ROOT / "course")
@@ -94,7 +94,7 @@ def test_a_second_start_sets_nothing_up() -> None:
 
 
 def test_doctor_reports_no_problem_on_this_machine() -> None:
-    """`course doctor` ends with status 0 without problems, and reports a malformed ROS_MASTER_URI."""
+    """Without problems, the exit status of `course doctor` is 0; it reports a malformed ROS_MASTER_URI."""
     answer = course("doctor", ROS_MASTER_URI="")
     assert answer.returncode == 0, answer.stdout
     assert "to do" not in answer.stdout

@@ -1,4 +1,4 @@
-"""uv uses the user's settings for pip."""
+"""uv uses the user's settings of pip."""
 
 from __future__ import annotations
 
@@ -23,13 +23,16 @@ def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
 
 
 def test_a_missing_folder_is_omitted() -> None:
-    """A missing folder of wheels or local index is omitted: pip ignores it, but uv would stop."""
+    """A missing folder of wheels, or a missing local index, is left out.
+
+    pip ignores it, but uv would stop.
+    """
     words = as_uv_variables({"find-links": ["/none"], "extra-index-url": ["file:///none/simple"]}, {})
     assert words == UV_SETTINGS
 
 
 def test_the_users_variables_for_uv_are_kept() -> None:
-    """A variable of uv that is already set is not replaced."""
+    """If a variable of uv is already set, its value stays."""
     assert "UV_DEFAULT_INDEX" not in as_uv_variables(
         {"index-url": ["https://a.example"]}, {"UV_DEFAULT_INDEX": "x"}
     )

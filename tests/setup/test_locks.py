@@ -1,4 +1,4 @@
-"""pyproject.toml lists the libraries; the locks and environment.yml match it."""
+"""pyproject.toml lists the libraries; the lock files and environment.yml contain the same ones."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from course_pkg.setup.lock import LEFT_OUT, UV
 ROOT = Path(__file__).parents[2]
 DEPENDENCIES = "\ndependencies = ["
 PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
-OLDEST = "< '3.11'"  # a marker of a pin: the library's next version does not support Python 3.10
+OLDEST = "< '3.11'"  # a marker for libraries whose next version does not support Python 3.10
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:
@@ -26,7 +26,7 @@ def pinned(extra: str) -> set[tuple[str, str]]:
 def declared(heading: str) -> list[tuple[str, str, str]]:
     """Return name, version and marker of each pin in pyproject.toml's list after `heading`.
 
-    This function reads the file as text because Python 3.10 has no TOML reader.
+    The file is read as text, because Python 3.10 has no module for TOML.
     """
     text = (ROOT / "pyproject.toml").read_text()
     block = text[text.index(heading) :].split("\n]", 1)[0]
@@ -57,7 +57,7 @@ def test_every_file_has_a_hash_and_no_host(extra: str) -> None:
 
 
 def test_uv_is_the_version_that_the_code_names() -> None:
-    """The lock of uv contains exactly the version in the code of `course lock`."""
+    """The lock of uv contains exactly the version that is in the code of `course lock`."""
     assert pinned("uv") == {tuple(UV.split("=="))}
 
 
@@ -73,24 +73,24 @@ def test_conda_gets_the_same_libraries() -> None:
 
 @pytest.mark.parametrize("name", LEFT_OUT)
 def test_excluded_libraries_are_in_no_lock(name: str) -> None:
-    """The locks do not pin the excluded libraries, but a comment at their beginning names them."""
+    """No lock contains an excluded library, but a comment at the top of each lock lists them."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]
 
 
 def test_every_library_that_the_course_imports_is_declared() -> None:
-    """If course_pkg imports a module of a locked library, pyproject.toml names this library."""
+    """If course_pkg imports a library in the locks, pyproject.toml lists this library."""
     assert undeclared() == set()
 
 
 def undeclared() -> set[str]:
-    """Return the locked libraries that course_pkg imports but pyproject.toml does not name."""
+    """Return the locked libraries that course_pkg imports, but that pyproject.toml does not list."""
     locked = {name for name, _ in pinned("test")}
     modules = {
         name.partition(".")[0]
         for path in (ROOT / "course_pkg").rglob("*.py")
-        if path.name not in ("answers.py", "fixtures.py")  # some contain cells of notebooks
+        if path.name not in ("answers.py", "fixtures.py")  # some of them contain the cells of notebooks
         for node in ast.walk(ast.parse(path.read_bytes()))
         for name in imported(node)
     }
@@ -101,7 +101,7 @@ def undeclared() -> set[str]:
 
 
 def imported(node: ast.AST) -> list[str]:
-    """Return the modules that a statement imports by their full names."""
+    """Return the full names of the modules that a statement imports."""
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
     return [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []

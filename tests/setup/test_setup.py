@@ -47,7 +47,7 @@ def test_a_full_disk_is_reported(journal: Journal) -> None:
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a tool fails without a message and the disk is full, the error message names this reason."""
+    """If the disk is full and a tool fails without a message, the error message contains this reason."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["false"])
@@ -64,7 +64,7 @@ def test_a_full_disk_is_reported_without_a_message_from_the_tool(
 def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If another program holds the lock, the tool is repeated until it succeeds; the user gets a message."""
+    """If another program holds the lock, the tool is run again until it succeeds; the user sees a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
@@ -86,12 +86,12 @@ def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.
 
 
 def test_missing_packages_are_listed() -> None:
-    """missing_packages() returns a package that is not installed, but not an installed one."""
+    """missing_packages() returns the names of packages that are not installed, and no others."""
     assert packages.missing_packages(["dpkg", "no-such-package-anywhere"]) == ["no-such-package-anywhere"]
 
 
 def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A user without sudo gets an error message with the whole command."""
+    """A user without sudo gets an error message that contains the whole command."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     monkeypatch.setattr("shutil.which", lambda _: None)
     with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):
@@ -99,7 +99,7 @@ def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pyt
 
 
 def test_progress_in_a_pipe_prints_start_and_result() -> None:
-    """In a pipe, each step prints a line at its start and a line with its result, without colours."""
+    """In a pipe, each step prints one line at its start and one line with its result, without colours."""
     stream = io.StringIO()
     progress = Progress(stream)
     with progress.painting(), progress.step("catkin workspace"):
@@ -117,7 +117,10 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a pipe, a line is printed every 10 s; items of an earlier run do not change the estimate."""
+    """In a pipe, a line is printed every 10 s.
+
+    Items that an earlier run did have no influence on the estimate.
+    """
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

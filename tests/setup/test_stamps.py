@@ -1,4 +1,4 @@
-"""Stamps, digests and the lock."""
+"""Tests of stamps, digests and the lock."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """A step is done from write() until clear()."""
+    """After write(), a step is done until clear()."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")
@@ -23,13 +23,16 @@ def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
 
 
 def test_a_digest_depends_on_the_borders_of_its_parts() -> None:
-    """The digest depends on the borders between the parts."""
+    """The digest depends on where one part ends and the next begins."""
     assert digest(["ab", "c"]) != digest(["a", "bc"])
     assert digest(["a", b"b"]) == digest([b"a", "b"])
 
 
 def test_the_second_set_up_waits_for_the_lock(tmp_path: Path) -> None:
-    """If two set-ups run at the same time, the second waits, reports this, and continues after the first."""
+    """If two set-ups run at the same time, the second one waits and says so.
+
+    It continues after the first one.
+    """
     waits, got = threading.Event(), threading.Event()
 
     def second() -> None:

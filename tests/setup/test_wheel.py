@@ -31,7 +31,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_wheel_contains_all_data_files(wheel: Path) -> None:
-    """The wheel contains all files beside the modules and the service definitions, but no cache."""
+    """The wheel contains all data files of the package and the service definitions, but no cache."""
     names = ZipFile(wheel).namelist()
     beside = [
         str(path.relative_to(ROOT))
@@ -44,7 +44,7 @@ def test_the_wheel_contains_all_data_files(wheel: Path) -> None:
 
 
 def test_the_installed_package_can_be_imported(wheel: Path, tmp_path: Path) -> None:
-    """An installation of the wheel outside of the checkout can be imported."""
+    """The installed wheel can be imported without the checkout."""
     venv.create(tmp_path / "v", system_site_packages=True, symlinks=True)
     [packages] = (tmp_path / "v" / "lib").glob("python3*/site-packages")
     ZipFile(wheel).extractall(packages)

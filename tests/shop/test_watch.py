@@ -1,4 +1,4 @@
-"""A Watch and an Eye process the messages of a camera, and notify all waiting threads."""
+"""A Watch and an Eye read the messages of a camera, and wake all waiting threads."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from course_pkg.shop import Customer, Eye, Watch, await_customer
 from course_pkg.shop import watch as module
 from tests.support import eventually
 
-FOR_EVER = 60.0  # s: longer than any test
+FOR_EVER = 60.0  # s; this is longer than any test
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """A customer is new in the first message that contains them, and gets the time of this message."""
+    """A customer is new in the first message with this customer, and gets the time of this message."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -47,7 +47,7 @@ def test_one_customer_replaces_another() -> None:
 
 
 def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
-    """`wait` returns immediately if there is a customer already."""
+    """`wait` returns at once if a customer is already there."""
     watch = Watch()
     watch.see([3])
     customer = watch.wait(0, FOR_EVER, FOR_EVER)
@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each thread returns with the customer for whom it waits, and other threads continue to wait."""
+    """Each thread returns when its customer comes; the other threads continue to wait."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -74,7 +74,7 @@ def _number(future: Future[Customer | None]) -> int | None:
 
 
 def test_a_wait_without_a_customer_ends_after_its_time() -> None:
-    """`wait` returns None, but not before `patience` s have passed."""
+    """`wait` returns None, but only after `patience` s."""
     watch = Watch()
     watch.see([])
     began = time.monotonic()
@@ -83,10 +83,10 @@ def test_a_wait_without_a_customer_ends_after_its_time() -> None:
 
 
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
-    """`wait` raises CameraSilent if the camera has sent no message, or no message for `silence` s."""
+    """`wait` raises CameraSilent if the camera sends no message for `silence` s, or has never sent one."""
     watch = Watch()
     with pytest.raises(CameraSilent):
-        watch.wait(0, FOR_EVER, silence=5.0)  # The camera has never published a message.
+        watch.wait(0, FOR_EVER, silence=5.0)  # the camera has never published a message
     watch.see([1])
     eventually(lambda: watch.silent_for > 0.05)
     with pytest.raises(CameraSilent):
@@ -94,7 +94,7 @@ def test_a_wait_ends_when_the_camera_is_silent() -> None:
 
 
 def sees(frame: str) -> bool:
-    """Return whether a frame shows a customer; in these tests, a frame is a text."""
+    """Return whether a frame shows a customer; in these tests, a frame is a string."""
     if frame == "malformed":
         raise ValueError(frame)
     return frame == "a customer"
@@ -107,7 +107,7 @@ def eye() -> Eye:
 
 
 def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
-    """A malformed frame does not change the result of the last valid frame."""
+    """After a malformed frame, the result is still that of the last valid frame."""
     seen = [eye.look()]
     for frame in ("a customer", "malformed", "no customer", "malformed"):
         eye.hear(frame)
@@ -124,7 +124,7 @@ def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
-    """If a customer is there, `await_customer` returns True even with a time limit of 0 s."""
+    """If a customer is already there, `await_customer` returns True even with a limit of 0 s."""
     eye.hear("a customer")
     assert await_customer(eye, 0.0) is True
 
@@ -140,7 +140,7 @@ def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
 
 
 def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
-    """The wait ends after its time, even if frames without a customer arrive all the time."""
+    """The wait ends after its time limit, even if frames without a customer arrive all the time."""
     over = threading.Event()
 
     def stream() -> None:
@@ -160,6 +160,6 @@ def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
 
 
 def test_a_silent_camera_is_an_error(eye: Eye) -> None:
-    """If no frame arrives within the time, `await_customer` raises CameraSilent."""
+    """If no frame arrives within the time limit, `await_customer` raises CameraSilent."""
     with pytest.raises(CameraSilent):
         await_customer(eye, 0.05)

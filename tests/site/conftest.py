@@ -1,4 +1,4 @@
-"""The sites for the tests in this folder. Each worker builds them once."""
+"""The sites for the tests in this folder. Each worker builds the sites once."""
 
 from __future__ import annotations
 
@@ -43,7 +43,10 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the real course from its stored outputs. The pages have no panels, because panels need a run."""
+    """Build the real course from its stored outputs.
+
+    The pages have no panels, because a panel needs a run of its notebook.
+    """
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -79,4 +82,4 @@ def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
 
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
-        """Write no log, so that the output of the tests stays short."""
+        """Write no log, so that the tests print less."""

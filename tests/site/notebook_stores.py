@@ -19,7 +19,7 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
     """Write solutions and equal notebooks, and return their store.
 
-    `_00_name=[…]` gives the cells of the chapter 00_name; a cell with the title is added above them.
+    `_00_name=[…]` contains the cells of the chapter 00_name; a cell with the title is added before them.
     """
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)
@@ -30,7 +30,7 @@ def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
 
 
 def runs(cache: Path) -> Runs:
-    """Return the runs of this checkout's package, stored in a separate folder."""
+    """Return the runs of this checkout's package; they are stored in a separate folder."""
     return Runs(Places(Places.of().checkout, cache))
 
 
@@ -40,6 +40,6 @@ def shown(*outputs: Output) -> Body:
 
 
 def result(**data: Plain) -> Output:
-    """Return the result of a cell; `text_html="…"` gives its data of type text/html."""
+    """Return a cell's result; `text_html="…"` is its data for the MIME type text/html."""
     kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
     return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

@@ -1,4 +1,4 @@
-"""The faults that `course site --check` finds."""
+"""The faults that `course site --check` reports."""
 
 from __future__ import annotations
 
@@ -64,5 +64,5 @@ def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
     ],
 )
 def test_a_correct_page_has_no_fault(tmp_path: Path, html: str) -> None:
-    """Working links, figures with descriptions, prices and shell variables are no faults."""
+    """Working links, figures with descriptions, prices and shell variables cause no fault."""
     assert page(tmp_path, html) == []

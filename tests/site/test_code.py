@@ -14,14 +14,14 @@ from course_pkg.site.prose import words
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_colours_do_not_change_the_text(path: Path) -> None:
-    """Without its tags, the coloured HTML of each cell of the course equals the cell's source."""
+    """Without its tags, the coloured HTML of each code cell is equal to the cell's source."""
     highlight = Highlighter()
     for cell in code_cells(read(path)):
         assert words(highlight.cell(cell["source"])) == cell["source"].strip("\n")
 
 
 def test_a_magic_selects_the_language_of_a_cell() -> None:
-    """The name of a file or a shell in the magic selects the colours. An unknown name selects none."""
+    """The magic's file name or shell determines the colours. For an unknown name, there are no colours."""
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")

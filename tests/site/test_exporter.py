@@ -20,7 +20,7 @@ def test_a_result_is_shown() -> None:
 
 
 def test_html_is_cleaned() -> None:
-    """The page shows the HTML of a result without its scripts, and not the text of the same result."""
+    """The page shows the HTML of a result without scripts, and does not show the text of the same result."""
     body = shown(result(text_html="<p onclick=f()>yes</p><script>no()</script>", text_plain="text")).html
     assert "<p>yes</p>" in body
     assert "onclick" not in body
@@ -34,7 +34,7 @@ def test_a_script_among_the_outputs_is_left_out() -> None:
 
 
 def test_a_drawing_is_a_picture() -> None:
-    """An SVG is shown as an <img>, in which no script can run, and keeps its description."""
+    """An SVG becomes an <img>, in which no script can run; its description stays."""
     drawing = "<svg><script>alert(1)</script></svg>"
     output = result(text_plain="x") | {
         "data": {"image/svg+xml": drawing},
@@ -55,9 +55,11 @@ def test_a_figure_is_described_by_its_own_text() -> None:
 
 
 def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
-    """A page prefers a panel's state to its picture, and the picture to the text.
+    """If a panel has a state, the page shows the panel.
 
-    The title of the picture becomes its description.
+    Otherwise it shows the picture, or the text if there is no picture.
+
+    The title of the picture is used as its description.
     """
     drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
     data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
@@ -78,21 +80,24 @@ def test_an_error_looks_different_from_other_output() -> None:
 
 
 def test_a_terminals_output_is_shown_as_in_a_terminal() -> None:
-    """Text before a carriage return is removed, all line ends are equal, and no control characters remain."""
+    """Text before a carriage return is removed, and all line ends are equal.
+
+    There are no control characters.
+    """
     assert terminal("one\r\ntwo\r\n") == "one\ntwo"
     assert terminal("10 %\r20 %\rdone\x1b[K\x07") == "done"
     assert terminal("<b>") == "&lt;b&gt;"
 
 
 def test_an_exercise_can_be_linked_to() -> None:
-    """The HTML id of an exercise is the id of its cell, with the prefix of the chapter."""
+    """The HTML id of an exercise is the chapter's prefix and the id of the cell."""
     body = Exporter().body(book(exercise("05.1"), code("x")), "c05-")
     assert 'class="in exercise" id="c05-exercise-05-1"' in body.html
     assert body.html.count("id=") == 1
 
 
 def test_the_states_of_panels_cannot_add_markup() -> None:
-    """The states are compressed, so that a browser reads no tag in them."""
+    """The states are compressed, so that a browser finds no tag in them."""
     output = result() | {"data": {PANEL: {"panel": "graph", "state": {"title": "</script><script>alert(1)"}}}}
     body = shown(output).html
     assert 'data-panel="graph"' in body
@@ -126,7 +131,7 @@ ATTACKS = [
 
 
 class Reader(HTMLParser):
-    """Collects the tags and the attributes that a browser would read."""
+    """Collects the tags and the attributes that a browser would find."""
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -141,7 +146,7 @@ class Reader(HTMLParser):
 
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_nothing_runs_or_loads(attack: str) -> None:
-    """The sanitizer removes scripts, requests and imitations of the page; only their text may remain."""
+    """The sanitizer removes scripts, requests and imitations of the page; only their text may stay."""
     for tag, name, value in Reader(Sanitizer()(attack)).seen:
         assert tag in ("p", "a", "div", "section", "img", "table")
         assert name in ("", "title")
@@ -149,7 +154,7 @@ def test_nothing_runs_or_loads(attack: str) -> None:
 
 
 def test_the_sanitizer_keeps_a_report() -> None:
-    """The text, the structure and the coloured edge of a check's report stay."""
+    """A check's report keeps its text, its structure and its coloured edge."""
     rule = Assertion("it answers", holds=False, asked="2", expected="4", actual="<5>", hint="Add.")
     report = Report("05.1", Verdict.FAILED, "A goal.", 0, 2, (rule,), "Again.", "printed")
     clean = Sanitizer()(report.html())

@@ -17,7 +17,10 @@ WRITTEN: dict[str, str] = json.loads((Path(module.__file__).parent / "glossary.j
 
 
 def test_most_terms_link_to_their_explanation() -> None:
-    """A term links to the first section that has it in bold or italics. At least 80 % have such a section."""
+    """A term links to the first section in which it is bold or italic.
+
+    At least 80 % of the terms have such a section.
+    """
     exporter, texts = Exporter(), []
     for path in NotebookStore().solutions():
         notebook = read(path)
@@ -42,7 +45,7 @@ def test_no_two_entries_share_an_anchor() -> None:
 
 
 def test_each_section_has_its_anchor_and_its_text() -> None:
-    """The text of a section is its prose and its code. A # in code does not begin a section."""
+    """The text of a section contains its prose and its code. A # in code does not begin a section."""
     notebook = book(
         text("# Title\n\nThe lead.", "t1"),
         text("## One\n\n```\n## no heading\n```\nA **word**.", "t2"),
@@ -60,12 +63,12 @@ def test_each_section_has_its_anchor_and_its_text() -> None:
 
 
 def test_marks_of_markdown_are_removed() -> None:
-    """The texts of links and the cells of tables stay."""
+    """The texts of links, and the cells of tables, stay."""
     assert (
         plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
     )
 
 
 def test_the_texts_are_a_script() -> None:
-    """The texts for the search are a call in a script, because a page in a folder cannot fetch a file."""
+    """The texts for the search are in a script, because a page in a local folder cannot fetch a file."""
     assert script([]) == "courseTexts([]);\n"

@@ -1,4 +1,4 @@
-"""The pages in a real browser: from a folder or a server, in wide and narrow windows, light and dark."""
+"""The pages in a real browser: from a folder or a server, in wide and narrow windows, in light and dark."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ from course_pkg.site.scripts import fronts
 from tests.browser.pages import picture
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
-# These rules are added to the rules that axe-core applies by default.
+# These rules are added to axe-core's default rules.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
-OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so axe-core cannot preload them.
-CONTRAST = "color-contrast"  # the slowest rule of axe-core; its result does not depend on the width
+OPTIONS = {"rules": RULES, "preload": False}  # a page may not fetch files, so axe-core cannot preload them
+# the slowest rule of axe-core; its result does not depend on the width of the window
+CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-ALWAYS = (1200, "light")  # checked in every run; the others are checked only if a page may have changed
+# checked in every run; other combinations are checked only if a page may have changed
+ALWAYS = (1200, "light")
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
     for width in WIDTHS
@@ -34,9 +36,10 @@ ENOUGH = ("index.html", "glossary.html", PAGE)  # the pages to check in narrow d
 def reader(
     browser: Browser, width: int = 1200, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[Page]:
-    """Open a page in a browser that reaches only 127.0.0.1.
+    """Open a page in a browser that can connect only to 127.0.0.1.
 
-    The test fails after a failed request, an error or warning in the console, or an exception of a script.
+    The test fails if a request fails, if the console shows an error or a warning, or if a script raises an
+    exception.
     """
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     troubles: list[str] = []
@@ -54,7 +57,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the names of a site's pages, except the book, which is only printed."""
+    """Return the names of a site's pages; the book is left out, because it is only printed."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
@@ -77,7 +80,7 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
-@pytest.mark.timeout(360)  # This test computes much, and the machine may be busy.
+@pytest.mark.timeout(360)  # this test needs much CPU time, and the machine may be busy
 @pytest.mark.parametrize(("width", "colours"), SWEEPS)
 def test_axe_finds_no_problem(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
@@ -96,14 +99,14 @@ def test_axe_finds_no_problem(
                 page.evaluate(AXE)
                 found[name] = violations(page, options)
                 look_for(page, "service")
-                # While the dialog is open, a user cannot reach the other parts of the page.
+                # while the dialog is open, a user cannot reach the other parts of the page
                 found[f"{name}, searching"] = violations(page, options, "dialog")
         picture(page, f"site-search-{width}-{colours}")
     assert {name: what for name, what in found.items() if what} == {}
 
 
 def options_for(width: int, colours: str) -> dict[str, Any]:
-    """Return the rules whose result can depend on this width and these colours."""
+    """Return the rules whose results can depend on this width and these colours."""
     if colours == "dark":
         return {**OPTIONS, "runOnly": [CONTRAST]}
     return OPTIONS if width == WIDTHS[0] else {**OPTIONS, "rules": {**RULES, CONTRAST: {"enabled": False}}}
@@ -117,14 +120,14 @@ def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "ht
 
 
 def look_for(page: Page, words: str) -> None:
-    """Open the search with its key, search for `words`, and wait for results."""
+    """Open the search with its key, type `words`, and wait for results."""
     page.keyboard.press("/")
     page.get_by_role("searchbox").fill(words)
     expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("found")
 
 
 def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
-    """The page draws each panel from its saved state, and shows the plot with its description."""
+    """The page draws each panel from its saved state; the plot is shown with its description."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         shown = page.locator("[data-panel]").evaluate_all(
@@ -137,7 +140,7 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
 
 
 def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, panels: Path) -> None:
-    """All panels are drawn even if no frame and no timer comes, because Chromium prints without frames."""
+    """All panels are drawn even without animation frames and timers. Chromium prints without frames."""
     with reader(browser) as page:
         page.add_init_script("requestAnimationFrame = setTimeout = () => 0")
         open_page(page, panels, "book.html")
@@ -145,9 +148,9 @@ def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, pa
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """A recorded request shows the real response and the label "Recorded".
+    """For a recorded request, the page shows the real response and the label "Recorded".
 
-    A panel without recordings reports that there is no kernel.
+    A panel without a recording says that there is no kernel.
     """
     with reader(browser) as page:
         open_page(page, panels, PAGE)
@@ -161,7 +164,7 @@ def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
 
 
 def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """A slider moves through the recording."""
+    """A slider changes the time of the recording."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         turtles = page.get_by_role("region", name="Turtle panel")
@@ -172,7 +175,7 @@ def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """The key Home moves the slider to the beginning, where the topic /rosout does not exist yet."""
+    """The key Home moves the slider to the beginning; at this time, there is no topic /rosout yet."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -196,7 +199,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the word, and the key Escape closes the search."""
+    """The message contains the searched word, and the key Escape closes the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
@@ -209,7 +212,10 @@ def test_a_search_without_results_shows_a_message(browser: Browser, course: Path
 def test_the_next_page_keeps_the_chosen_colours(
     browser: Browser, served: dict[Path, str], course: Path
 ) -> None:
-    """A click on the button changes between system, light and dark, and the next page has the same theme."""
+    """A click on the button changes the theme from system to light and dark.
+
+    The next page has the same theme.
+    """
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -224,7 +230,10 @@ def test_the_next_page_keeps_the_chosen_colours(
 
 
 def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -> None:
-    """The contents mark the section at the top of the window. In a narrow window, the contents are closed."""
+    """The table of contents marks the section at the top of the window.
+
+    In a narrow window, the table of contents is closed.
+    """
     with reader(browser) as page:
         open_page(page, course, "05_write_a_server.html")
         page.locator("h2").nth(4).evaluate("heading => heading.scrollIntoView({behavior: 'instant'})")
@@ -238,7 +247,7 @@ def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -
 
 
 def test_code_can_be_copied(browser: Browser, course: Path) -> None:
-    """The button copies the text of the cell without the button's label."""
+    """The button copies the text of the cell, but not the label of the button."""
     with reader(browser) as page:
         page.context.grant_permissions(["clipboard-read", "clipboard-write"])
         open_page(page, course, "05_write_a_server.html")
@@ -250,7 +259,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """Without scripts, the page shows its code and a message about the missing panels, and no buttons."""
+    """Without scripts, the page shows the code and a message about the missing panels, but no buttons."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
@@ -261,7 +270,10 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The page's policy forbids all connections, even to its own server, and scripts without the nonce."""
+    """The page's policy forbids all connections, even to the page's server.
+
+    It forbids all scripts without the nonce.
+    """
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -9,7 +9,7 @@ from course_pkg.site.prose import Prose, page_of
 
 
 def prose(prefix: str = "") -> Prose:
-    """Return a renderer that does not change code."""
+    """Return a renderer that leaves code unchanged."""
     return Prose(lambda code, _language: code, prefix)
 
 
@@ -21,7 +21,7 @@ def test_raw_html_is_shown_as_text() -> None:
 
 @pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
 def test_a_link_cannot_run(link: str) -> None:
-    """An address that is a script is removed from the link."""
+    """If the address of a link is a script, it is removed."""
     assert link.partition(":")[0] not in prose()(f"[here]({link})")
 
 
@@ -48,7 +48,7 @@ def test_each_heading_has_a_different_anchor() -> None:
     ],
 )
 def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
-    """A link to a notebook becomes a link to its page, and other links stay the same."""
+    """A link to a notebook becomes a link to its page; other links do not change."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
 
@@ -72,6 +72,6 @@ def test_other_dollar_signs_stay_text(text: str) -> None:
 
 
 def test_an_invalid_formula_is_refused() -> None:
-    """The error contains the formula, so that its author finds it."""
+    """The error contains the formula, so that the author can find it."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

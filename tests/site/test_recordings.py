@@ -34,17 +34,17 @@ class Noted:
         self.trouble = trouble
 
     def received(self, kind: str, content: dict[str, Plain]) -> None:
-        """Store a message of the front end."""
+        """Store a message from the front end."""
         self.done.append((kind, content))
 
     def record(self, requests: list[dict[str, Plain]]) -> None:
-        """Store the requests, and raise `trouble`."""
+        """Store the requests, and raise `trouble` if there is one."""
         self.done.append(requests)
         if self.trouble:
             raise self.trouble
 
     def shown(self) -> None:
-        """Store that the panel starts."""
+        """Record that the panel is shown."""
         self.done.append("shown")
 
     def hidden(self) -> None:
@@ -54,21 +54,24 @@ class Noted:
 
 @pytest.mark.parametrize("trouble", [None, NoServiceSelected("There is no server.")])
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
-    """The panel first gets the service, then the requests. If there is no server yet, the run continues."""
+    """The panel gets the name of the service before the requests.
+
+    If there is no server yet, the run of the notebook continues.
+    """
     panel = Noted(trouble)
     record_panel(panel, {"pick": "/add_two_ints", "record": [{"a": 1, "b": 2}]})
     assert panel.done == [("pick", {"service": "/add_two_ints"}), [{"a": 1, "b": 2}]]
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """The panel is shown and then hidden. Without a node in the notebook, no calls are made."""
+    """The panel is shown and then hidden. If the notebook has no node, no calls are made."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
 
 
 def test_the_panel_is_found_even_if_a_notebook_uses_the_name_underscore() -> None:
-    """The added cell finds the panel in `_oh`, because a loop over `_` replaces IPython's own `_`."""
+    """The added cell finds the panel in `_oh`. A loop with the variable `_` replaces IPython's own `_`."""
     notebook = book(code("for _ in range(2): pass"), code("GraphPanel()", id="graphpanel"))
     added = with_recordings("00_start_the_graph", notebook)["cells"][-1]
     panel, results = Noted(), {1: "earlier"}
@@ -83,7 +86,10 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """The cell exists in the solution and in the students' notebook. It ends with a suitable panel."""
+    """The cell exists in the solution and in the student's notebook.
+
+    It ends with a panel of the right kind.
+    """
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -102,7 +108,7 @@ def test_the_added_cells_are_removed_again(path: Path) -> None:
 
 @pytest.mark.parametrize("system", SYSTEMS, ids=lambda system: system["name"])
 def test_the_command_of_each_system_exists(system: dict[str, str]) -> None:
-    """Each command on the landing page names a launch file or a program of the package."""
+    """Each command on the landing page starts an existing launch file or program of the package."""
     tool, package, name, *_ = system["start"].split()
     folders = {"course_pkg": "nodes/ chapters/*/programs/", "turtlesim": "turtlesim/"}[package].split()
     programs = [found for folder in folders for found in (ROOT / "course_pkg").glob(f"{folder}{name}.py")]
@@ -140,7 +146,7 @@ def test_a_panel_is_kept_without_its_script() -> None:
 
 
 def test_a_widget_of_another_library_is_shown_as_text() -> None:
-    """Only panels of the package keep their state, because only their scripts run on a page."""
+    """Only panels of the course keep their state, because a page has only their scripts."""
     for kind in ("elsewhere.Widget", "course_pkg.panels.graph.view.GraphPanel2.x", "", f"{GRAPH}\n"):
         notebook = saved(kind)
         embed_states(notebook)
@@ -148,7 +154,7 @@ def test_a_widget_of_another_library_is_shown_as_text() -> None:
 
 
 def test_a_view_without_a_state_is_shown_as_text() -> None:
-    """If the kernel died before it saved its widgets, the page shows the text of each widget."""
+    """If the kernel ended before its widgets were saved, the page shows the text of each widget."""
     notebook = saved(GRAPH)
     notebook["metadata"] = {}
     embed_states(notebook)

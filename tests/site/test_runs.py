@@ -17,7 +17,7 @@ COUNT = "from pathlib import Path\nruns = Path({!r})\nruns.write_text(runs.read_
 
 @pytest.fixture
 def counter(tmp_path: Path) -> Path:
-    """Return a file to which every run of a chapter adds a letter."""
+    """Return a file; every run of a chapter adds a letter to it."""
     path = tmp_path / "runs.txt"
     path.write_text("")
     return path
@@ -33,7 +33,7 @@ def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "
 
 
 def executed(kept: Runs, path: Path) -> Notebook:
-    """Return the last run of a chapter, after a new run if one is necessary."""
+    """Return the last run of a chapter; first run it again if this is necessary."""
     assert kept.update([path]) == {}
     notebook = kept.latest(path)
     assert notebook is not None
@@ -46,7 +46,10 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """A change of prose is shown without a new run. A change of code starts a run, which replaces the old."""
+    """After a change of prose, the page shows the change without a new run.
+
+    A change of code starts a new run, whose outputs replace the old ones.
+    """
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
@@ -59,7 +62,7 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, counter: Path) -> None:
-    """The chapter runs again at the next update; until then, the page shows the last run."""
+    """The chapter runs again at the next update; until then, the page shows the outputs of the last run."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     executed(kept, path)
     other = runs(tmp_path / "cache")
@@ -73,7 +76,7 @@ def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, coun
 def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A new file in a folder that `folders_for` returns for the chapter starts a new run."""
+    """A new file in one of the folders that `folders_for` returns for the chapter starts a new run."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])
@@ -85,7 +88,7 @@ def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
 
 
 def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
-    """The error names the cell that failed, and `latest` returns None."""
+    """The error contains the cell that failed, and `latest` returns None."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
     errors = kept.update([path])
     assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])

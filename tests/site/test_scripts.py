@@ -15,14 +15,17 @@ from course_pkg.site.scripts import PANELS, fronts, panels_script, panels_sheet
 
 
 def test_every_panel_with_a_view_has_a_front_end() -> None:
-    """The page finds a front end by the name of its folder. Pictures are HTML and need no front end."""
+    """The page finds the front end of a panel by the name of its folder.
+
+    Pictures are HTML, so they need no front end.
+    """
     views = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(fronts()) == views - {"image"}
     assert set(re.findall(r"(\w+): _\w+", panels_script().rpartition("coursePanels")[2])) == set(fronts())
 
 
 def test_the_script_has_no_import_and_no_export() -> None:
-    """A page in a folder cannot load modules."""
+    """A page in a local folder cannot load modules."""
     assert re.findall(r"^(?:import|export)\b.*", panels_script(), re.MULTILINE) == []
 
 

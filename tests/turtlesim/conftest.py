@@ -1,4 +1,4 @@
-"""A turtle simulator that the tests of one module share."""
+"""A turtle simulator; all tests of a module use the same one."""
 
 from __future__ import annotations
 

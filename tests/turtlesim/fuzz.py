@@ -1,4 +1,4 @@
-"""A client that sends random calls and messages, unusual numbers and names, and incomplete requests."""
+"""A client that makes random calls, with unusual numbers and names, and with incomplete requests."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # turtles; with more of them, the world is reset
+MOST = 12  # maximum number of turtles; if there are more, the simulator is reset
 
 
 class Fuzzer:
-    """Chooses random actions and executes them. `refused` is the number of refused calls."""
+    """Chooses random actions and executes them. `refused` counts the refused calls."""
 
     def __init__(self, node: Node, seed: int) -> None:
         self._node = node
@@ -64,7 +64,7 @@ class Fuzzer:
         self._draw.choice(deeds)()
 
     def number(self) -> float:
-        """Return a random number. One in three is unusual, such as NaN."""
+        """Return a random number. One number in three is unusual, for example NaN."""
         return self._draw.choice(ODD_NUMBERS) if self._draw.random() < 1 / 3 else self._draw.uniform(-20, 20)
 
     def _turtle(self) -> str:

@@ -1,4 +1,4 @@
-"""The node on a real graph behaves like the turtlesim of ROS."""
+"""On a real graph, the course's node behaves like the turtlesim of ROS."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """Return a kernel that is a node, and whose simulator has only turtle1."""
+    """Return a kernel that is a node; the simulator contains only turtle1."""
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
 
 def terminal(*command: str) -> str:
-    """Run a command as a student types it, and return its output."""
+    """Run a command in the same way as a student, and return its output."""
     done = subprocess.run(
         command, capture_output=True, text=True, timeout=30, env=dict(os.environ), check=False
     )
@@ -58,7 +58,7 @@ def terminal(*command: str) -> str:
 
 @pytest.mark.parametrize("name", MD5)
 def test_the_types_are_those_of_the_real_package(name: str) -> None:
-    """The MD5 sums are the same as in ROS, because clients compare them."""
+    """The MD5 sums are the same as in ROS; they have to be, because clients compare them."""
     kind = message_type if name in ("Color", "Pose") else service_type
     assert kind(f"turtlesim/{name}").cls._md5sum == MD5[name]
 
@@ -90,7 +90,10 @@ def test_parameters(simulator: NodeProcess) -> None:
 
 
 def test_a_used_name_is_refused(client: Kernel, simulator: NodeProcess) -> None:
-    """A second spawn with the same name fails with an empty message, and the node's log has the reason."""
+    """A second spawn with the same name fails with an empty message.
+
+    The log of the node contains the reason.
+    """
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     assert said == "service [/spawn] responded with an error: b''"
@@ -98,14 +101,14 @@ def test_a_used_name_is_refused(client: Kernel, simulator: NodeProcess) -> None:
 
 
 def test_an_unknown_turtle_cannot_be_killed(client: Kernel, simulator: NodeProcess) -> None:
-    """The call of /kill fails with an empty message, and the node's log has the reason."""
+    """A call of /kill fails with an empty message; the log of the node contains the reason."""
     said = client.run("result = words('/kill', Kill, 'nobody')")
     assert said == "service [/kill] responded with an error: b''"
     eventually(lambda: "Tried to kill turtle [nobody], which does not exist" in simulator.output())
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """The error names the invalid character and its position, and no turtle is created."""
+    """The error contains the invalid character and its position, and no turtle is created."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
@@ -118,7 +121,7 @@ def test_a_name_in_a_namespace(client: Kernel) -> None:
 
 
 def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
-    """After a kill, the turtle's services do not exist any more, and its name can be used again."""
+    """When a turtle was killed, its services do not exist any more, and its name is free."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
     client.run("node.call('/kill', Kill, 'brief')")
     assert not look().service("/brief/set_pen")
@@ -126,7 +129,7 @@ def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
 
 
 def test_driving(client: Kernel) -> None:
-    """One message with x = 1 moves the turtle about 1.008 m, with an error of up to two ticks."""
+    """One message with linear.x = 1 moves the turtle by about 1.008 m; the error is at most two ticks."""
     client.run("order = Twist(); order.linear.x = 1.0; before = pose().x")
     client.run("publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)")
     client.run(
@@ -153,7 +156,7 @@ def test_teleport_and_colour(client: Kernel) -> None:
 
 
 def test_subscribers_keep_their_connection_after_a_reset(client: Kernel) -> None:
-    """After a reset, a subscriber of turtle1 still receives poses, which are now in the middle."""
+    """After a reset, a subscriber of turtle1 still receives poses; now they are in the middle."""
     client.run("heard = node.subscribe('/turtle1/pose', Pose)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 1, 1, 0); heard.wait()")
     client.run("node.call('/reset', Empty); count = heard.count")
@@ -197,14 +200,17 @@ def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """All names of a simulator in a namespace begin with this namespace, also those of its turtles."""
+    """If a simulator is in a namespace, all its names begin with the namespace.
+
+    This includes the names of its turtles.
+    """
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))
 
 
 def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
-    """If a parameter is not a number, clear works, and the background has the default colour."""
+    """If a parameter is not a number, /clear still works, and the background has the default colour."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(
@@ -216,13 +222,13 @@ def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
 
 
 def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
-    """node.call accepts the keyword `name` for a field, because the service's name is only positional."""
+    """node.call accepts a field called `name`. The service's name is a positional-only argument."""
     made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
     assert made == "Named"
 
 
 def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
-    """A recording contains the handler in the simulator and the wait of the client."""
+    """A recording contains the handler in the simulator and the client's wait."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"
@@ -235,7 +241,7 @@ def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_bad_clients_do_no_harm(seed: int, master: PrivateMaster, kernel: Kernel) -> None:
-    """After 400 random actions of a client, turtle1 still works."""
+    """After 400 random actions of a client, the services of turtle1 still work."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as simulator:
         simulator.wait_for_service("/spawn")
         refused = kernel.run(

@@ -18,7 +18,7 @@ from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """After four sides and four corners, the turtle is less than 0.1 m from its start."""
+    """After four sides and four corners, the distance of the turtle from its start is less than 0.1 m."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0
@@ -51,7 +51,10 @@ def test_draw_square_drives_the_turtle(simulator: NodeProcess, kernel: Kernel) -
 
 @pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
 def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
-    """Arrow keys are read from whole or split escape codes. Other keys do nothing, and q ends the program."""
+    """Arrow keys are recognised even if their escape codes arrive in two parts.
+
+    Other keys do nothing, and q ends the program.
+    """
     reader, writer = os.pipe()
     found = []
     keys = commands(reader)
@@ -64,7 +67,10 @@ def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
 
 
 def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
-    """An arrow key publishes a velocity, q ends the node, and then the terminal has its old settings."""
+    """An arrow key publishes a velocity, and q ends the node.
+
+    After this, the terminal has its old settings.
+    """
     kernel.run(
         "from course_pkg import join\nfrom geometry_msgs.msg import Twist\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/cmd_vel', Twist)"
@@ -91,7 +97,7 @@ def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
 
 
 def test_turtle_teleop_key_needs_a_terminal() -> None:
-    """With a pipe as input, the program prints an error message, and ends with status 1."""
+    """If the input is a pipe, the program prints an error message, and the exit status is 1."""
     done = subprocess.run(
         ["rosrun", "turtlesim", "turtle_teleop_key"], input="", capture_output=True, text=True, timeout=30
     )

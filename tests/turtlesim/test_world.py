@@ -1,4 +1,4 @@
-"""The world of turtles without ROS, and with a clock that the tests control."""
+"""The simulated world of turtles, without ROS; the tests control its clock."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world, and its turtle with a new velocity."""
+    """Return a world, and its turtle, whose velocity was just set."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)
@@ -63,9 +63,9 @@ def test_a_velocity_is_valid_for_a_second() -> None:
 
 
 def test_an_arc() -> None:
-    """In one second, (2 m/s, 1.8 rad/s) turns the turtle by 1.8144 rad, and moves it near the ideal end.
+    """A velocity of (2 m/s, 1.8 rad/s) turns the turtle by 1.8144 rad. The turtle is close to the ideal end.
 
-    There is a small difference, because in each tick the turtle turns first and then moves.
+    There is a small difference, because the turtle first turns and then moves in each tick.
     """
     world, turtle = driven(forward=2.0, turn=1.8)
     run(world, 100)
@@ -84,7 +84,10 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """The turtle stops at the wall, and keeps its velocity. Each tick returns a warning with the position."""
+    """At the wall, the turtle stops, but it keeps its velocity.
+
+    Each tick returns a warning that contains the position.
+    """
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -102,7 +105,7 @@ def test_theta_is_normalized(angle: float, read: float) -> None:
 
 
 def test_spawn_outside_is_clamped() -> None:
-    """A turtle that is spawned outside the world is at the wall one tick later."""
+    """If a turtle is spawned outside the world, it is at the wall after one tick."""
     world = World()
     turtle = world.spawn(-3.0, 99.0, 0.0, "far")
     assert len(world.tick(0.0)) == 1
@@ -110,7 +113,7 @@ def test_spawn_outside_is_clamped() -> None:
 
 
 def test_a_turtle_without_a_name_gets_one() -> None:
-    """The names are turtle2, turtle3, … Used names are skipped, even if the turtle was killed."""
+    """The names are turtle2, turtle3, … A used name is not used again, even if its turtle was killed."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -122,7 +125,7 @@ def test_a_turtle_without_a_name_gets_one() -> None:
 
 
 def test_used_and_unknown_names_are_refused() -> None:
-    """The errors for a used name in spawn and for an unknown name in kill have turtlesim's messages."""
+    """A used name in spawn and an unknown name in kill are refused with turtlesim's messages."""
     world = World()
     with pytest.raises(NameTaken, match=r"A turtled named \[turtle1\] already exists"):
         world.spawn(1, 1, 0, "turtle1")
@@ -138,7 +141,7 @@ def test_teleport_relative_turns_first() -> None:
 
 
 def test_the_sensor_reads_what_the_pens_drew() -> None:
-    """The sensor reads the colour of a line, or the background. With the pen up, there is no new line."""
+    """The sensor reads the colour of a line, or the background. If the pen is up, no new line is drawn."""
     world, turtle = driven()
     turtle.pen = Pen(colour=(10, 20, 30), width=6)
     turtle.teleport(world.canvas, HOME + 2, HOME, 0.0)
@@ -162,7 +165,7 @@ def test_clear_keeps_turtles_and_erases_lines() -> None:
 
 @pytest.mark.parametrize("command", [(1e308, -1e308, 1e308), (-1e300, 1e-300, -1e300), (3e38, 3e38, 3e38)])
 def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float]) -> None:
-    """At any finite velocity, the turtle stays inside the world, and its angle is finite."""
+    """At every finite velocity, the turtle stays inside the world, and its angle stays finite."""
     world, turtle = driven(*command)
     run(world, 5)
     assert 0.0 <= turtle.x <= WIDTH
@@ -171,14 +174,17 @@ def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float
 
 
 def coloured(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
-    """Return the pixels that a line colours, in the area of 60 by 60 px at the top left."""
+    """Return the pixels of a line, within the area of 60 by 60 px at the top left."""
     canvas = Canvas(GROUND)
     canvas.line(start, end, LINE, width)
     return {(x, y) for x in range(60) for y in range(60) if canvas.colour_at((x, y)) == LINE}
 
 
 def test_a_line_has_its_width() -> None:
-    """A horizontal line of width 3 colours three rows, and extends half its width beyond each end."""
+    """A horizontal line with width 3 colours three rows of pixels.
+
+    It extends by half its width at both ends.
+    """
     pixels = coloured((10.0, 20.0), (30.0, 20.0), 3)
     assert {y for _, y in pixels} == {19, 20, 21}
     assert (min(x for x, _ in pixels), max(x for x, _ in pixels)) == (9, 31)
@@ -191,7 +197,7 @@ def test_width_0_draws_one_pixel() -> None:
 
 @pytest.mark.parametrize("end", [(50.0, 12.0), (12.0, 50.0), (50.0, 50.0), (33.0, 47.0)])
 def test_a_slanted_line_has_no_gaps(end: Point) -> None:
-    """Each pixel of a thin line touches another pixel of the line."""
+    """In a thin line, each pixel touches another pixel of the line."""
     pixels = coloured((10.0, 10.0), end, 1)
     reached, todo = set(), [min(pixels)]
     while todo:
@@ -208,7 +214,10 @@ def test_a_line_without_length_is_a_square() -> None:
 
 
 def test_a_line_may_leave_the_canvas() -> None:
-    """A line is drawn up to the edge of the canvas. Outside, the sensor reads the colour at the edge."""
+    """A line is drawn up to the edge of the canvas.
+
+    Outside the canvas, the sensor reads the colour at the edge.
+    """
     canvas = Canvas(GROUND)
     canvas.line((-1000.0, 5.0), (1500.0, 5.0), LINE, 255)
     assert canvas.colour_at((-7.0, 5.0)) == canvas.colour_at((SIDE + 50.0, 5.0)) == LINE
@@ -216,7 +225,7 @@ def test_a_line_may_leave_the_canvas() -> None:
 
 
 def test_fill_colours_all_pixels() -> None:
-    """After fill(), no pixel has the colour of a line."""
+    """After fill(), no pixel has the colour of a line any more."""
     canvas = Canvas(GROUND)
     canvas.line((0.0, 0.0), (499.0, 499.0), LINE, 9)
     canvas.fill((9, 9, 9))
@@ -224,7 +233,7 @@ def test_fill_colours_all_pixels() -> None:
 
 
 def test_the_widest_line_fits_into_a_tick() -> None:
-    """A line across the canvas with the widest pen takes less processor time than a tick of 16 ms."""
+    """A line across the canvas with the widest pen takes less CPU time than a tick of 16 ms."""
     canvas = Canvas(GROUND)
     took = []
     for _ in range(5):

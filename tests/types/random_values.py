@@ -1,4 +1,4 @@
-"""Random service types and random values of these types; the same seed leads to the same types and values."""
+"""Random service types and random values of these types; with the same seed, they are the same."""
 
 from __future__ import annotations
 
@@ -101,27 +101,27 @@ FLOATS = (
 
 
 def half(chance: random.Random, fields: int | None = None) -> str:
-    """Return the text of one half of a service type."""
+    """Return the text of a random request or response."""
     count = chance.randrange(6) if fields is None else fields
     return "".join(f"{type_name(chance)} f{index}\n" for index in range(count))
 
 
 def service(chance: random.Random) -> str:
-    """Return the text of a service type."""
+    """Return the text of a random service type."""
     return f"{half(chance)}---\n{half(chance)}"
 
 
 def type_name(chance: random.Random) -> str:
     """Return the name of a random type; it may be an array of fixed or variable length."""
     name = chance.choice(BUILTIN if chance.random() < 0.75 else MESSAGES)
-    # `Header` means std_msgs/Header only if it is not an array.
+    # `Header` means std_msgs/Header, but an array of `Header` is not valid
     return (
         name if name == "Header" else name + chance.choice(("", "", "", "[]", f"[{chance.randrange(1, 5)}]"))
     )
 
 
 def values(chance: random.Random, message: MessageType) -> dict[str, object]:
-    """Return values of a message."""
+    """Return random values for all fields of a message."""
     return {field.name: value(chance, field) for field in message.fields}
 
 
@@ -143,7 +143,7 @@ def value(chance: random.Random, field: Field) -> object:
 
 
 def number(chance: random.Random, type_name: str) -> float:
-    """Return a random float: any bit pattern, or a number that people type."""
+    """Return a random float: one with random bits, or a number that people type."""
     width, code = (4, "<f") if type_name == "float32" else (8, "<d")
     any_bits = struct.unpack(code, chance.randbytes(width))[0]
     typed = round(chance.uniform(-1000, 1000), chance.randrange(5))

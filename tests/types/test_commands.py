@@ -1,4 +1,4 @@
-"""The commands are the same as those that people type, and they work without a change."""
+"""The commands are the ones that people type, and they work unchanged."""
 
 from __future__ import annotations
 
@@ -50,12 +50,15 @@ def line(text: str, **values: object) -> str:
     ],
 )
 def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expected: str) -> None:
-    """Scalars are single arguments, other fields make one dict, and ambiguous strings are quoted."""
+    """Numbers and strings are separate arguments, and other fields are one dict.
+
+    Ambiguous strings are in quotes.
+    """
     assert line(text, **values) == expected
 
 
 def test_bash_passes_the_same_arguments() -> None:
-    """The shell passes one argument for each field to rosservice, on one line, and changes no byte."""
+    """The shell passes one argument per field to rosservice, on one line, without changing a byte."""
     fields = "\n".join(f"string f{index}" for index in range(len(AWKWARD)))
     command = line(fields, **{f"f{index}": text for index, text in enumerate(AWKWARD)})
     assert "\n" not in command
@@ -66,13 +69,13 @@ def test_bash_passes_the_same_arguments() -> None:
 
 
 def test_values_that_do_not_fit_make_no_command() -> None:
-    """There is no command for values that do not fit the type."""
+    """If a value does not fit the type, there is no command."""
     with pytest.raises(FieldError, match="length"):
         rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
 
 
 def test_python_is_written_as_a_person_would() -> None:
-    """The lines contain imports, the proxy, and one call with keyword arguments."""
+    """The lines contain the imports, the proxy, and one call with keyword arguments."""
     values = {"length": 1.2, "width": 5.2, "height": 8.9}
     assert rospy_line("/getGeometry", service_type("course_pkg/geometry"), values) == (
         "import rospy\n"
@@ -84,7 +87,7 @@ def test_python_is_written_as_a_person_would() -> None:
 
 
 def test_python_keeps_types_of_one_name_apart() -> None:
-    """If a message type has the same short name as the service, it is written with its package."""
+    """If a message type has the same short name as the service type, the lines contain its package, too."""
     kind = compile_service("course_pkg/Point", "geometry_msgs/Point p\n---\n")
     lines = rospy_line("/x", kind, kind.request.default())
     assert "import geometry_msgs.msg\n" in lines
@@ -131,19 +134,19 @@ def server(packages: Path, master: PrivateMaster) -> Iterator[Kernel]:
 
 
 def shell(command: str) -> str:
-    """Run a line in bash, and return what it printed."""
+    """Run a line in bash, and return its output."""
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def test_lines_call_a_running_service(server: Kernel) -> None:
-    """A shell line, run by bash, and Python lines, run by Python, send exactly these values to a server."""
+    """The shell line, run by bash, and the lines of Python send exactly these values to a server."""
     scalars, everything = service_type("odd_pkg/Scalars"), service_type("odd_pkg/Everything")
     one = {"a": -1.5, "b": -7, "c": True, "d": "it's 'yes': a:=b\n$HOME 🐢", "e": 2**64 - 1}
     many = {
         **everything.request.default(),
-        # rospy replaces each seq in the request with its own count of the calls
+        # rospy replaces each seq in a request with its own count of the calls
         "header": {"seq": 1, "stamp": {"secs": 1, "nsecs": 5}, "frame_id": "map"},
         "data": [0, 255],
         "signed": [-128, 127],
@@ -160,7 +163,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
 
 
 def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
-    """Rospy accepts a class made from text in servers and clients, because its MD5 sum is right."""
+    """In servers and clients, rospy accepts a class that was made from text, because its MD5 sum is right."""
     told = server.run("""
 text = service_type("odd_pkg/Scalars").text
 compiled = compile_service("odd_pkg/Scalars", text).cls
@@ -193,12 +196,15 @@ result += rospy.ServiceProxy("/again", compiled)(d="cd").told
 def test_the_publishing_line_is_the_one_to_type(
     kind: str, values: dict[str, object], how: dict[str, Plain], expected: str
 ) -> None:
-    """Options come before the topic, and a negative number after --."""
+    """The options come before the topic, and a negative number comes after --."""
     assert rostopic_line("/x", message_type(f"std_msgs/{kind}"), values, **how) == expected
 
 
 def test_a_publisher_is_written_as_a_person_would() -> None:
-    """The lines contain imports, the publisher with its options, and one message, or a loop with a rate."""
+    """The lines contain the imports and the publisher with its options.
+
+    They publish one message, or have a loop with a rate.
+    """
     kind = message_type("std_msgs/Float64")
     once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
     assert once == (
@@ -218,7 +224,7 @@ def test_a_publisher_is_written_as_a_person_would() -> None:
 
 
 def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
-    """The lines create the class from the text, and import nested messages that are built."""
+    """The lines make the class from the text, and import the nested messages that are built."""
     kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
     lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
     names: dict[str, object] = {}
@@ -238,7 +244,7 @@ words = node.subscribe("/words", "std_msgs/String")
 
 
 def test_lines_publish_to_a_running_subscriber(master: PrivateMaster) -> None:
-    """Shell lines, run by bash, and Python lines, run by Python, send exactly these values."""
+    """The shell lines, run by bash, and the lines of Python publish exactly these values."""
     assert master.running
     joint, text = message_type("sensor_msgs/JointState"), message_type("std_msgs/String")
     moved = {

@@ -1,4 +1,4 @@
-"""Types from a text are the same as built types, and no files are left."""
+"""A type that is made from text is the same as the built type, and no files are left."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_class_has_the_attributes_that_rospy_needs() -> None:
 
 @pytest.mark.parametrize("name", ["course_pkg/geometry", "std_srvs/SetBool", "std_srvs/Empty"])
 def test_md5_and_text_are_those_of_the_build(name: str) -> None:
-    """A built type that is compiled again from its text has the same text and MD5 sums."""
+    """If a built type is made again from its text, it has the same text and the same MD5 sums."""
     built = service_type(name)
     again = compile_service(name, built.text)
     assert built.built
@@ -39,7 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """For fields of every kind, the MD5 sum, the fields and the bytes are the same as from genpy.
+    """For fields of every kind, the MD5 sum, the fields and the bytes are the same as with genpy.
 
     Nested messages have the same classes.
     """
@@ -55,14 +55,14 @@ def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
 
 
 def test_a_class_gives_the_same_type_as_its_name() -> None:
-    """service_type accepts an imported class, and also the class of its own result."""
+    """service_type accepts an imported class, and a class that service_type itself has made."""
     kind = service_type(std_srvs.srv.SetBool)
     assert kind == service_type("std_srvs/SetBool") == service_type(kind)
     assert service_type(compile_service("a/B", "geometry_msgs/Point p\n---\n").cls).request.fields[0].fields
 
 
 def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> None:
-    """A type on ROS_PACKAGE_PATH without generated modules works, and so do the messages in it."""
+    """A type on ROS_PACKAGE_PATH without generated modules can be used, and so can the messages in it."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     assert not kind.built
@@ -73,7 +73,10 @@ def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> No
 def test_changed_text_of_a_nested_message_is_used(
     packages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the text of a nested message differs from the built type, the text is used, as in the next build."""
+    """If the text of a nested message differs from the built type, the text is used.
+
+    The next build will use it, too.
+    """
     package(tmp_path, "odd_pkg", Part_msg=f"{PART}int8 added\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}")
     assert packages.is_dir()
@@ -84,7 +87,10 @@ def test_changed_text_of_a_nested_message_is_used(
 def test_definitions_that_genmsg_accepts_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Everything that genmsg accepts works: some names get an underscore, and separators may be repeated."""
+    """The course accepts everything that genmsg accepts.
+
+    Examples are underscores at the end of names, and repeated separators.
+    """
     text = 'string from  # "quoted\\xzz"\nstring PATH=C:\\new\\\nstring in="\n----\nint8 x\n---\nint8 y\n'
     package(tmp_path, "lax_pkg", Lax_srv=text)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -96,7 +102,10 @@ def test_definitions_that_genmsg_accepts_are_accepted(
 
 
 def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If messages contain each other, the error lists them in order, with the line of the last message."""
+    """If messages contain each other, the error lists them in order.
+
+    It contains a line of the last message.
+    """
     package(tmp_path, "round_pkg", A_msg="B b\n", B_msg="# back again\nA[] a\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition, match="round_pkg/A → round_pkg/B → round_pkg/A") as caught:
@@ -105,7 +114,7 @@ def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An error in the text of a nested message names this message's file and its line."""
+    """An error in the text of a nested message contains the message's file and line."""
     package(tmp_path, "slip_pkg", Bad_msg="int8 x\nflaot32 y\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition) as caught:
@@ -115,7 +124,7 @@ def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: p
 
 
 def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Fifty compilations leave no file, no entry of sys.path, and no module."""
+    """After fifty compilations, there is no new file, no new entry in sys.path, and no new module."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     compile_service("course_pkg/Demo", "geometry_msgs/Point p\n---\n")
     before = set(sys.modules), list(sys.path)
@@ -126,7 +135,10 @@ def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_threads_may_compile_at_once() -> None:
-    """Eight threads compile at once, and each gets the right fields, although genpy is not thread-safe."""
+    """Eight threads compile at the same time, and each gets the right fields.
+
+    genpy itself is not thread-safe.
+    """
     found: dict[int, list[str]] = {}
 
     def compile_one(index: int) -> None:
@@ -153,6 +165,6 @@ def test_value_that_is_not_a_type_is_refused(given: object) -> None:
 
 
 def test_half_of_a_service_type_is_explained() -> None:
-    """If SetBoolRequest is passed instead of SetBool, the error message explains the mistake."""
+    """If SetBoolRequest is given in place of SetBool, the error message explains this mistake."""
     with pytest.raises(UnknownType, match="one half of a service type; pass the whole type, SetBool"):
         service_type(std_srvs.srv.SetBoolRequest)

@@ -1,4 +1,4 @@
-"""Values do not change when they are converted to strings, messages, bytes and commands, and back."""
+"""Values stay the same when they are converted to strings, messages, bytes and commands, and back."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.types.random_values import service, values
 
 TYPES = 30
 VALUES = 5
-SEEDS = range(4)  # 120 types, and 5 values for each half of each type
+SEEDS = range(4)  # 120 types, and 5 values for each request and each response
 
 
 def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
@@ -36,13 +36,13 @@ def wire(message: genpy.Message) -> bytes:
 
 
 def sent(message: genpy.Message) -> genpy.Message:
-    """Return the message from these bytes."""
+    """Return the message that is decoded from these bytes."""
     return type(message)().deserialize(wire(message))
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_text_and_wire_give_every_value_back(seed: int) -> None:
-    """A value does not change through parse(format(value)), nor through the bytes of a message."""
+    """parse(format(value)) is the same value, and so is a value that is sent as bytes."""
     for kind, chance in drawn(seed):
         for half in (kind.request, kind.response):
             for _ in range(VALUES):
@@ -53,18 +53,18 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the line is split as in a shell and read by rosservice, it leads to the same request."""
+    """If the line is split as in a shell and rosservice reads it, the result is the same request."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
             line = rosservice_line("/x", kind, plain)
             arrived = kind.request.to_values(sent(read_by_rosservice(line, kind, monkeypatch)))
-            # The values are compared and not the bytes, because the NaN of YAML has another sign.
+            # The values are compared, not the bytes, because YAML's NaN has another sign.
             assert repr(arrived) == repr(plain), line
 
 
 def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyPatch) -> genpy.Message:
-    """Return the request that rosservice makes from a line, before it sends it."""
+    """Return the request that rosservice makes from a line; it is not sent."""
     given: list[list[Plain]] = []
 
     def catch(_name: str, arguments: list[Plain], **_options: object) -> None:
@@ -80,7 +80,7 @@ def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_python_lines_make_the_same_request(seed: int) -> None:
-    """The Python lines, executed until the line with the call, make the same request."""
+    """The lines of Python, run up to the line with the call, make the same request."""
     for kind, chance in drawn(seed):
         plain = kind.request.check(values(chance, kind.request))
         lines = rospy_line("/x", kind, plain)
@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Execute some lines of Python except the last; return the request of the call in the last line."""
+    """Run all lines of Python except the last one; return the request of the call in the last line."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

@@ -1,4 +1,4 @@
-"""The description of a form consists of plain data and is complete."""
+"""The description of a form is complete, and contains only JSON data."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ uint8 SLOW=1
 
 
 def described() -> tuple[MessageSchema, dict[str, FieldSchema]]:
-    """Return the request and its fields by name, encoded as JSON and decoded again."""
+    """Return the request and its fields by name, after they were encoded as JSON and decoded."""
     request = json.loads(json.dumps(schema(compile_service("course_pkg/Move", TEXT))))["request"]
     return request, {field["name"]: field for field in request["fields"]}
 
@@ -31,7 +31,7 @@ def test_request_and_response_are_described() -> None:
 
 
 def test_limits_are_strings() -> None:
-    """The limits of an int64 are strings, because JavaScript would round them."""
+    """The limits of an int64 are strings, because JavaScript would round large numbers."""
     _, fields = described()
     count = fields["count"]
     assert (count["low"], count["high"]) == (str(-(2**63)), str(2**63 - 1))
@@ -39,7 +39,7 @@ def test_limits_are_strings() -> None:
 
 
 def test_nested_fields_are_described() -> None:
-    """An array has its length and its item; a message and a time have their fields."""
+    """An array has a length and an element type; a message and a time have fields."""
     _, fields = described()
     assert fields["way"]["length"] == 2
     assert [part["name"] for part in fields["way"]["item"]["fields"]] == ["x", "y", "z"]
@@ -48,7 +48,7 @@ def test_nested_fields_are_described() -> None:
 
 
 def test_help_and_constants_are_described() -> None:
-    """The comment at the top and the constants are included."""
+    """The description contains the comment at the top and the constants."""
     request, _ = described()
     assert request["help"] == "What to move."
     assert request["constants"] == [{"name": "SLOW", "type": "uint8", "value": "1"}]

@@ -1,6 +1,6 @@
-"""Types are found where ROS looks for them, as files and as built classes.
+"""Types are found in the same folders as by ROS, as files and as built classes.
 
-An unknown name leads to advice.
+For an unknown name, the error contains advice.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def test_all_types_on_the_path_are_listed(packages: Path) -> None:
 
 
 def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A definition that is written after the first search is found by the second search."""
+    """A definition that is written after the first search is found by the second one."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(UnknownType):
         service_type("late_pkg/Late")
@@ -57,7 +57,7 @@ def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
-    """The error contains the given name, similar names, and the next step."""
+    """The error contains the given name, similar names, and what to do next."""
     with pytest.raises(UnknownType) as caught:
         service_type(name)
     assert advice in str(caught.value)
@@ -65,19 +65,19 @@ def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
 
 
 def test_an_unknown_message_type_gets_advice_from_messages() -> None:
-    """The name of a message is compared with the names of messages only."""
+    """The name of a message type is compared only with the names of message types."""
     with pytest.raises(UnknownType, match="did you mean geometry_msgs/Point"):
         message_type("geometry_msgs/point")
 
 
 def test_header_is_short_for_that_of_std_msgs() -> None:
-    """`Header` alone is a valid name, as it is in a definition."""
+    """`Header` without a package is a valid name, as it is in a definition."""
     assert message_type("Header") == message_type("std_msgs/Header")
 
 
 @pytest.fixture
 def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Create a package that is built, and that is on both paths."""
+    """Create a package that is built and is on both paths."""
     root = package(tmp_path, "filed_pkg", Ask_srv="int8 x\n---\n", Say_msg="int8 y\n")
     build(root, tmp_path / "python")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -86,7 +86,7 @@ def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
-    """After the file was edited, text and class differ until the next build."""
+    """When the file was edited, its text differs from the class until the next build."""
     assert type_in_file("filed_pkg/Ask", "srv").md5 == service_type("filed_pkg/Ask").md5
     (built_package / "srv" / "Ask.srv").write_text("int16 x\n---\n")
     now = type_in_file("filed_pkg/Ask", "srv")
@@ -95,7 +95,10 @@ def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
 
 
 def test_errors_name_the_file(built_package: Path) -> None:
-    """The error for an invalid text names file and line; without a file, the type is unknown."""
+    """The error for an invalid text contains the file and the line.
+
+    If there is no file, the type is unknown.
+    """
     file = built_package / "msg" / "Say.msg"
     file.write_text("int8\n")
     with pytest.raises(BrokenDefinition, match=r"Say\.msg, line 1"):

@@ -1,4 +1,4 @@
-"""A small package that builds, and changes that break it."""
+"""A small package that can be built, and changes after which it cannot be built."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of the package; a text in one of the files is replaced."""
+    """Return the files of the package after a replacement of text in one of the files."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text
@@ -59,7 +59,7 @@ def surroundings(workspace: Path) -> dict[str, str]:
 
 
 def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
-    """Return the exit status and the output of catkin_make; `path` comes first on PATH."""
+    """Return the exit status and the output of catkin_make; the folder `path` is the first one in PATH."""
     known = surroundings(workspace)
     known["PATH"] = f"{path}:{known['PATH']}" if path else known["PATH"]
     done = subprocess.run(
@@ -75,7 +75,7 @@ def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
 
 
 def shell(workspace: Path, line: str, *, sourced: bool = True) -> str:
-    """Return the output of a bash command in the workspace, with or without its setup.bash."""
+    """Return the output of a command of bash in the workspace, with or without its setup.bash."""
     line = f"source devel/setup.bash && {line}" if sourced else line
     done = subprocess.run(
         ["bash", "-c", line],

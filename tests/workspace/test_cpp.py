@@ -1,4 +1,7 @@
-"""missing_for_cpp() reports whether C++ can be built here; compiler and linker errors are explained."""
+"""missing_for_cpp() reports whether C++ can be built on this machine.
+
+Errors of the compiler and linker are explained.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ def test_nothing_is_missing_in_the_environment_of_the_course() -> None:
 
 
 def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message names the compiler that CMake would use, and the command that installs it."""
+    """The message contains the compiler that CMake would use, and the command that installs it."""
     monkeypatch.setenv("CXX", "/nowhere/c++")
     words = missing_for_cpp()
     assert words.startswith("No C++ compiler is installed (/nowhere/c++).")
@@ -27,7 +30,7 @@ def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.Monke
 
 
 def test_missing_headers_are_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Without roscpp, the message names the command that installs it."""
+    """Without roscpp, the message contains the command that installs it."""
     monkeypatch.setattr(cpp_support, "prefixes", lambda: [tmp_path])
     assert "apt-get install --no-install-recommends libroscpp-dev" in missing_for_cpp()
 
@@ -35,7 +38,7 @@ def test_missing_headers_are_named_with_what_to_type(monkeypatch: pytest.MonkeyP
 def test_each_prefix_is_searched_for_headers_and_libraries(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Workspaces come first, then the environment of conda; the compiler finds the folders of the system."""
+    """Workspaces come before the conda environment; the compiler itself finds the system's folders."""
     monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}/devel")
     monkeypatch.setenv("CONDA_PREFIX", f"{tmp_path}/conda")
     command = cpp_support.compile_command("in.cpp", "out")
@@ -49,7 +52,7 @@ def test_each_prefix_is_searched_for_headers_and_libraries(
 ROS = "#include <ros/ros.h>\n#include <std_srvs/Trigger.h>\n"
 FILE = "src/boxes/src/program.cpp"
 
-# The program, the expected line, and a part of the problem or the remedy.
+# The program, the expected line, and a part of the problem or of the advice.
 MISTAKES = {
     "no such header": ("#include <roz/ros.h>\nint main() {}\n", 1, "the header roz/ros.h"),
     "no return": (
@@ -84,7 +87,7 @@ MISTAKES = {
 @needs_compiler
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
-    """The fault names the student's file below src, its line, and the remedy."""
+    """The fault contains the student's file below src, its line, and advice."""
     text, line, words = MISTAKES[mistake]
     source = tmp_path / FILE
     source.parent.mkdir(parents=True)
@@ -100,7 +103,10 @@ def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
 
 @needs_compiler
 def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
-    """An error in the student's file comes before an error in a system header, which is its consequence."""
+    """An error in the student's file is reported before an error in a system header.
+
+    The student's error is the cause.
+    """
     printed = (
         "/usr/include/boost/function.hpp:7:3: error: no type named 'type'\n"
         f"{tmp_path}/{FILE}:9:3: error: 'x' was not declared in this scope\n"
@@ -112,7 +118,7 @@ def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
 
 @needs_compiler
 def test_a_good_program_builds_and_runs(tmp_path: Path) -> None:
-    """The command with which a check compiles finds roscpp, its libraries and the course's types."""
+    """The command with which a check compiles finds roscpp, its libraries, and the course's types."""
     source = tmp_path / "good.cpp"
     source.write_text(
         "#include <course_pkg/geometry.h>\n#include <ros/ros.h>\n"

@@ -1,7 +1,7 @@
-"""The messages of ROS's tools are explained, with the line and the next step.
+"""The course explains the messages of ROS's tools, with the line and what to do next.
 
-Each case is a package with one mistake, which the real catkin_make builds. All cases use the same workspace,
-so that CMake searches for the compilers only once.
+Each case is a package with one mistake; the real catkin_make builds it. All cases use the same workspace,
+because CMake then searches for the compilers only once.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ GENERATE = "generate_messages()\n"
 PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
 C, S, X = "CMakeLists.txt", "srv/Box.srv", "package.xml"
 
-# The files, the expected place, and a part of the problem or the remedy.
+# The files, the expected place, and a part of the problem or of the advice.
 SLIPS = {
     "message_generation missing": (
         spoilt(C, (" COMPONENTS message_generation", "")),
@@ -200,7 +200,7 @@ SLIPS = {
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a long name, so that CMake breaks its messages in other places."""
+    """Create a workspace with a long path, so that CMake wraps its messages at other places."""
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 
@@ -208,7 +208,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_mistake_in_a_package_is_explained(
     workspace: Path, files: dict[str, str], place: str, words: str
 ) -> None:
-    """The explanation contains the place, the problem and the remedy."""
+    """The explanation contains the place, the problem, and advice."""
     write(workspace, files)
     _, printed = build(workspace)
     fault = explain(printed)
@@ -228,7 +228,7 @@ def test_mistake_in_a_package_is_explained(
     ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
 )
 def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
-    """The output of a successful build has no fault."""
+    """There is no fault in the output of a successful build."""
     write(workspace, files)
     status, printed = build(workspace)
     assert (status, explain(printed)) == (0, None)
@@ -236,7 +236,7 @@ def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -
 
 
 def test_another_python_is_recognised(tmp_path: Path) -> None:
-    """If a Python without ROS is first on PATH, the remedy contains the option for the right Python."""
+    """If a Python without ROS is first in PATH, the advice contains the option for the right Python."""
     subprocess.run(["python3", "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
     write(tmp_path, GOOD)
     for path in (str(tmp_path / "other" / "bin"), ""):
@@ -246,7 +246,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Lines that are run after the build, and a part of the remedy.
+# Command lines that are run after the build, and a part of the advice.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
@@ -281,7 +281,7 @@ def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourc
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """A script without a shebang runs in the shell, which starts ImageMagick's program `import`."""
+    """A script without a shebang is run by the shell, which starts ImageMagick's program `import`."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -304,12 +304,12 @@ def test_types_that_were_not_generated_are_explained(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ["", "all is well", "CMake Warning at a/CMakeLists.txt:1 (x):\n  Old.\n"])
 def test_unknown_output_has_no_explanation(text: str) -> None:
-    """Unknown output gets no explanation."""
+    """Unknown output has no explanation."""
     assert explain(text) is None
 
 
 def test_unknown_message_is_quoted() -> None:
-    """The problem is one line with short paths; the place is the line of the student's package."""
+    """The problem is one line with short paths, and the place is a line of the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
         "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"
@@ -321,7 +321,7 @@ def test_unknown_message_is_quoted() -> None:
 
 
 def test_tags_have_lines() -> None:
-    """Tags with attributes are found; tags in comments are not."""
+    """Tags with attributes are found, but tags in comments are not."""
     text = '<?xml version="1.0"?>\n<package format="2">\n<!-- <name>old</name>\n-->\n  <name> mine </name>\n'
     assert [(tag.name, tag.line, tag.text) for tag in manifest_tags(text)] == [
         ("package", 2, ""),
@@ -353,11 +353,11 @@ def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None
     ],
 )
 def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
-    """The message of the build contains only the tag; its line is found in the text."""
+    """The build's message contains only the name of the tag; its line is found in the file's text."""
     assert locate(Fault(problem, "", "my_services/package.xml"), text).line == line
 
 
 def test_a_fault_of_another_file_stays_where_it_is() -> None:
-    """Only a package.xml has tags."""
+    """Only the messages about a package.xml contain tags."""
     fault = Fault("The version is old.", "", "my_services/CMakeLists.txt", 9)
     assert locate(fault, MANIFEST) == fault

@@ -25,7 +25,10 @@ SERVER = '#!/bin/sh\necho "of the student"\n'
 
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Return a workspace in tmp_path; the environment, search path and modules are restored afterwards."""
+    """Return a workspace in tmp_path.
+
+    After the test, the environment, search path and modules are restored.
+    """
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     for name in SEARCHED:
         monkeypatch.setenv(name, os.environ.get(name, ""))
@@ -49,9 +52,9 @@ def package(root: Path, name: str, **files: str) -> None:
 
 
 def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The workspace is in the checkout next to the notebooks, and git ignores it.
+    """The workspace is next to the notebooks in the checkout, and git ignores it.
 
-    Notebooks in a test have another workspace.
+    Notebooks that a test runs have another workspace.
     """
     for name in ("COURSE_STATE", "COURSE_WORKSPACE"):
         monkeypatch.delenv(name, raising=False)
@@ -66,7 +69,7 @@ def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp
 
 
 def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root: Path) -> None:
-    """A kernel imports new types of a package without a restart; a changed type needs a restart."""
+    """A kernel imports a package's new types without a restart; a changed type needs a restart."""
     packages = OwnPackages(root)
     assert packages.refresh() == ""
     with pytest.raises(ModuleNotFoundError):
@@ -91,7 +94,7 @@ def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root:
 
 
 def test_kernel_finds_the_packages_after_join(root: Path) -> None:
-    """After join(), a cell can import new types, and stderr shows a message about a changed type."""
+    """After join(), a cell can import new types; a message on stderr reports a changed type."""
     write(root, GOOD)
     change = f"open({str(root / 'src/my_services/srv/Box.srv')!r}, 'a').write('bool round\\n')"
     cells = [
@@ -113,7 +116,7 @@ def test_kernel_finds_the_packages_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """A student's package or program cannot replace a package or program of the course with the same name."""
+    """A student's package or program never replaces one of the course with the same name."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()
@@ -121,7 +124,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     assert find_executable("course_pkg", "client") == course
     assert find_executable("lab_sheet", "client") == root / "src" / "lab_sheet" / "scripts" / "client"
     assert "of the student" not in program("client", "--help").stdout
-    assert program("mine").returncode == 3  # rosrun: there is no such program
+    assert program("mine").returncode == 3  # rosrun's exit status 3 means that there is no such program
     assert terminal("rosrun", "lab_sheet", "client").stdout == "of the student\n"
     found = terminal("rospack", "find", "course_pkg").stdout.strip()
     assert found == str(Places.of().workspace / "src" / "course_pkg")
@@ -131,7 +134,10 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     "text", ["", "<package><name>my_arm</name>", "<package><version>1</version></package>"]
 )
 def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str) -> None:
-    """If one package.xml is not XML, the tools of ROS would fail, so a kernel leaves this package out."""
+    """If a package.xml is not XML, the tools of ROS would fail.
+
+    Therefore, a kernel leaves this package out.
+    """
     package(root, "my_arm", client=SERVER)
     package(root, "my_hand", client=SERVER)
     manifest = root / "src" / "my_arm" / "package.xml"
@@ -141,7 +147,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
     message = packages.refresh()
     assert message.startswith("src/my_arm/package.xml cannot be read (")
     assert "my_hand" not in message
-    assert packages.refresh() == ""  # it is reported only once
+    assert packages.refresh() == ""  # the problem is reported only once
     assert terminal("rosrun", "my_hand", "client").stdout == "of the student\n"
     assert terminal("rossrv", "md5", "course_pkg/geometry").returncode == 0
     assert find_executable("my_hand", "client").is_file()
@@ -153,7 +159,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
 
 
 def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
-    """A package that CATKIN_IGNORE hides from the build is hidden from a kernel, too."""
+    """A package that CATKIN_IGNORE hides from the build is also hidden from a kernel."""
     package(root, "my_arm", client=SERVER)
     packages = OwnPackages(root)
     packages.refresh()
@@ -165,7 +171,7 @@ def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
 
 
 def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path: Path) -> None:
-    """A student may link a package that is elsewhere; a link to a folder above it causes no endless loop."""
+    """A link to a package in another folder is followed; a link to a parent folder causes no endless loop."""
     package(tmp_path / "elsewhere", "my_arm", client=SERVER)
     (root / "src" / "linked").symlink_to(tmp_path / "elsewhere" / "src" / "my_arm")
     (root / "src" / "loop").symlink_to(root / "src")
@@ -174,7 +180,7 @@ def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path:
 
 
 def test_rosrun_searches_nothing_of_the_checkout_but_the_package() -> None:
-    """Rosrun searches only the course's package, because a link in the catkin workspace leads only to it."""
+    """The catkin workspace contains only a link to the course's package, so rosrun searches nothing else."""
     checkout = Places.of().checkout
     shown = Places.of().workspace / "src" / "course_pkg"
     assert shown.is_dir()

@@ -1,8 +1,8 @@
-"""Find the cells that an answer needs by the names that they define.
+"""Finds the cells that an answer needs, by the names that these cells define.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). But an answer may use
-other names, such as an import of a cell above, or a function of an earlier answer. So the cells that define
-these names are run, too, and also the cells that those cells need.
+other names, for example an import in a cell above, or a function from an earlier answer. Therefore, the cells
+that define these names run, too, and also the cells that those cells need.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# Maximum number of characters of a cell that is parsed; real cells are shorter, and parsing takes time.
+# Maximum number of characters of a cell that is parsed. Usual cells are shorter, and parsing takes time.
 LONGEST = 20_000
-# Maximum number of lines of a cell with magics; IPython's time grows with the square of this number.
+# Maximum number of lines of a cell with magics, because IPython's time grows with the square of this number.
 MAGICAL = 300
 # Names that these nodes assign inside are not names of the cell.
 SCOPES = (
@@ -27,14 +27,14 @@ KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", 
 
 @dataclass(frozen=True)
 class _Cell:
-    """The names that a cell defines for later cells, and the names that it uses but does not define."""
+    """The names that a cell defines for later cells, and the names that it uses without defining them."""
 
     gives: frozenset[str]
     uses: frozenset[str]
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources in `above` that `answer` needs, in order; `before` is always run."""
+    """Return the sources in `above` that `answer` needs, in their order; `before` runs in any case."""
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]
     chosen: set[int] = set()
@@ -58,7 +58,7 @@ def _read(source: str) -> _Cell:
 
 
 def tree_of(source: str) -> ast.Module:
-    """Return the tree of a cell, as IPython reads it; an empty tree if the cell is not Python."""
+    """Return the syntax tree of a cell as IPython reads it; the tree is empty if the cell is not Python."""
     from IPython.core.inputtransformer2 import TransformerManager
 
     empty = ast.Module(body=[], type_ignores=[])

@@ -1,1 +1,1 @@
-"""The students' edition: its files, its folder with the git repository, and its zip."""
+"""The students' edition: its files, its folder with a git repository, and its zip file."""

@@ -1,8 +1,8 @@
-"""The files of the students' edition: what the course needs to run, and notebooks derived from the solutions.
+"""The files of the students' edition: the files that the course needs to run, and the students' notebooks.
 
-Solutions, tests, example answers, the fixtures of grading, an instructor's private checks, and the recordings
-of the site are left out. The checks stay, because `check()` runs on the student's computer, but they are
-packed: their source contains answers.
+The edition does not contain solutions, tests, example answers, grading fixtures, an instructor's private
+checks, and the site's recordings. It contains the checks, because `check()` runs on the student's computer.
+They are packed, because their source contains answers.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ FILES = (
     *(".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml", "postBuild"),
     *("pyproject.toml", "setup.py", "start"),
 )
-# of a chapter's folder: example answers, fixtures of grading, recordings of the site, private checks
+# in a chapter's folder: example answers, grading fixtures, the site's recordings, and private checks
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )
@@ -45,10 +45,10 @@ class File:
 
 
 def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) -> dict[str, File]:
-    """Return the files of an edition with the chapters `released`, by their paths, sorted.
+    """Return the files of an edition with the chapters `released`, sorted by path.
 
-    `root` is the checkout with the solutions, and `hidden` are the commands that README does not list.
-    Raises AuthoringError if a solution cannot be used, HandoutError if a file cannot be read.
+    `root` is the checkout with the solutions. The edition's README does not list the commands `hidden`.
+    Raises AuthoringError if a solution cannot be used, and HandoutError if a file cannot be read.
     """
     found = {name: _file(root / name, packed=bool(CHECKS.fullmatch(name))) for name in _released_paths(root)}
     readme = (root / README).read_text("utf-8")
@@ -82,7 +82,7 @@ def _record(released: Sequence[str], files: Sequence[str]) -> str:
 
 def _released_paths(root: Path) -> Iterator[str]:
     listed = _git_listing(root, "--cached")
-    if listed is None:  # a download without git's data
+    if listed is None:  # the checkout was downloaded without git's data
         listed = [str(path.relative_to(root)) for folder in FOLDERS for path in (root / folder).rglob("*")]
         listed = [*(name for name in listed if not WRITTEN_BY_TOOLS.search(name)), *FILES]
     for name in listed:
@@ -92,12 +92,12 @@ def _released_paths(root: Path) -> Iterator[str]:
 
 
 def is_released(name: str) -> bool:
-    """Return whether the edition has a copy of the checkout's file `name`."""
+    """Return whether the edition contains a copy of the checkout's file `name`."""
     return (name in FILES or name.partition("/")[0] in FOLDERS) and not LEFT_OUT.match(name)
 
 
 def _git_listing(root: Path, *options: str) -> list[str] | None:
-    """Return the files that git lists; None if `root` is not the top folder of a git repository."""
+    """Return the files that git lists, or None if `root` is not the top folder of a git repository."""
     if not (root / ".git").exists():
         return None
     return list(filter(None, git(root, "ls-files", "-z", *options).split("\0")))

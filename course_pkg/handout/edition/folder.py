@@ -1,4 +1,4 @@
-"""The folder of an edition: it is also a git repository, and each release that changes it is a commit."""
+"""The folder of an edition: it is a git repository, and each release that changes the edition is a commit."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from course_pkg.handout.edition.contents import File
 from course_pkg.handout.edition.git import git, git_value
 from course_pkg.setup.edition import RECORD
 
-BRANCH = "main"  # of a new repository; an existing one keeps the branch that it is on
-SHOWN = 5  # the most names that a message lists
+BRANCH = "main"  # the branch of a new repository; an existing repository keeps its branch
+SHOWN = 5  # maximum number of names in a message
 
 
 @dataclass(frozen=True)
 class Release:
-    """What a release changed: the short name of the new commit, or an empty string if nothing changed."""
+    """The short name of the new commit, or an empty string if the release changed nothing."""
 
     commit: str
     changed: int  # files
 
 
 class ReleaseFolder:
-    """A folder that `course release` writes, and that nothing else has written."""
+    """A folder that only `course release` writes."""
 
     def __init__(self, path: Path) -> None:
-        """Read which files an earlier release wrote.
+        """Read the list of files that an earlier release wrote.
 
-        Raises HandoutError if the folder contains files and was not made by a release.
+        Raises HandoutError if the folder contains files but no such list.
         """
         self.path = path
         self._before = self._released_before()
 
     @property
     def branch(self) -> str:
-        """The branch of the repository."""
+        """The current branch of the repository."""
         return git_value(self.path, "symbolic-ref", "--short", "HEAD") or BRANCH
 
     @property
@@ -48,15 +48,16 @@ class ReleaseFolder:
         return git_value(self.path, "remote", "get-url", "origin") if (self.path / ".git").exists() else ""
 
     def write(self, files: Mapping[str, File], message: str) -> Release:
-        """Write `files`, remove those of an earlier release that are not among them, and commit the changes.
+        """Write `files`, remove all other files of an earlier release, and commit the changes.
 
-        Raises HandoutError, and changes nothing, if a file that would be overwritten was changed by hand and
-        not committed; or if the folder cannot be written.
+        Raises HandoutError, and changes nothing, if a file that would be overwritten has uncommitted changes,
+        or if the folder cannot be written.
         """
         self._refuse_changes_by_hand(files)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            self._put(RECORD, files[RECORD])  # first: an interrupted release may be repeated
+            # written first, because the user may repeat an interrupted release
+            self._put(RECORD, files[RECORD])
             changed = [name for name, file in files.items() if self._put(name, file)]
             removed = [name for name in self._before if name not in files and self._remove(name)]
         except OSError as error:
@@ -104,7 +105,7 @@ class ReleaseFolder:
         return present is not None and present != wanted
 
     def _put(self, name: str, file: File) -> bool:
-        """Write a file if it is not there yet in the same state; return whether it was written."""
+        """Write a file, unless the same file is already there; return whether it was written."""
         path = self.path / name
         mode = 0o755 if file.executable else 0o644
         same = path.is_file() and not path.is_symlink() and path.read_bytes() == file.content
@@ -121,12 +122,12 @@ class ReleaseFolder:
             return False
         path.unlink()
         for folder in path.relative_to(self.path).parents[:-1]:
-            with suppress(OSError):  # it contains other files
+            with suppress(OSError):  # the folder contains other files
                 (self.path / folder).rmdir()
         return True
 
     def _commit(self, names: Sequence[str], message: str) -> str:
-        """Commit the present state of the files; return the commit's short name, "" if nothing changed."""
+        """Commit the present state of the files; return the commit's short name, or "" if nothing changed."""
         if not (self.path / ".git").exists():
             git(self.path, "init", "--quiet", f"--initial-branch={BRANCH}", "--template=")
         listed = "".join(f"{name}\0" for name in dict.fromkeys(names))
@@ -144,7 +145,7 @@ def _stays_inside(name: str) -> bool:
 
 
 def refuse_inside(path: Path, checkout: Path) -> None:
-    """Raise HandoutError if `path` is in the checkout: the course would be released with its own release."""
+    """Raise HandoutError if `path` is in the checkout. The next release would contain this release."""
     if path.resolve().is_relative_to(checkout.resolve()):
         raise HandoutError(
             f"{path} is inside of the course's own folder. Give a folder outside of {checkout}."

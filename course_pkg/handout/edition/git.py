@@ -1,4 +1,4 @@
-"""Runs git in a folder, independent of the user's hooks and of a git command that started this program."""
+"""Runs git in a folder. The user's hooks, and a git command that started this program, have no influence."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ SETTINGS = {
     "core.fileMode": "true",
     "core.hooksPath": os.devnull,
     "commit.gpgSign": "false",
-    "safe.directory": "*",  # the instructor named the folder, whoever owns it
+    "safe.directory": "*",  # the instructor chose the folder, so git accepts any owner
 }
-NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}  # where git knows none
+# used if the user has configured no name and address in git
+NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}
 
 
 def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) -> str:
-    """Return what git prints in `folder`, with the text `given` on its input.
+    """Run git in `folder` with the text `given` as its input, and return its output.
 
-    With `identity`, git gets a name and an address for a commit if the user has configured none. Raises
+    With `identity`, git gets a name and an address for a commit if the user has not configured them. Raises
     HandoutError if git fails or is not installed.
     """
     settings = {**SETTINGS, **(_missing_identity(folder) if identity else {})}
@@ -49,7 +50,7 @@ def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) 
 
 
 def git_value(folder: Path, *arguments: str) -> str:
-    """Return the line that git prints; an empty string if git fails, for example because nothing is set."""
+    """Return the line that git prints, or "" if git fails, for example because the value is not set."""
     try:
         return git(folder, *arguments).strip()
     except HandoutError:
@@ -61,7 +62,7 @@ def _missing_identity(folder: Path) -> dict[str, str]:
 
 
 def _environment() -> dict[str, str]:
-    """Return the environment without the variables with which git tells a hook its own repository."""
+    """Return the environment without the variables that git sets for a hook."""
     kept = ("GIT_CONFIG", "GIT_AUTHOR_", "GIT_COMMITTER_", "GIT_SSL", "GIT_SSH")
     known = os.environ.items()
     return {name: value for name, value in known if not name.startswith("GIT_") or name.startswith(kept)}

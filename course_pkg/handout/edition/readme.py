@@ -1,4 +1,4 @@
-"""The students' README: the course's own one without what is for instructors and maintainers."""
+"""The students' README: the course's README without the parts for instructors and maintainers."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ SOME = " It has {}."
 
 
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:
-    """Return the README `text` for students.
+    """Return the students' README, made from the course's README `text`.
 
-    It is about the chapters `released`, of all that are `known`, and does not list the commands `hidden`.
-    What stands between the comments `<!-- instructors -->` and `<!-- end -->` is left out.
+    It lists only the chapters `released` (of all chapters `known`), and it does not list the commands
+    `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is removed.
     """
     kept = INSTRUCTORS.sub("", text)
     some = tuple(released) != tuple(known)
@@ -31,12 +31,15 @@ def student_readme(text: str, released: Sequence[str], known: Sequence[str], hid
 
 
 def unlinked(text: str, released: Collection[str]) -> str:
-    """Return Markdown without links to the notebooks of chapters that are not released; their text stays."""
+    """Return Markdown without links to the notebooks of unreleased chapters.
+
+    The texts of these links stay.
+    """
     return LINK.sub(lambda link: link[0] if link[2] in released else link[1], text)
 
 
 def named(chapters: Sequence[str]) -> str:
-    """Return the chapters in words, such as "chapter 05" or "chapters 05, 06 and 07"."""
+    """Return the chapters as text, such as "chapter 05" or "chapters 05, 06 and 07"."""
     *first, last = chapters
     return f"chapters {', '.join(first)} and {last}" if first else f"chapter {last}"
 

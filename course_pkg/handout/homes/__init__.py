@@ -1,1 +1,1 @@
-"""Students' work: find it in home folders, read it with the rights of its owner, and store it."""
+"""Finds students' work in home folders, reads it with the rights of its owner, and stores it."""

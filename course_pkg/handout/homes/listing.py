@@ -1,4 +1,4 @@
-"""The home folders of students: whose they are, and which students an instructor asked for."""
+"""The home folders of students: their owners, and the students whom an instructor selected."""
 
 from __future__ import annotations
 
@@ -15,24 +15,25 @@ from course_pkg.errors import HandoutError
 from course_pkg.grading.tables import delimiter_of
 
 COLUMN = "username"  # of a roster
-LARGEST = 4 << 20  # bytes of a list of students
+LARGEST = 4 << 20  # maximum size of a list of students (bytes)
 
 
 @dataclass(frozen=True)
 class Home:
-    """A student's home folder, and the user whose rights are needed to read it."""
+    """A student's home folder, and the user whose rights are needed to read the folder."""
 
     student: str
     path: Path
     uid: int = -1
     gid: int = -1
-    problem: str = ""  # why it cannot be read
+    problem: str = ""  # the reason why the folder cannot be read
 
 
 def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
-    """Return the homes in `folder`, of `students` or of all its folders, in the order of their names.
+    """Return the homes in `folder`, sorted by name: those of `students`, or all if `students` is None.
 
-    Hidden folders, links and `lost+found` are no homes. Raises HandoutError if `folder` cannot be listed.
+    Hidden folders, links and `lost+found` are not home folders. Raises HandoutError if `folder` cannot be
+    listed.
     """
     if students is not None:
         return [_home(folder / name, name) for name in sorted(set(students))]
@@ -45,21 +46,23 @@ def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
     found = (
         _home(folder / name, name) for name in names if not name.startswith(".") and name != "lost+found"
     )
-    return [home for home in found if home.uid != 0]  # root is no student
+    return [home for home in found if home.uid != 0]  # the user root is not a student
 
 
 def groups_of(home: Home) -> list[int]:
-    """Return all groups of the home's owner."""
+    """Return the ids of all groups of the home's owner."""
     try:
         return os.getgrouplist(pwd.getpwuid(home.uid).pw_name, home.gid)
-    except KeyError:  # a user of a container, whom this machine does not know
+    except KeyError:  # the owner is a user of a container, and this machine does not know this user
         return [home.gid]
 
 
 def read_students(path: Path) -> list[str]:
-    """Return the user names in a text file with one in each line, or in the column `username` of a CSV file.
+    """Return the user names in a file.
 
-    Raises HandoutError if the file cannot be read, or if a name cannot be the name of a user.
+    Each line is a name, or the file is a CSV file with the column `username`.
+
+    Raises HandoutError if the file cannot be read, or if a name is not a valid user name.
     """
     try:
         with path.open("rb") as file:
@@ -79,7 +82,7 @@ def read_students(path: Path) -> list[str]:
 
 
 def _names(path: Path, text: str) -> Iterator[tuple[int, str]]:
-    """Yield each name with the number of its line."""
+    """Yield each name and the number of its line."""
     first = text.partition("\n")[0]
     if not set(",;\t") & set(first) and first.strip().lower() != COLUMN:
         yield from (

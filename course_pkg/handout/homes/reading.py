@@ -1,8 +1,9 @@
-"""Read a student's work in a child process that has the rights of this student, and no others.
+"""Reads a student's work in a child process that has only the rights of this student.
 
-If root collects, the child gives up all rights of root before it looks at the home folder. It can read what
-the student can read, so no link, and no change of a folder meanwhile, leads to a file that the student may
-not see. If another user collects, the child has the rights of that user.
+If root runs `course collect`, the child gives up all rights of root before it reads the home folder. It can
+read only what the student can read. Therefore, a link or a folder that changes meanwhile cannot lead to a
+file that the student may not see. If another user runs `course collect`, the child has the rights of that
+user.
 """
 
 from __future__ import annotations
@@ -22,19 +23,22 @@ from course_pkg.handout.homes.listing import Home, groups_of
 from course_pkg.handout.homes.work import Problem, WorkFile, work_in
 from course_pkg.waiting import Deadline
 
-TIMEOUT = 60.0  # s for one home; a folder on a network that does not answer must not stop the others
-ALTOGETHER = 200 << 20  # bytes of one student
-HEADER = 64 << 10  # bytes of a header
+# s for one home; a network folder that does not answer must not stop the collection of the others
+TIMEOUT = 60.0
+ALTOGETHER = 200 << 20  # maximum bytes of one student's work
+HEADER = 64 << 10  # maximum bytes of a header
 CHUNK = 1 << 20
 
 
 def read_home(
     home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str], timeout: float = TIMEOUT
 ) -> tuple[list[WorkFile], list[str]]:
-    """Return the work in the course's `folder` of a home, and what could not be collected, as sentences.
+    """Return the work in the course's `folder` of a home.
 
-    `notebooks` are the chapters by the names of their files; `asked` are the names of the packages that parts
-    ask for. The child has at most `timeout` s.
+    The second result has a sentence about each thing that could not be collected.
+
+    `notebooks` maps the name of each notebook's file to its chapter; `asked` are the names of the packages
+    that parts require. The child process ends after at most `timeout` s.
     """
     reader, writer = os.pipe()
     pid = os.fork()
@@ -61,10 +65,10 @@ def read_home(
 
 
 def become(home: Home) -> None:
-    """Give up all rights except those of the home's owner; do nothing if this process is not root's.
+    """Give up all rights except those of the home's owner; do nothing if this process does not run as root.
 
-    From then on, no process of the owner can trace this one, because it has changed its user (ptrace(2)).
-    Raises PermissionError if rights of root are left.
+    After this, no process of the owner can trace this process, because this process has changed its user
+    (ptrace(2)). Raises PermissionError if this process still has rights of root.
     """
     if os.geteuid() != 0:
         return
@@ -76,9 +80,9 @@ def become(home: Home) -> None:
 
 
 def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:
-    """Send the work through a pipe, and end this process."""
+    """Send the work through a pipe, and exit."""
     try:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends this process
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends this process
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         os.closerange(3, writer)
         os.closerange(writer + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
@@ -101,7 +105,7 @@ def _send(pipe: BinaryIO, found: WorkFile | Problem) -> None:
 
 
 class _Pipe:
-    """The parent's end: lines and blocks of bytes, within a deadline."""
+    """The parent's end of the pipe: it reads lines and blocks of bytes before a deadline."""
 
     def __init__(self, descriptor: int, timeout: float) -> None:
         self._descriptor = descriptor
@@ -109,7 +113,7 @@ class _Pipe:
         self._kept = bytearray()
 
     def line(self) -> bytes:
-        """Return the next line; an empty one at the end."""
+        """Return the next line, or an empty line at the end of the data."""
         while b"\n" not in self._kept:
             if len(self._kept) > HEADER:
                 raise HandoutError("the process that reads the folder sent no valid data")
@@ -137,7 +141,7 @@ class _Pipe:
 
 
 def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
-    """Yield what the child sends; raise HandoutError if it ends before it has sent everything."""
+    """Yield everything that the child sends; raise HandoutError if the child ends too early."""
     left = ALTOGETHER
     while line := pipe.line():
         header = json.loads(line)
@@ -157,7 +161,7 @@ def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
 
 
 def _stays_inside(file: WorkFile) -> bool:
-    """Return whether the file's name leads to no other folder, whatever its owner called it."""
+    """Return whether the file's path stays in the student's folder; its owner can choose any name."""
     names = [*file.path.split("/"), *([file.package] if file.package else [])]
     safe = all(name not in ("", ".", "..") and "\0" not in name for name in names)
     return safe and "/" not in file.package and (bool(file.package) or len(names) == 1)

@@ -3,7 +3,7 @@
 SUBMISSIONS/<student>/NN_topic.ipynb
 SUBMISSIONS/<student>/<package>/package.xml
 
-A notebook, and a package as a whole, is replaced at once: a reader sees the old or the new one.
+Each notebook and each whole package is replaced in one step: a reader sees either the old or the new version.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from course_pkg.handout.homes.work import WorkFile
 def store(folder: Path, files: Sequence[WorkFile]) -> None:
     """Write the work of one student to `folder`, with the times of the files.
 
-    Other notebooks and packages in the folder stay. Raises OSError if a file cannot be written.
+    Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """
-    for draft in folder.glob(".*.collecting"):  # of a collection that was killed
+    for draft in folder.glob(".*.collecting"):  # a collection that was killed left this folder
         shutil.rmtree(draft, ignore_errors=True)
     for file in (each for each in files if not each.package):
         write_atomically(folder / file.path, file.content)

@@ -1,8 +1,9 @@
-"""times.csv: when each collected file was last changed, so that a deadline can be computed.
+"""times.csv: the time of the last change of each collected file, which a deadline needs.
 
-Its columns are student, chapter, file and time. The file is a path in the folder of submissions, and the time
-is that of the file (mtime) in ISO 8601 with its time zone. A package has a row for each of its files, and one
-for its folder with the time of its newest file; if several chapters ask for it, each has these rows.
+Its columns are student, chapter, file and time. The file is a path in the folder of submissions. The time is
+the file's modification time in ISO 8601 with a time zone. A package has a row for each of its files, and a
+row for its folder with the time of its newest file. If several chapters require the package, each of these
+chapters has all of these rows.
 """
 
 from __future__ import annotations
@@ -31,28 +32,28 @@ class Row(NamedTuple):
 
     @property
     def unit(self) -> tuple[str, str]:
-        """The student, and the notebook or package that the file belongs to; it is collected as a whole."""
+        """The student, and the notebook or the package to which the file belongs."""
         return self.student, "/".join(self.file.split("/")[:2])
 
 
 def iso_time(nanoseconds: int) -> str:
-    """Return a time in ns since 1970 in ISO 8601, with seconds and this machine's time zone."""
+    """Return a time (ns since 1970) in ISO 8601, with seconds and this machine's time zone."""
     return datetime.fromtimestamp(nanoseconds / 1e9).astimezone().isoformat(timespec="seconds")
 
 
 class TimesTable:
-    """The table in a folder of submissions."""
+    """The table of times in a folder of submissions."""
 
     def __init__(self, folder: Path) -> None:
         """Read it.
 
-        Raises HandoutError if the folder contains files and has no such table.
+        Raises HandoutError if the folder contains files but not this table.
         """
         self._path = folder / TIMES
         self._rows = self._read(folder)
 
     def replace(self, units: Collection[tuple[str, str]], rows: Iterable[Row]) -> None:
-        """Replace the rows of the notebooks and packages `units` by `rows`, and write the table."""
+        """Remove the rows of the notebooks and packages in `units`, add `rows`, and write the table."""
         kept = [row for row in self._rows if row.unit not in units]
         self._rows = sorted([*kept, *rows])
         text = io.StringIO(newline="")
@@ -70,7 +71,7 @@ class TimesTable:
             if lines and lines[0] == COLUMNS:
                 return [Row(*line) for line in lines[1:] if len(line) == len(COLUMNS)]
         except (OSError, ValueError, csv.Error):
-            pass  # the message is the same
+            pass  # a row with another format gets the same message below
         raise HandoutError(
             f"{folder} exists, and `course collect` did not make it (it has no {TIMES} with the columns "
             f"{', '.join(COLUMNS)}), so nothing was collected. Give a new or an empty folder."

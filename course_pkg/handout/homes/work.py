@@ -1,7 +1,7 @@
-"""A student's work in a home folder: chapters' notebooks, and catkin packages that parts ask for.
+"""A student's work in a home folder: the chapters' notebooks, and the catkin packages that parts require.
 
-Each folder and file is opened relative to the folder above it, and no link is followed, so a folder that is
-replaced by a link meanwhile does not matter. Every amount is limited.
+Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, it is
+harmless if a folder is replaced by a link meanwhile. All amounts are limited.
 """
 
 from __future__ import annotations
@@ -18,60 +18,63 @@ from course_pkg.grading.intake import archive, packages
 from course_pkg.grading.intake.packages import MANIFEST
 from course_pkg.workspace.fault import manifest_tags
 
-NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # in the course's folder
+NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # relative to the course's folder
 DEPTH = 12  # folders within folders
-ENTRIES = 5_000  # files and folders of a workspace that are looked at
-LATEST = 4_102_444_800 * 10**9  # ns, the year 2100: a file may have any time, and not each is a date
-TRIES = 3  # reads of a file that changes meanwhile
+ENTRIES = 5_000  # maximum number of files and folders of a workspace that are examined
+# ns, the year 2100; a file's time can be any number, and larger numbers are not valid dates
+LATEST = 4_102_444_800 * 10**9
+TRIES = 3  # number of attempts to read a file that changes while it is read
 
 
 @dataclass(frozen=True)
 class WorkFile:
     """A file of a student: a notebook, or a file of a package.
 
-    `package` is the name of the package's folder, and `asked` the name by which parts ask for it.
+    `package` is the name of the package's folder, and `asked` is the package's name in the parts that require
+    it.
     """
 
-    path: str  # NN_topic.ipynb, or the path inside of the package
+    path: str  # NN_topic.ipynb, or the path inside the package
     content: bytes = field(repr=False)
-    modified: int  # ns since 1970; its owner can set this time
-    changed: int  # ns since 1970, when the file was last written, moved or changed; nobody can set this time
+    modified: int  # ns since 1970; the file's owner can set this time
+    # ns since 1970, the time of the last write, move or other change; users cannot set this time
+    changed: int
     executable: bool = False
     package: str = ""
     asked: str = ""
 
     @property
     def place(self) -> str:
-        """The path below the student's folder."""
+        """The file's path relative to the student's folder."""
         return f"{self.package}/{self.path}" if self.package else self.path
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Something that was not collected, and the reason in a sentence."""
+    """Something that was not collected, with the reason as a sentence."""
 
     reason: str
 
 
 class Refused(HandoutError):
-    """A file or a folder that is not read."""
+    """A file or a folder that must not be read."""
 
 
 @dataclass
 class Walk:
-    """A walk through a workspace: what is asked for and found, and how much may still be looked at."""
+    """A search in a workspace: the packages to look for, the packages found, and the remaining limits."""
 
     asked: frozenset[str]
-    found: set[str] = field(default_factory=set)  # the folders' names of the packages
+    found: set[str] = field(default_factory=set)  # names of the folders of the packages
     entries: int = ENTRIES
 
 
 def work_in(
     home: str, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]
 ) -> Iterator[WorkFile | Problem]:
-    """Yield the work in the course's `folder` of a home folder, with this process's rights.
+    """Yield the work in the course's `folder` of a home folder; it is read with this process's rights.
 
-    `notebooks` are the chapters by the names of their files; `asked` are the names of the packages.
+    `notebooks` maps the name of each notebook's file to its chapter; `asked` are the names of the packages.
     """
     try:
         with _opened(home) as top, _opened(folder, top) as course:
@@ -84,7 +87,7 @@ def work_in(
 
 
 def _notebooks(course: int, notebooks: Mapping[str, str]) -> Iterator[WorkFile | Problem]:
-    """Yield the notebooks in the folder of notebooks, and then those beside it."""
+    """Yield the notebooks in the folder `notebooks`, and then those in the course's folder itself."""
     done: set[str] = set()
     for place in (NOTEBOOKS, ""):
         try:
@@ -119,7 +122,7 @@ def _packages(course: int, asked: frozenset[str]) -> Iterator[WorkFile | Problem
 
 
 def _below(folder: int, name: str, depth: int, walk: Walk) -> Iterator[WorkFile | Problem]:
-    """Yield the packages in a folder and below it; a package contains no other one."""
+    """Yield the packages in a folder and in its subfolders; a package cannot contain another package."""
     listed = _listed(folder, walk)
     if MANIFEST in listed:
         yield from _package(folder, name, walk)
@@ -130,13 +133,16 @@ def _below(folder: int, name: str, depth: int, walk: Walk) -> Iterator[WorkFile 
         try:
             with _opened(item, folder) as inner:
                 yield from _below(inner, item, depth - 1, walk)
-        except OSError as error:  # most often, it is a file
+        except OSError as error:  # in most cases, it is a file
             if item in walk.asked:
                 yield Problem(_reason(f"the package {item}", error))
 
 
 def _package(folder: int, name: str, walk: Walk) -> Iterator[WorkFile | Problem]:
-    """Yield the files of a package that parts ask for, and what is left out; or why nothing is collected."""
+    """Yield the files of a package that parts require, and the files left out.
+
+    Or the reason why nothing is collected.
+    """
     label = f"the package {name}"
     files: list[WorkFile] = []
     problems: list[str] = []
@@ -181,7 +187,7 @@ class NotRegular(Refused):
 
 
 def _read(folder: int, name: str, largest: int) -> WorkFile:
-    """Read a regular file of at most `largest` bytes; never open a link, a pipe or a device."""
+    """Read a regular file of at most `largest` bytes; do not open a link, a pipe or a device."""
     if stat.S_ISLNK(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
         raise NotRegular("it is a link, and links are not followed")
     flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
@@ -203,7 +209,10 @@ def _read(folder: int, name: str, largest: int) -> WorkFile:
 
 @contextmanager
 def _opened(path: str, above: int | None = None) -> Iterator[int]:
-    """Open the folder `path` without following a link below `above`; the path "" is `above` itself."""
+    """Open the folder `path`, relative to the open folder `above`, without following a link.
+
+    "" means `above` itself.
+    """
     flags = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
     if above is None:
         current = os.open(path, flags)
@@ -222,7 +231,7 @@ def _opened(path: str, above: int | None = None) -> Iterator[int]:
 
 
 def _listed(folder: int, walk: Walk) -> list[str]:
-    """Return the names in a folder, sorted, without hidden files and files that systems write."""
+    """Return the sorted names in a folder, without hidden files and files that operating systems create."""
     names = []
     with os.scandir(folder) as items:
         for item in items:

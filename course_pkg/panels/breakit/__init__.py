@@ -1,1 +1,1 @@
-"""The lab Break it: cases with a real fault, which the student diagnoses from the symptom."""
+"""The panel "Break it": the student finds the cause of a real fault from its symptom."""

@@ -15,7 +15,7 @@ OPTIONS = 5  # diagnoses to choose from, including the right one
 
 @dataclass(frozen=True)
 class Case:
-    """A fault with a number that does not reveal the fault."""
+    """A fault, and its number in the list; the number does not reveal the fault."""
 
     number: int
     fault: Fault
@@ -25,7 +25,9 @@ class Case:
 
 @dataclass(frozen=True)
 class CaseRecord:
-    """The student's answers to one case; `key` is the name of its fault, and `tries` the number of answers.
+    """The student's answers to one case.
+
+    `key` is the name of the case's fault, and `tries` counts the answers.
 
     `first` says whether the first answer was right, and `solved` whether any answer was right. `shown` says
     whether the student looked at the solution before a right answer.
@@ -86,7 +88,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether `other` has a similar symptom, and a diagnosis that would be wrong for `fault`."""
+    """Return whether `other` has a similar symptom, and its diagnosis is wrong for `fault`."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 

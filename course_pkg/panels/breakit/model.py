@@ -1,4 +1,8 @@
-"""The state of the lab. It needs no page and no kernel: `stage` and `use` are functions of its caller."""
+"""The state of the lab.
+
+This module needs no page and no kernel: the caller passes the functions `stage` and `use`. `stage` and `use`
+are functions of its caller.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +20,11 @@ from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
 STEP = 30.0  # s, timeout of each step when a case is recorded
-LOG = 8  # outputs of tools that stay on the page, in addition to the symptom
+LOG = 8  # maximum number of stored outputs of tools, in addition to the symptom
 
 
 class ToolUse(TypedDict):
-    """One use of a tool: what was run, what it printed, and whether it still waits for a response."""
+    """One use of a tool: the command, its output, and whether the command is still waiting for a response."""
 
     number: int
     tool: str
@@ -31,7 +35,7 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The verdict on an answer, or the solution; `server` is the program of the server, if there is one."""
+    """The result of an answer, or the solution; `server` is the program of the server, if there is one."""
 
     state: Literal["right", "half", "wrong", "shown"]
     words: str
@@ -43,7 +47,7 @@ class Verdict(TypedDict, total=False):
 
 
 class CaseState(TypedDict, total=False):
-    """The open case: its story, the outputs of its tools, the options, and the verdict."""
+    """The open case: its description, the outputs of the tools, the options, and the result of the answer."""
 
     number: int
     story: str
@@ -63,7 +67,7 @@ class Listed(TypedDict):
 
 
 class Score(TypedDict):
-    """How many of the `of` cases are solved, and how many were solved with the first answer."""
+    """The number of cases (`of`), of solved cases, and of cases that were solved with the first answer."""
 
     solved: int
     first: int
@@ -93,11 +97,11 @@ SceneType = TypeVar("SceneType", bound=Scene)
 
 
 class LabModel(Generic[SceneType]):
-    """Causes the fault of a case, shows its symptom, uses tools, checks the answer, and undoes the fault.
+    """Causes the fault of a case, shows its symptom, runs tools, checks the answer, and undoes the fault.
 
-    Everything that touches the graph runs on one worker thread, in the order of the calls. `changed` is
-    called from any thread with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns
-    the scene of a fault. `use` uses a tool on a scene and returns its output.
+    One worker thread makes all changes to the graph, in the order of the calls. It calls `changed` from any
+    thread, with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns the scene of a
+    fault. `use` runs a tool on a scene and returns its output.
     """
 
     def __init__(
@@ -135,7 +139,7 @@ class LabModel(Generic[SceneType]):
         return {"cases": listed, "score": {"solved": len(solved), "first": first, "of": len(listed)}}
 
     def open(self, number: int) -> None:
-        """Undo the current fault and cause the fault of case `number`; `changed` gets its symptom."""
+        """Undo the current fault and cause the fault of case `number`; `changed` receives its symptom."""
         case = self._cases[number]
         with self._turn:
             if self._state.get("phase") in ("causing", "looking"):
@@ -155,7 +159,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(partial(self._begin, case))
 
     def use(self, tool: str) -> None:
-        """Use a tool on the open case."""
+        """Run a tool on the open case."""
         with self._turn:
             if self._state.get("phase") != "ready" or tool not in TOOLS:
                 return
@@ -193,7 +197,7 @@ class LabModel(Generic[SceneType]):
             self._report_all()
 
     def play(self, name: str, tools: Iterable[str]) -> None:
-        """Cause the named fault, use the tools, and undo the fault, so that a saved page shows them."""
+        """Cause the fault `name`, run `tools`, and undo the fault, so that a saved page shows the outputs."""
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
         self._worker.finish(STEP)
@@ -203,7 +207,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Undo the current fault after the running job; return at once."""
+        """Return at once; the worker thread undoes the current fault when the running job has ended."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -211,7 +215,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(self._undo)
 
     def close(self, timeout: float = 15.0) -> None:
-        """Undo the current fault, and return when it is undone, or after `timeout` s."""
+        """Undo the current fault, and wait until this is done, but for at most `timeout` s."""
         self.undo()
         self._worker.finish(timeout)
 
@@ -283,7 +287,10 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 
 
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
-    """Return the verdict on an answer; for a wrong answer, with the symptom of the fault in the answer."""
+    """Return the result of an answer.
+
+    For a wrong answer, it contains the symptom that this answer would cause.
+    """
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:

@@ -1,4 +1,4 @@
-"""The still picture of the lab: the cases, and the open case with its story, outputs and verdict."""
+"""The still picture of the panel: the cases, and the open case with its description, outputs and result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A thread for jobs of the lab that take too long for a page, such as causing a fault."""
+"""A thread for the panel's long jobs, such as causing a fault; a page must not wait for them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Runs jobs one after the other on a thread, which exists only while there are jobs.
+    """Runs jobs one after the other on a thread, which ends when no job is left.
 
-    `failed` is called on that thread with the error of a job.
+    If a job raises an error, the thread calls `failed` with this error.
     """
 
     def __init__(self, failed: Callable[[Exception], None]) -> None:
@@ -28,12 +28,12 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Remove the jobs that have not begun."""
+        """Remove the jobs that have not begun from the queue."""
         with self._turn:
             self._jobs.clear()
 
     def finish(self, timeout: float) -> bool:
-        """Wait for at most `timeout` s until all jobs are done; return whether they are."""
+        """Wait for at most `timeout` s until all jobs are done; return whether all are done."""
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout)

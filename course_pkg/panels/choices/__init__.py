@@ -1,1 +1,1 @@
-"""Choices: many cases with the same few options, and a reason for each case."""
+"""The choices panel: the student chooses one of a few options for each case, and then reads the reasons."""

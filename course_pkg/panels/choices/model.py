@@ -1,4 +1,7 @@
-"""The model of a table of choices: decide all cases, then read the reasons. It needs no kernel."""
+"""The model of the choices panel: the student decides all cases and then reads the reasons.
+
+It needs no kernel.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from course_pkg.state import now
 
 @dataclass(frozen=True)
 class Case:
-    """A situation, the option that is expected for it, and the reason."""
+    """A situation, the option that is expected for this situation, and the reason."""
 
     text: str
     answer: str
@@ -21,7 +24,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether the option chosen for a case is the expected one."""
+    """Whether the student chose the expected option in a case."""
 
     chosen: str
     fits: bool
@@ -34,8 +37,8 @@ class ChoiceRecord:
     """The choices for one table of cases. `chosen` and `first` map the text of a case to an option.
 
     `compared` is the time (ISO 8601 in UTC) at which the reasons were first shown, or "" if they were never
-    shown. `first` are the choices at that time, and only these count: `fit` is the number of these choices
-    that were the expected option. `shown` says whether the reasons are shown now.
+    shown. `first` contains the choices at that time; only these choices count. `fit` is the number of
+    expected options among these choices. `shown` says whether the panel shows the reasons at present.
     """
 
     key: str
@@ -49,16 +52,16 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """How many choices were made, or how many of the first choices fit, in one sentence."""
+        """One sentence: how many choices were made, or how many of the first choices are expected options."""
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases decided."
         return f"{self.fit} of {len(self.first)} of your first choices fit."
 
 
 class ChoiceStore(Store[ChoiceRecord]):
-    """The choices in one file, by key.
+    """The student's choices in one file; each record has a key.
 
-    The first edition of the course used `choices.json`. That file is neither read nor changed.
+    The first edition of the course used `choices.json`. This class neither reads nor changes that file.
     """
 
     record = ChoiceRecord
@@ -67,7 +70,7 @@ class ChoiceStore(Store[ChoiceRecord]):
 
 
 class ChoicesModel:
-    """A table of cases with the same options, and the record of the choices.
+    """The cases with their options, and the record of the student's choices.
 
     Raises NotAChoice if the answer of a case is not among the options, or if a case is given twice.
     """
@@ -95,7 +98,7 @@ class ChoicesModel:
 
     @property
     def chosen(self) -> list[str]:
-        """The option chosen for each case, "" for none."""
+        """The option that was chosen for each case; "" if no option was chosen."""
         kept = self.record.chosen
         return [kept[case.text] if kept.get(case.text) in self.options else "" for case in self.cases]
 
@@ -108,14 +111,17 @@ class ChoicesModel:
         return [Verdict(chosen, chosen == case.answer, case.answer, case.reason) for case, chosen in pairs]
 
     def choose(self, number: int, option: str) -> ChoiceRecord:
-        """Store the choice for case `number` (from 0), unless the reasons are shown."""
+        """Store the choice for case `number` (the first case is 0), unless the panel shows the reasons."""
         record = self.record
         if record.shown or option not in self.options:
             return record
         return self._store.write(replace(record, chosen={**record.chosen, self.cases[number].text: option}))
 
     def compare(self) -> ChoiceRecord:
-        """Show the reasons if every case is decided; the choices at the first time are stored as `first`."""
+        """Show the reasons if every case is decided.
+
+        The first time, the choices are also stored as `first`.
+        """
         record = self.record
         if "" in self.chosen:
             return record
@@ -126,7 +132,7 @@ class ChoicesModel:
         return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Hide the reasons and delete the choices; the first choices stay stored."""
+        """Hide the reasons and delete the choices, but keep `first`."""
         return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:

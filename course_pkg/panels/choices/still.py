@@ -1,4 +1,4 @@
-"""The still picture of a table of choices: the cases, the options and, if they are shown, the reasons."""
+"""The still picture of the choices panel: the cases, the options and, if they are shown, the reasons."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The widget of a table of choices; its text/plain is the same for every student."""
+"""The widget of the choices panel; its text/plain is the same for every student."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ HERE = Path(__file__).parent
 
 
 class _First(TypedDict, total=False):
-    """The first choices: how many fit, how many there are, and whether they are the present choices."""
+    """`fit` of the `of` first choices are the expected options.
+
+    `now` says whether they are still the present choices.
+    """
 
     fit: int
     of: int
@@ -92,10 +95,10 @@ def choose(
     options: Sequence[str] = OPTIONS,
     cases: Iterable[tuple[str, str, str]] = CASES,
 ) -> Choices:
-    """Return a panel in which the student chooses one of `options` in each of the cases.
+    """Return a panel in which the student chooses one of `options` for each case.
 
-    `key` is `chapter.name`. A case is (case, answer, reason), and text between backticks is shown as code.
-    Without other arguments, the student decides ten cases between a topic, a service and an action. Raises
-    NotAChoice if an answer is not an option, or if a case is given twice.
+    `key` is `chapter.name`. Each case is a tuple (case, answer, reason); the panel shows text between
+    backticks as code. Without arguments, the panel has ten cases, and the options are a topic, a service and
+    an action. Raises NotAChoice if an answer is not an option, or if two cases are equal.
     """
     return Choices(key, question, options, cases)

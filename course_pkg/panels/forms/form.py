@@ -1,4 +1,4 @@
-"""A message in a form: a tree of strings, the errors in it, and its values as a table."""
+"""A message in a form: a tree of strings, the errors in these strings, and a table of the values."""
 
 from __future__ import annotations
 
@@ -9,33 +9,34 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-CONTROLS = 16  # an array with more elements is edited as one line of text
-LIMIT = 200  # rows of a table
-ELEMENTS = 32  # elements of an array that a table shows
+CONTROLS = 16  # maximum number of elements with a separate input field; a longer array is one line of text
+LIMIT = 200  # maximum number of rows of a table
+ELEMENTS = 32  # maximum number of elements of an array in a table
 _NANO = 10**9
 
-Draft: TypeAlias = dict[str, StringTree]  # the texts in a form, by field
+Draft: TypeAlias = dict[str, StringTree]  # the text of each field in a form
 Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
-    """The result of checking a form: the errors by field, or the commands that do the same as the form.
+    """The result of checking a form: an error for each wrong field, or the equivalent commands.
 
-    `refused` counts the clicks on a button that were refused. So a page notices each refused click.
+    `refused` is the number of clicks on a button that the form refused. The page compares this number with
+    the previous one to notice each refused click.
     """
 
     errors: dict[str, str]
     refused: int
-    shell: str  # commands for a service
+    shell: str  # equivalent commands for a service
     python: str
-    once: str  # commands for a topic
+    once: str  # the equivalent command that publishes once
     often: str
 
 
 class Row(TypedDict):
     """A row of a table of values.
 
-    If the value is in the next rows, `text` is empty, and `depth` is larger by 1 in those rows.
+    If the value has several parts, `text` is empty, and the parts are in the next rows with a larger `depth`.
     """
 
     depth: int
@@ -45,7 +46,7 @@ class Row(TypedDict):
 
 
 class MessageForm:
-    """The form for a message; `commands` returns the commands that do the same as the form."""
+    """The form for a message; `commands` returns the equivalent commands for the form's values."""
 
     def __init__(self, message: MessageType, commands: Callable[[Values], Check]) -> None:
         self.message = message
@@ -53,7 +54,7 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return the error messages by field path; at most one for each top-level field."""
+        """Return the error messages by field path; there is at most one for each top-level field."""
         wrong: dict[str, str] = {}
         given = {**self.blank, **draft}
         for name in self.blank:
@@ -64,7 +65,7 @@ class MessageForm:
         return wrong
 
     def checked(self, draft: Draft) -> Check:
-        """Return the errors, or the commands if there are no errors."""
+        """Return the errors of the form, or the equivalent commands if there are no errors."""
         try:
             values = self.values(draft)
         except FieldError:
@@ -72,21 +73,27 @@ class MessageForm:
         return {"errors": {}, **self._commands(values)}
 
     def values(self, draft: Draft) -> dict[str, Plain]:
-        """Return the plain values of the message. Raises FieldError if one is not valid."""
+        """Return the values of the message as numbers, strings, lists and dicts.
+
+        Raises FieldError if a value is not valid.
+        """
         return self.message.parse({**self.blank, **draft})
 
     def filled(self, draft: Draft, values: Values) -> Draft:
-        """Return the draft with plain values written into it. Raises FieldError if a value does not fit."""
+        """Return a copy of the draft with these values.
+
+        Raises FieldError if a value is not valid for its field.
+        """
         formatted = self.formatted(self.message.check({**self.message.default(), **values}))
         return {**draft, **{name: formatted[name] for name in values}}
 
     def formatted(self, values: Values) -> Draft:
-        """Return plain values as the form shows them."""
+        """Return values as the strings that the form shows."""
         return compact(self.message.fields, self.message.format(values))
 
 
 def correction(error: FieldError) -> str:
-    """Return the text that the page shows next to a field: the problem, and which values are allowed."""
+    """Return the text next to a wrong field: the problem, and the allowed values."""
     hint = f"; {error.hint}" if error.hint else ""
     return f"{error.problem[:1].upper()}{error.problem[1:]}. Give {error.allowed}{hint}."
 
@@ -94,7 +101,7 @@ def correction(error: FieldError) -> str:
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
     """Return a string tree in which a time is a number of seconds, and a long array is one line.
 
-    Only arrays of numbers and of booleans become one line.
+    Only arrays of numbers or booleans become one line.
     """
     return {field.name: _compact(field, strings[field.name]) for field in fields}
 

@@ -1,4 +1,4 @@
-"""Parts of the still pictures of several panels: a form, a table of values, and commands."""
+"""The elements that several still pictures have: a form, a table of values, and commands."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 from course_pkg.panels.paper import CODE, EDGES, FAINT, FAINT_CODE, HEADING, Column, Paper, State
 
-MOST = 16  # rows that are shown of a form or of a table
+MOST = 16  # maximum number of rows of a form or of a table
 FIELD = 250.0  # px, width of an input field
 INDENT = 14.0  # px for each level of nesting
 
@@ -64,7 +64,7 @@ def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
 
 
 def draw_commands(paper: Paper, title: str, commands: Sequence[tuple[str, str]]) -> None:
-    """Draw the commands that do the same as the panel; draw nothing if there are no commands."""
+    """Draw the equivalent commands; draw nothing if there are no commands."""
     shown = [(label, text) for label, text in commands if text]
     if shown:
         paper.write(title, HEADING)

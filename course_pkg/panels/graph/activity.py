@@ -1,4 +1,4 @@
-"""What happens on the graph: the rates of topics, computed from message counts, and callers of services."""
+"""Computes the rates of topics from message counts, and lists the callers of services."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
 if TYPE_CHECKING:
     from course_pkg.ros.trace.activity import Activity, Traffic
 
-LONG, SHORT = 30.0, 3.9  # s: the time to measure a steady rate, and the time to notice a change
-LEAST = 1.5  # s; a rate that is measured over a shorter time is not reliable
-LATE = 0.05  # s by which a count may be older than it seems, because its node was busy
-SHOWN = 12  # connections of a topic, or callers of a service, that are shown
+# s: time for measuring a steady rate, and time in which a change of the rate is noticed
+LONG, SHORT = 30.0, 3.9
+LEAST = 1.5  # s; a rate is not reliable if it is measured over a shorter time
+LATE = 0.05  # s; a busy node may report its counts late by this time
+SHOWN = 12  # maximum number of connections of a topic, or of callers of a service, in the details
 UNCONNECTED = "not connected: do both have the same type?"
 
 Key = tuple[str, str, str, int]
@@ -25,8 +26,8 @@ Pair = list[str]  # a label and its value
 class Caller(TypedDict):
     """A node that called a service, with the number of its calls.
 
-    `last` is the time of the latest call (s since the epoch), and `running` the number of calls that run now.
-    `gone` says whether the node has left the graph.
+    `last` is the time of the latest call (s since the epoch), and `running` is the number of unfinished
+    calls. `gone` says whether the node has left the graph.
     """
 
     node: str
@@ -46,11 +47,11 @@ class CallLine(TypedDict):
 
 
 class ActivityState(TypedDict, total=False):
-    """The activity for the page, by the key of a shape.
+    """The activity that the page shows; each dict has the keys of the shapes.
 
-    `notes` are short texts (at most 12 letters) below the names of topics. `details` are pairs of label and
-    value. `callers` lists the nodes that called a service; a service is missing if its server does not report
-    its callers. `calls` are lines to draw.
+    `notes` are short texts below the names of topics, with at most 12 letters each. `details` are pairs of a
+    label and a value. `callers` lists the nodes that called each service. A service whose server does not
+    report its callers is missing. `calls` are lines to draw.
     """
 
     notes: dict[str, str]
@@ -67,9 +68,10 @@ class RateMeter:
         self._shown: float | None = None
 
     def read(self, at: float, messages: int) -> None:
-        """Add the number of messages that were counted until `at` (s)."""
+        """Add a count: the number of messages until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            self._counts.clear()  # a new connection with the same number, because the publisher was restarted
+            # a smaller count: the publisher was restarted, and its new connection has the same number
+            self._counts.clear()
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:
             self._counts.popleft()
@@ -78,11 +80,11 @@ class RateMeter:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, rounded to the reliable digits; None if there are not enough counts yet."""
+        """Messages per second, rounded to the reliable digits; None as long as there are too few counts."""
         return self._shown
 
     def _forget_former_rate(self) -> None:
-        """Keep only the latest counts if the rate has changed."""
+        """If the rate has changed, remove all counts from before the change."""
         at, messages = self._counts[-1]
         recent = [each for each in self._counts if at - each[0] >= SHORT]
         if len(recent) < 2:
@@ -105,7 +107,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Return the number with the fewest digits that differs from the rate by at most `tolerance`."""
+    """Return the number with the fewest digits whose difference from the rate is at most `tolerance`."""
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -116,7 +118,7 @@ def plainest(rate: float, tolerance: float) -> float:
 
 
 def rate_text(rate: float) -> str:
-    """Return a rate for the reader, such as "10 Hz"."""
+    """Return a rate as text, such as "10 Hz"."""
     if 0 < rate < 0.1:
         return "< 0.1 Hz"
     return f"{rate:.3g} Hz" if rate < 999.5 else f"{rate / 1000:.3g} kHz"
@@ -129,7 +131,7 @@ class Rates:
         self._meters: dict[Key, RateMeter] = {}
 
     def read(self, activity: Activity) -> None:
-        """Add all counts of one time, and remove connections that have ended."""
+        """Add all counts that were read at one time, and remove connections that have ended."""
         meters = {_key(each): self._meters.get(_key(each)) or RateMeter() for each in activity.traffic}
         for each in activity.traffic:
             meters[_key(each)].read(activity.at, each.messages)
@@ -157,7 +159,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity for the page from the counts of successive times."""
+    """Computes the activity for the page from counts that are read repeatedly."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -165,7 +167,7 @@ class GraphActivity:
         self._carried: dict[str, list[Traffic]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
-        """Add the counts of one time."""
+        """Add all counts that were read at one time."""
         self.seen = activity
         self._rates.read(activity)
         self._carried.clear()
@@ -175,8 +177,9 @@ class GraphActivity:
     def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
         """Return the activity for the page.
 
-        `alive` are the nodes of the graph, including nodes that are not shown. `box` returns the key of the
-        shape that is drawn for another key: the key itself, or that of a folded namespace around it.
+        `alive` are the names of all nodes on the graph, including nodes that the panel does not show. `box`
+        returns the key of the visible shape for a key: the same key, or the key of the folded namespace that
+        contains the shape.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
@@ -206,7 +209,10 @@ class GraphActivity:
         return note, _shortened(details, "connections")
 
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
-        """Return the rate of a topic: the sum of the rates of each publisher's fastest connection."""
+        """Return the rate of a topic.
+
+        It is the sum over the publishers of the rate of their fastest connection.
+        """
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):
             return "not counted"

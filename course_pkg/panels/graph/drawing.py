@@ -1,4 +1,4 @@
-"""Draws a layout as SVG, in a pure function. The colours come from a style sheet, not from the drawing."""
+"""Draws a layout as SVG. The functions have no side effects; the colours come from a style sheet."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from course_pkg.panels.graph.layout import Framed, Layout, Placed, Point, Routed
 from course_pkg.panels.graph.picture import Kind
 
 MARGIN = 12.0
-ARROW = 9.0  # px, length of an arrowhead
-CORNER = 12.0  # px, width of the two pointed ends of a service
-CARD = 4.0  # px, offset of the second rectangle that marks a folded namespace
-ABOVE, BELOW = -7.0, 10.0  # px from the middle of a shape to its name and to the line under it
-TITLE = 13.0  # px from the top of a frame to the middle of its name
+ARROW = 9.0  # length of an arrowhead (px)
+CORNER = 12.0  # width of the two pointed ends of a service (px)
+CARD = 4.0  # offset of the second rectangle that marks a folded namespace (px)
+# distance from the middle of a shape to its name, and to the line below the name (px)
+ABOVE, BELOW = -7.0, 10.0
+TITLE = 13.0  # distance from the top of a frame to the middle of its name (px)
 
 
 def svg(
@@ -27,10 +28,10 @@ def svg(
     notes: Mapping[str, str] | None = None,
     still: bool = False,
 ) -> str:
-    """Return the drawing as SVG; `notes` are the texts below the names of topics, by key.
+    """Return the drawing as SVG; `notes` are the texts below the names of topics, by the key of the topic.
 
-    In a page, each shape is a button with an accessible name, and `data-key` is the key of its shape. With
-    `still`, the drawing is a picture for a file, with its style sheet and a text alternative.
+    In a page, each shape is a button with an accessible name; its `data-key` is the key of the shape. With
+    `still`, the result is a complete file with a style sheet and a text alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 
@@ -91,7 +92,8 @@ class _Drawing:
         mark = "▸ " if shape.kind is Kind.SPACE else ""
         name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
         name.text = mark + placed.label
-        name.tail = " "  # otherwise, a screen reader joins the last word of the name and the note
+        # without this space, a screen reader joins the last word of the name and the first word of the note
+        name.tail = " "
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})
             under.text = placed.note or self._notes.get(shape.key, "")
@@ -109,7 +111,10 @@ class _Drawing:
 
 
 def _named(kind: str, label: str, name: str) -> str:
-    """Return the accessible name of a button; it contains the visible label, which speech input needs."""
+    """Return the accessible name of a button.
+
+    It contains the visible label, because speech input needs it.
+    """
     return f"{kind} {name}" if label == name else f"{kind} {name}: {label}"
 
 
@@ -150,7 +155,7 @@ def _hexagon(x: float, y: float, wide: float, high: float) -> str:
 
 
 def _arrow(before: Point, tip: Point) -> str:
-    """Return the corners of an arrowhead that comes from `before` and ends at `tip`."""
+    """Return the corners of an arrowhead; its tip is at `tip`, and the line comes from `before`."""
     angle = math.atan2(tip[1] - before[1], tip[0] - before[0])
     sides = [angle + math.pi - 0.42, angle + math.pi + 0.42]
     corners: Sequence[Point] = [

@@ -1,4 +1,4 @@
-"""A recording of what a graph panel showed, which a page without a kernel can play."""
+"""A recording of everything that a graph panel showed; a page without a kernel can play it."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from course_pkg.panels.graph.model import Scene
 
 MOMENTS = 150
-BYTES = 200_000  # size of a whole recording as JSON
+BYTES = 200_000  # maximum size of a whole recording as JSON
 
 
 class HistoryState(TypedDict, total=False):
-    """A recording for a page; empty if nothing changed.
+    """A recording for a page; it is empty if nothing has changed.
 
-    `began` is the time of the first moment (s since the epoch), and `length` the length of the recording
-    (ms). A moment is (ms since `began`, index of the scene, activity).
+    `began` is the time of the first entry (s since the epoch), and `length` is the length of the recording
+    (ms). An entry of `moments` is (ms since `began`, index of the scene, activity).
     """
 
     began: float
@@ -40,9 +40,9 @@ class _Moment(NamedTuple):
 
 
 class History:
-    """The newest moments at which the panel changed: at most `moments`, with at most `size` bytes as JSON.
+    """The latest changes of the panel: at most `moments` entries, with at most `size` bytes as JSON.
 
-    Nothing is recorded before start() and after stop().
+    It records only between start() and stop().
     """
 
     def __init__(self, moments: int = MOMENTS, size: int = BYTES) -> None:
@@ -51,17 +51,20 @@ class History:
         self.running = False
 
     def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Start a new recording at `at` (s since the epoch) with the present scene and activity."""
+        """Start a new recording at `at` (s since the epoch).
+
+        Its first entry is the given scene and activity.
+        """
         self._moments.clear()
         self.running = True
         self.add(at, scene, activity)
 
     def stop(self) -> None:
-        """End the recording; the recorded moments stay."""
+        """End the recording, and keep its entries."""
         self.running = False
 
     def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Record the scene and the activity that the panel shows from `at` (s since the epoch) on."""
+        """Record the scene and the activity that the panel shows since `at` (s since the epoch)."""
         if not self.running:
             return
         sized = self._sized(scene)
@@ -69,7 +72,7 @@ class History:
             last = self._moments[-1]
             if last.sized is sized and last.activity == activity:
                 return
-            at = max(at, last.at)  # the system clock may have been set back
+            at = max(at, last.at)  # a user may have set the system clock back
         self._moments.append(_Moment(at, sized, activity, _size(activity)))
         while len(self._moments) > self._most or self._weight() > self._room:
             self._moments.popleft()
@@ -94,7 +97,7 @@ class History:
         return next(same, None) or _Sized(scene, _size(scene))
 
     def _scenes(self) -> list[_Sized]:
-        """Return each scene once, in the order in which they were recorded."""
+        """Return each different scene once, in the order of the recording."""
         return list({id(each.sized): each.sized for each in self._moments}.values())
 
     def _weight(self) -> int:

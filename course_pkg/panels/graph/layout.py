@@ -12,20 +12,22 @@ from typing import TypedDict
 from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
-CHARACTER = 7.3  # px, width of a letter in a fixed-width font of 12 px
-HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}  # px, for one or two lines
-ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}  # px added to the name
-NOTE = 11 / 12  # size of the text below a name, relative to the name
-ROOM = 12  # letters that always fit below a topic's name
+CHARACTER = 7.3  # width of a letter in a fixed-width font of 12 px (px)
+# px; a shape contains one or two lines of text
+HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}
+# px, added to the width of the name
+ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}
+NOTE = 11 / 12  # size of the text below a name, divided by the size of the name
+ROOM = 12  # number of letters for which there is always room below a topic's name
 LONGEST = 36
 PER_INCH = 72.0
-WIDE, TALL = 1000.0, 1400.0  # px, size of a page
+WIDE, TALL = 1000.0, 1400.0  # size of a page (px)
 
 Point = tuple[float, float]
 
 
 class _Object(TypedDict, total=False):
-    """A shape or a line (with `pos`) or a frame (with `bb`) in graphviz' JSON."""
+    """A shape, a line (with `pos`) or a frame (with `bb`) in the JSON output of graphviz."""
 
     name: str
     id: str
@@ -41,7 +43,7 @@ class _Drawn(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Placed:
-    """A shape with its centre and size (px), its shortened name, and the second line, if it has one."""
+    """A shape with its centre and size (px), its shortened name, and the optional second line."""
 
     shape: Shape
     label: str
@@ -72,7 +74,7 @@ class Framed:
 
 @dataclass(frozen=True)
 class Layout:
-    """A picture with coordinates (px), the origin at the top left."""
+    """A picture with coordinates (px); the origin is at the top left."""
 
     width: float = 0.0
     height: float = 0.0
@@ -84,9 +86,9 @@ class Layout:
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
-    Data goes from left to right. It goes from top to bottom if the first drawing is too wide for a page and
-    the second one is clearly easier to read. Raises DrawingFailed if graphviz is missing, fails, or takes
-    longer than `timeout` s.
+    The arrows point from left to right. They point from top to bottom if the first layout is too wide for a
+    page and the second one is clearly easier to read. Raises DrawingFailed if graphviz is missing, fails, or
+    takes longer than `timeout` s.
     """
     if not picture.shapes:
         return Layout()
@@ -98,7 +100,7 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
 
 
 def _scale(layout: Layout) -> float:
-    """Return the factor by which a layout is scaled down to fit on a page."""
+    """Return the factor that scales a layout down to the size of a page."""
     return min(1.0, WIDE / layout.width, TALL / layout.height)
 
 
@@ -128,9 +130,9 @@ def _drawn(picture: Picture, direction: str, timeout: float) -> Layout:
 
 
 def _parsed(drawn: _Drawn, picture: Picture) -> Layout:
-    """Return the layout from graphviz' JSON.
+    """Return the layout from the JSON output of graphviz.
 
-    Graphviz counts in points of 1/72 inch from the bottom left. A point becomes one px.
+    Graphviz measures in points (1/72 inch) from the bottom left corner. One point becomes one px.
     """
     _, _, width, height = _numbers(drawn["bb"])
     shapes: list[Placed] = []
@@ -182,7 +184,10 @@ def _script(picture: Picture, direction: str) -> str:
 
 
 def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[str]:
-    """Yield the frames as nested clusters. They are sorted by name, so an inner one follows its outer one."""
+    """Yield the frames as nested clusters.
+
+    The frames are sorted by name, so an inner frame comes after the outer frame.
+    """
     around: list[str] = []
     for number, frame in enumerate(frames):
         while around and not frame.name.startswith(around[-1]):
@@ -195,18 +200,18 @@ def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[s
 
 
 def _size(shape: Shape) -> tuple[float, float]:
-    """Return the width and height (px) of a shape, which depend on its texts."""
+    """Return the width and height (px) of a shape; they depend on its texts."""
     note = ROOM if shape.kind is Kind.TOPIC else len(_note(shape))
     letters = max(len(_label(shape.name)), note * NOTE)
     return letters * CHARACTER + ELBOW[shape.kind], HEIGHT[shape.kind]
 
 
 def _note(shape: Shape) -> str:
-    """Return the second line of a shape: for a folded namespace, the numbers of shapes in it."""
+    """Return the second line of a shape; a folded namespace shows how many shapes it contains."""
     return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 
 
 def _label(name: str) -> str:
-    """Return the name, or only its beginning and its end if it is too long for a shape."""
+    """Return the name; if it is too long for a shape, return only its beginning and its end."""
     half = LONGEST // 2
     return name if len(name) <= LONGEST else f"{name[: half - 1]}…{name[-half:]}"

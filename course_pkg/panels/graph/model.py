@@ -25,8 +25,8 @@ from course_pkg.types import Field, message_type, service_type
 if TYPE_CHECKING:
     from course_pkg.ros import Activity, Snapshot
 
-REFUSED = "refused"  # the reach of a node that is still registered although its process has ended
-SHOWN = 12  # fields of a type that are listed
+REFUSED = "refused"  # the value of `reach` for a node that is registered although its process has ended
+SHOWN = 12  # maximum number of listed fields of a type
 
 Pair = tuple[str, str]  # a label and its text
 Describe = Callable[[Kind, str], list[Pair]]
@@ -43,7 +43,7 @@ class Fact(TypedDict):
 
 
 class Space(TypedDict):
-    """A namespace on the page: a frame, or a box if it is folded."""
+    """A namespace on the page: an open frame, or one box if it is folded."""
 
     name: str
     folded: bool
@@ -59,14 +59,14 @@ class Scene(TypedDict):
 
 
 def facts(picture: Picture, describe: Describe) -> list[Fact]:
-    """Return the details of each shape of an unfolded picture, and of each namespace."""
+    """Return the details of each shape and of each namespace, as if no namespace were folded."""
     spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
     known: dict[Pair, list[Pair]] = {}
     return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]
 
 
 def fields_of(kind: Kind, name: str) -> list[Pair]:
-    """Return the fields of a topic's or service's type as pairs of label and text."""
+    """Return the fields of the type of a topic or service, as pairs of a label and a text."""
     try:
         if kind is Kind.TOPIC:
             return [("fields", _field_list(message_type(name).fields))]
@@ -97,7 +97,7 @@ def _field_list(fields: Iterable[Field]) -> str:
 
 def _entry(shape: Shape, fields: list[Pair]) -> Fact:
     kept = list(shape.facts)
-    # The fields follow directly after the type.
+    # The fields follow directly after the label "type".
     at = next((number for number, (label, _) in enumerate(kept, start=1) if label == "type"), 0)
     return {
         "key": shape.key,
@@ -143,7 +143,7 @@ class GraphModel:
         self.activity: ActivityState = {}
 
     def see(self, snapshot: Snapshot) -> None:
-        """Store a new snapshot of the graph, and draw it if the picture has changed."""
+        """Store a new snapshot of the graph; draw it if the picture has changed."""
         self.snapshot = snapshot
         self._draw()
 
@@ -156,19 +156,19 @@ class GraphModel:
                 self._changed(activity=state)
 
     def lose(self, reason: str) -> None:
-        """Keep the last picture, and show `reason`, which says why the graph cannot be read."""
+        """Keep the last picture, and show `reason`: why the panel cannot read the graph."""
         with self._turn:
             self._shown = None
             self.scene = {**self.scene, "trouble": reason}
             self._changed(trouble=reason)
 
     def choose(self, *, noise: bool, show_own: bool) -> None:
-        """Show or hide /rosout with the logger services, and the kernel's own node."""
+        """Show or hide /rosout and the logger services (`noise`), and the kernel's own node (`show_own`)."""
         self.noise, self.show_own = noise, show_own
         self._draw()
 
     def fold(self, name: str, *, fold: bool) -> None:
-        """Fold or unfold a namespace; the name "" means all present namespaces."""
+        """Fold or unfold a namespace; the name "" means all namespaces of the picture."""
         names = [name] if name else namespaces(self._whole)
         self._choices |= dict.fromkeys(names, fold)
         self._draw()
@@ -183,8 +183,8 @@ class GraphModel:
     def _draw(self) -> None:
         """Draw the picture if it differs from the previous one.
 
-        The lock is not held while graphviz runs, because the page would have to wait for it. If another
-        drawing begins during that time, the result of this one is not used.
+        The method does not hold the lock while graphviz runs, because the page would have to wait for it. If
+        another call begins to draw during that time, this call drops its own result.
         """
         with self._turn:
             if self.snapshot is None:
@@ -215,14 +215,14 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the shape that is drawn for `key`: itself, or a folded namespace around it."""
+        """Return the key of the visible shape for `key`; a folded namespace hides the shapes in it."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)
 
 
 def _spaces(shown: Picture) -> list[Space]:
-    """Return the namespaces that are shown, as a frame or as a box."""
+    """Return all visible namespaces, as frames or as boxes."""
     frames = {each.name for each in shown.frames}
     boxes = {each.name for each in shown.shapes if each.kind is Kind.SPACE}
     return [{"name": name, "folded": name in boxes} for name in sorted(frames | boxes)]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # shapes; if a picture has more of them, namespaces are folded at first
+CROWD = 30  # number of shapes; if a picture has more, its namespaces are folded at first
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -30,7 +30,7 @@ PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
 
 @dataclass(frozen=True)
 class Shape:
-    """One node, topic, service or folded namespace; `facts` are pairs of label and value for its details."""
+    """One node, topic, service or folded namespace; `facts` are the pairs (label, value) of its details."""
 
     kind: Kind
     name: str
@@ -39,13 +39,13 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """The kind and the name, because a topic and a service may have the same name."""
+        """The kind and the name; a topic and a service may have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
 @dataclass(frozen=True)
 class Line:
-    """A connection between two shapes, as their keys; `both` means that data goes both ways (a service)."""
+    """A connection between two shapes; `both` means that data flows in both directions, as for a service."""
 
     tail: str
     head: str
@@ -54,14 +54,17 @@ class Line:
 
 @dataclass(frozen=True)
 class Frame:
-    """A namespace that is not folded, such as "/turtle1/"; `members` are the keys of all shapes in it."""
+    """A namespace that is not folded, such as "/turtle1/".
+
+    `members` are the keys of all shapes in this namespace.
+    """
 
     name: str
     members: frozenset[str]
 
     @property
     def key(self) -> str:
-        """The key of the namespace, which is the same if it is folded into a box."""
+        """The key of the namespace; it is the same for the frame and for the folded box."""
         return f"{Kind.SPACE.value} {self.name}"
 
 
@@ -69,7 +72,7 @@ class Frame:
 class Picture:
     """All shapes, lines and frames.
 
-    Their order depends only on their names, and an outer frame comes before its inner frames.
+    They are sorted by name only, and an outer frame comes before its inner frames.
     """
 
     shapes: tuple[Shape, ...] = ()
@@ -81,7 +84,7 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
     """Return the shapes and lines of a snapshot.
 
     Without `noise`, /rosout and the logger services of every node are left out. `hide` are names of nodes to
-    leave out, together with their services and with the topics that no other node uses.
+    leave out. Their services, and the topics that only these nodes use, are left out, too.
     """
     hidden = frozenset(hide) | (frozenset() if noise else NOISE_NODES)
     shapes = [
@@ -121,7 +124,7 @@ def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()
 
 
 def _with_roles(shape: Shape, lines: Iterable[Line]) -> Shape:
-    """Return a node with facts about its topics and services; return any other shape unchanged."""
+    """Return a node with details about its topics and services; return any other shape unchanged."""
     if shape.kind is not Kind.NODE:
         return shape
     roles = _roles(shape.key, lines)
@@ -174,10 +177,11 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 
 
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
-    """Return the picture with some namespaces folded, and with frames around the other namespaces.
+    """Return the picture with some namespaces as folded boxes, and with frames around the others.
 
-    `choices` says for a namespace whether the reader wants it folded. A namespace without a choice is folded
-    if the picture has more than `CROWD` shapes, unless it contains more than half of them.
+    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. If the
+    reader chose neither, a namespace is folded if the picture has more than `CROWD` shapes. It is not folded
+    if it contains more than half of them.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD
@@ -186,8 +190,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The shortest name comes last and replaces longer ones. So a shape in two folded namespaces is in the box
-    # of the outer namespace.
+    # The names are sorted from long to short, and a later name replaces an earlier one. Therefore, a shape in
+    # two folded namespaces belongs to the box of the outer namespace.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -200,7 +204,9 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
 
 
 def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
-    """Return the keys of the shapes in each namespace, such as "/turtle1/", that has at least two shapes.
+    """Return the keys of the shapes in each namespace, such as "/turtle1/".
+
+    The namespace has at least two shapes.
 
     If several namespaces have the same shapes, only the innermost one is returned.
     """
@@ -217,11 +223,11 @@ def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
 
 
 def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
-    """Return a namespace as one box; its facts list the shapes in it."""
+    """Return a namespace as one box; its details list the shapes in the namespace."""
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # The topics are left out, because activity.py adds them with their rates.
+    # Topics are left out here, because activity.py adds them together with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))
@@ -235,14 +241,14 @@ def _count(kind: Kind, count: int) -> str:
 def _open(
     spaces: Mapping[str, frozenset[str]], closed: set[str], shown: Callable[[str], str]
 ) -> Iterator[tuple[str, frozenset[str]]]:
-    """Yield the name of each namespace that gets a frame, with the keys of the shown shapes in it."""
+    """Yield the name of each namespace with a frame, and the keys of the visible shapes in it."""
     for name, members in spaces.items():
         if name not in closed and not any(name.startswith(outer) for outer in closed):
             yield name, frozenset(map(shown, members))
 
 
 def _lines(picture: Picture, shown: Callable[[str], str]) -> tuple[Line, ...]:
-    """Return the lines between the shown shapes: each line once, and no lines inside one box."""
+    """Return each line between two visible shapes once, without lines whose ends are in the same box."""
     moved = {Line(shown(each.tail), shown(each.head), each.both) for each in picture.lines}
     kept = (each for each in moved if each.tail != each.head)
     return tuple(sorted(kept, key=lambda each: (each.tail, each.head, each.both)))

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, fromstring
 from course_pkg.panels.graph.drawing import ABOVE
 from course_pkg.panels.paper import CODE, EDGES, FAINT, GROUND, MONO, MUTED, TEXT, WIDTH, Paper, State, number
 
-# The fill and edge colours of each shape, as in the light theme of drawing.css.
+# The fill colour and the edge colour of each shape, as in the light theme of drawing.css.
 SHAPES = {
     "ros-node": ("#e7f0fc", "#3a78c9"),
     "ros-topic": ("#f1f2f4", "#6b7580"),
@@ -22,11 +22,12 @@ LEGEND = (
 )
 STREAM, CALL = SHAPES["ros-topic"][1], SHAPES["ros-service"][1]
 ROLES = ("publishes", "subscribes", "serves")
-NUMBERED = re.compile(r"_\d+_\d{10,}")  # what rospy and roscpp add to the name of an anonymous node
+# the suffix that rospy and roscpp add to the name of an anonymous node
+NUMBERED = re.compile(r"_\d+_\d{10,}")
 
 
 def still(state: State) -> str:
-    """Return the picture without rates and without recent calls, because both differ in each run."""
+    """Return the picture without rates and recent calls, because they differ in each run."""
     drawing, trouble = state.get("drawing", ""), state.get("trouble", "")
     if not drawing:
         return _without_drawing(state, trouble)
@@ -81,7 +82,7 @@ def _legend(paper: Paper, *, lost: bool) -> None:
 
 
 def _roles(state: State) -> str:
-    """Return what each node publishes, subscribes and serves, for readers who cannot see the picture."""
+    """Return a text for readers who cannot see the picture: the topics and services of each node."""
     sentences = []
     for fact in state.get("facts", ()):
         said = [f"{label} {text}" for label, text in fact["facts"] if label in ROLES]
@@ -91,7 +92,7 @@ def _roles(state: State) -> str:
 
 
 def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
-    """Return a copy of an element with colours as attributes, without the parts that only a page needs."""
+    """Return a copy of an element with colours as attributes, without the elements that only a page needs."""
     own = frozenset(element.get("class", "").split())
     around = classes | own
     tag = _tag(element)
@@ -100,7 +101,8 @@ def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
     made.text = NUMBERED.sub("…", element.text or "") if tag == "text" else None
     made.extend(_plain(child, around) for child in element if not _only_live(child))
     if "ros-topic" in own:
-        for name in made.findall("text"):  # the name moves to the middle, because there is no rate below it
+        # the name moves to the middle, because the copy has no rate below the name
+        for name in made.findall("text"):
             name.set("y", number(float(name.get("y", "0")) - ABOVE))
     return made
 

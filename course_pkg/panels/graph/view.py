@@ -16,18 +16,17 @@ from course_pkg.panels.poller import Poller
 from course_pkg.ros import Activity, ActivityPoller, Node, Snapshot, look, this_node
 
 HERE = Path(__file__).parent
-SILENT = "silent"  # the reach of a node that accepts connections and does not answer
-PAUSE = 2.0  # s between two requests for the counts of the nodes
+SILENT = "silent"  # the value of `reach` for a node that accepts connections but does not answer
+PAUSE = 2.0  # s between two readings of the nodes' counters
 
 
 class GraphPanel(Panel):
-    """A picture of the graph: nodes, the topics between them, and the services they serve.
+    """A picture of the graph: the nodes, their topics, and their services.
 
-    The panel follows the graph while a page shows it; with `live=False` it keeps the first picture. It shows
+    The panel updates the picture while a page shows it; with `live=False` the first picture stays. It shows
     the rates of topics and the latest callers of services. With `noise`, it also shows /rosout and the logger
-    services, which every graph has. `node` is the kernel's own node, which the reader can hide; the default
-    is the node that join() made. The panel records what it shows, so that a page without a kernel can play
-    it.
+    services of every node. `node` is the kernel's own node, which the reader can hide; by default it is the
+    node of join(). The panel records all pictures, so that a page without a kernel can play them.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
@@ -63,14 +62,14 @@ class GraphPanel(Panel):
         return self._model.still()
 
     def shown(self) -> None:
-        """Start to follow the graph and to record what is shown."""
+        """Start to follow the graph and to record the pictures."""
         if self.live:
             self._record()
             self._snapshots.start()
             self._counts.start()
 
     def hidden(self) -> None:
-        """Stop following the graph, and publish the recording, which only a page without a kernel needs."""
+        """Stop following the graph, and send the recording to the page, for saved pages without a kernel."""
         self._snapshots.stop()
         self._counts.stop()
         with self.turn:
@@ -96,7 +95,7 @@ class GraphPanel(Panel):
 
     def _record(self) -> None:
         with self.turn:
-            if not self._history.running:  # another view may have started the recording
+            if not self._history.running:  # another view of the panel may have started the recording
                 self.publish(history={})
                 self._history.start(time.time(), *self._showing())
 
@@ -104,7 +103,10 @@ class GraphPanel(Panel):
         return self._model.scene, self._model.activity
 
     def _look(self) -> Snapshot:
-        """Return a snapshot. Take a second one if a node has become silent: the machine may just be busy."""
+        """Return a snapshot.
+
+        Take a second snapshot if a node has become silent: the machine may just be busy.
+        """
         before, now = self._model.snapshot, look()
         awake = {node.name for node in before.nodes if node.reachable} if before else set()
         late = any(node.reach == SILENT and node.name in awake for node in now.nodes)

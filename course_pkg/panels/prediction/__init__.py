@@ -1,1 +1,1 @@
-"""Predictions: the student answers before the run, and compares the answer with the result."""
+"""The prediction panels: the student predicts a result before the run, and then compares both."""

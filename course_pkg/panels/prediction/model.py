@@ -1,4 +1,7 @@
-"""The model of a prediction: an answer before the run, and the result. It needs no page and no kernel."""
+"""The model of a prediction: the student's answer before the run, and the result of the run.
+
+It needs no page and no kernel.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +16,9 @@ from course_pkg.state import now
 class Prediction:
     """A prediction with the student's answer and, after the comparison, the result.
 
-    Times are ISO 8601 in UTC, or "" if there is no answer or no comparison yet. `answer` is the latest
-    answer. `first` is the answer at the time of the comparison, so that a later change can be detected.
+    Times are ISO 8601 in UTC; "" means that there is no answer or no comparison yet. `answer` is the latest
+    answer. `first` is the answer at the time of the comparison; if `answer` differs from it, the student
+    changed it later.
     """
 
     key: str
@@ -27,12 +31,12 @@ class Prediction:
 
     @property
     def changed_after(self) -> bool:
-        """Whether the answer was given or changed after the result was known."""
+        """Whether the student gave or changed the answer after the result was known."""
         return bool(self.compared and self.answer != self.first)
 
     @property
     def right(self) -> bool:
-        """Whether the prediction equals the result: as strings, or as numbers."""
+        """Whether the prediction is equal to the result, either as strings or as numbers."""
         predicted, actual = self.first.strip().casefold(), self.actual.strip().casefold()
         try:
             return float(predicted) == float(actual)
@@ -41,7 +45,7 @@ class Prediction:
 
     @property
     def verdict(self) -> str:
-        """The comparison in one sentence."""
+        """The result of the comparison in one sentence."""
         if not self.compared:
             return "Not compared yet." if self.answer else "No prediction yet."
         if not self.first:
@@ -55,8 +59,8 @@ class Prediction:
 class PredictionStore(Store[Prediction]):
     """The predictions in one file, by key.
 
-    The first edition of the course used `predictions.json`, with other chapter numbers in its keys: `08.…`
-    was a prediction of another chapter. Therefore, that file is neither read nor changed.
+    The first edition of the course used `predictions.json`, with other chapter numbers in its keys: there,
+    `08.…` belongs to another chapter. Therefore, the course neither reads nor changes that file.
     """
 
     record = Prediction
@@ -87,7 +91,7 @@ class PredictionModel:
         )
 
     def compare(self, actual: object) -> Prediction:
-        """Store what really happened; the present answer becomes the prediction."""
+        """Store the result of the run; the present answer becomes the prediction."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record

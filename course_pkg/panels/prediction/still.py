@@ -1,4 +1,4 @@
-"""The still picture of a prediction, of a comparison, or of the table of a chapter."""
+"""The still picture of a question, of a comparison, or of the table of a chapter."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MARKS = {"✓": GOOD, "✗": ERROR}
 
 
 def still(state: State) -> str:
-    """Return the picture of what the panel shows: a question before the run, a comparison, or a table."""
+    """Return the picture of the panel: a question before the run, a comparison, or a table."""
     part = state["part"]
     if part == "question":
         return _question(state)
@@ -87,7 +87,7 @@ def _table(state: State) -> str:
 
 
 def _score(records: list[State]) -> str:
-    """Return how many predictions came true, and how many choices fit."""
+    """Return how many predictions were right, and how many choices were expected options."""
     right, wrong = (sum(each["state"] == which for each in records) for which in ("right", "wrong"))
     said = f"{right} of {right + wrong} predictions came true. " if right + wrong else ""
     cases, fit = (sum(each.get(name, 0) for each in records) for name in ("cases", "fit"))

@@ -35,7 +35,7 @@ class _ChoiceRow(_Row):
 
 
 class ChapterPart(TypedDict):
-    """A part of a chapter in the student's progress: its id, its state as text, and a mark."""
+    """A part of a chapter: its id, its state as text, and the symbol for this state."""
 
     check: str
     state: str
@@ -43,7 +43,7 @@ class ChapterPart(TypedDict):
 
 
 class ChapterRow(TypedDict):
-    """The student's progress in a chapter: the totals, parts, the next step, and problems with records."""
+    """The student's progress in a chapter: the sums, the parts, the next step, and problems with results."""
 
     text: str
     parts: list[ChapterPart]
@@ -59,7 +59,10 @@ class _PredictionPanel(Panel):
 
 
 class Question(_PredictionPanel):
-    """A prediction to enter before the run: one of `choices`, or free text if there are none."""
+    """A question before the run.
+
+    The student selects one of `choices`, or types any text if there are none.
+    """
 
     question = Unicode().tag(sync=True)
     choices = List(Unicode()).tag(sync=True)
@@ -81,7 +84,7 @@ class Question(_PredictionPanel):
         )
 
     def compare(self, actual: object) -> Comparison:
-        """Store what really happened, and show it next to the prediction."""
+        """Store the result of the run, and show it next to the prediction."""
         record = self._model.compare(actual)
         self.publish(compared=True)
         return Comparison(record)
@@ -97,7 +100,7 @@ class Question(_PredictionPanel):
 
 
 class Comparison(_PredictionPanel):
-    """What was predicted and what happened."""
+    """The prediction and the result of the run, side by side."""
 
     record = Dict().tag(sync=True)
 
@@ -111,7 +114,7 @@ class Comparison(_PredictionPanel):
 
 
 class Predictions(_PredictionPanel):
-    """The predictions and choices of a chapter in a table, and `row`, the progress in the chapter."""
+    """A table of the predictions and choices of a chapter; `row` is the student's progress in the chapter."""
 
     chapter = Unicode().tag(sync=True)
     records = List(Dict()).tag(sync=True)
@@ -136,7 +139,7 @@ class Predictions(_PredictionPanel):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
-    """Return a panel that asks for an answer before the run; without choices, the answer is free text.
+    """Return a panel that asks a question before the run; without choices, the student may type any text.
 
     `key` is `chapter.name`.
     """

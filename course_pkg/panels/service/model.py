@@ -1,4 +1,7 @@
-"""The state of a service panel. It needs no page, no kernel and no ROS: `connect` returns a Caller."""
+"""The state of a service panel, without a page, a kernel or ROS; `connect` returns a Caller.
+
+It needs no page, no kernel and no ROS: `connect` returns a Caller.
+"""
 
 from __future__ import annotations
 
@@ -30,13 +33,13 @@ LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
 class Caller(Protocol):
-    """Calls one service; `cancel` ends the running call from another thread."""
+    """Calls one service; another thread can end the running call with `cancel`."""
 
     def call(self, request: genpy.Message, /, *, timeout: float) -> genpy.Message:
-        """Send a request message and return the response message, within `timeout` s."""
+        """Send a request message and return the response message; wait for at most `timeout` s."""
 
     def cancel(self) -> None:
-        """Make the running call raise CallCancelled."""
+        """End the running call: it raises CallCancelled."""
 
     def close(self) -> None:
         """Close the connection to the service."""
@@ -57,7 +60,7 @@ class Offer:
 
 
 class _Fresh(TypedDict):
-    """The state of a new form."""
+    """The part of the state that a new form replaces."""
 
     form: FormState
     draft: Draft
@@ -65,11 +68,11 @@ class _Fresh(TypedDict):
 
 
 class ServiceModel:
-    """Selects a service, checks the request in the form, calls the service, and keeps a history of the calls.
+    """Selects a service, checks the form, calls the service, and keeps a history of the calls.
 
-    `changed` is called after each change, once for each phase of a call. Its keyword arguments are
-    `services`, `form`, `draft`, `check`, `outcome` and `history`. `turn` is held while the state changes, but
-    not during a call.
+    The model calls `changed` after each change, and in each phase of a call. Its keyword arguments are
+    `services`, `form`, `draft`, `check`, `outcome` and `history`. The model holds the lock `turn` while it
+    changes its state, but not during a call.
     """
 
     def __init__(
@@ -97,7 +100,10 @@ class ServiceModel:
         self._problem = ""
 
     def offer(self, offers: Iterable[Offer]) -> None:
-        """Store the services on the graph; the selected one stays selected even if it has left the graph."""
+        """Store the services on the graph.
+
+        The selection stays, even if the selected service has left the graph.
+        """
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
             services = [{**asdict(each), "tool": each.tool} for each in self.offers]
@@ -109,7 +115,7 @@ class ServiceModel:
                 self._changed(services=services, form=self._described())
 
     def pick(self, name: str) -> None:
-        """Select a service by name; it need not be on the graph yet."""
+        """Select a service by name, even if it is not on the graph yet."""
         with self._turn:
             if name != self.service:
                 self.cancel()
@@ -118,16 +124,16 @@ class ServiceModel:
                 self._changed(outcome={"phase": "idle"}, **self._fresh())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the commands that do the same."""
+        """Store the texts of the form; report their errors, or the equivalent commands."""
         with self._turn:
             if self.form:
                 self.draft = draft
                 self._changed(check=self.form.checked(draft))
 
     def fill(self, values: Values) -> None:
-        """Write plain values into the form; the other fields stay unchanged.
+        """Write values into the form; the other fields stay unchanged.
 
-        Raises FieldError if a value does not fit; the form then stays unchanged.
+        Raises FieldError if a value is not valid for its field; then the form is unchanged.
         """
         with self._turn:
             form = self._need_form()
@@ -135,7 +141,7 @@ class ServiceModel:
             self._changed(draft=self.draft, check=form.checked(self.draft))
 
     def start(self, draft: Draft, deadline: str) -> None:
-        """Call on a new thread, unless a call is running or the form has an error."""
+        """Call the service on a new thread, unless a call is running or the form has an error."""
         with self._turn:
             if self._under_way or not self.form:
                 return
@@ -148,7 +154,10 @@ class ServiceModel:
         threading.Thread(target=self._finish, args=(call,), daemon=True, name="panel-call").start()
 
     def call(self, deadline: str) -> Outcome:
-        """Call the service on this thread with the request in the form. Raises the errors of the call."""
+        """Call the service on this thread with the request in the form.
+
+        Raises the same errors as the call.
+        """
         with self._turn:
             form = self._need_form()
             if self._under_way:
@@ -162,7 +171,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
-        """Call once for each of `inputs` and return the history entries, for a page without a kernel."""
+        """Call the service once for each of `inputs`; return the history's entries for saved pages."""
         kept: list[Entry] = []
         for values in inputs:
             with self._turn:
@@ -188,7 +197,7 @@ class ServiceModel:
         return next((each for each in self.offers if each.name == self.service), None)
 
     def _type_changed(self) -> bool:
-        """Return whether the type of the service differs from the type of the form."""
+        """Return whether the service's type on the graph differs from the type of the form."""
         found = self._found()
         return bool(found and found.type and (self.form is None or self.form.type.name != found.type))
 

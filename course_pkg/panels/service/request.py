@@ -1,4 +1,4 @@
-"""One call of a service from the panel: the form of its request, and the outcome of the call."""
+"""One call from the panel: the form of the request, and the outcome of the call."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ from course_pkg.types import MessageSchema, Plain, ServiceType, rospy_line, ross
 if TYPE_CHECKING:
     import genpy
 
-DEADLINE = "@deadline"  # no field of a message can have this name
+DEADLINE = "@deadline"  # "@" cannot be part of a field's name
 LONGEST = 3600.0  # s
 
 Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 
 
 class FormState(TypedDict, total=False):
-    """The selected service, its node and type. `problem` says why there is no form ("" if there is one)."""
+    """The selected service, its node and type. `problem` says why there is no form.
+
+    "" means that there is one.
+    """
 
     service: str
     node: str
@@ -42,7 +45,7 @@ class Failure(TypedDict, total=False):
 
 
 class Outcome(TypedDict, total=False):
-    """The phase of a call; after the end also its time, its duration (ms), and the response or the error."""
+    """The phase of a call. After its end, also its time, its duration (ms), and the response or the error."""
 
     phase: Phase
     number: int
@@ -53,9 +56,9 @@ class Outcome(TypedDict, total=False):
 
 
 class Entry(TypedDict, total=False):
-    """A call in the history: the request and the response in one line each.
+    """A call in the history: one line for the request, and one line for the response.
 
-    A recorded call also has `check` and `outcome`, which a page shows if no kernel answers.
+    A recorded call also has `check` and `outcome`; a page without a kernel shows them.
     """
 
     phase: Phase
@@ -70,7 +73,7 @@ class Entry(TypedDict, total=False):
 
 
 class RequestForm(MessageForm):
-    """The form for calling `service`, of the given type."""
+    """The form for the request of `service`; `kind` is the type of the service."""
 
     def __init__(self, service: str, kind: ServiceType) -> None:
         super().__init__(
@@ -84,12 +87,15 @@ class RequestForm(MessageForm):
         self.type = kind
 
     def described(self) -> FormState:
-        """Return the form for the page: the fields of the request with their ranges and comments."""
+        """Return the form for the page: the fields of the request, with their ranges and comments."""
         return {"type": self.type.name, "md5": self.type.md5, "request": schema(self.type.request)}
 
 
 def seconds(text: str) -> float:
-    """Return the typed deadline in s. Raises FieldError if it is not a number or out of range."""
+    """Return the timeout (s) that the student typed.
+
+    Raises FieldError if it is not a number or is out of range.
+    """
     try:
         value = float(text)
     except ValueError:
@@ -102,7 +108,7 @@ def seconds(text: str) -> float:
 
 @dataclass
 class Call:
-    """One call, from the typed request to the outcome; `timeout` is in s."""
+    """One call, from the student's input to the outcome; `timeout` is in s."""
 
     number: int
     form: RequestForm
@@ -119,7 +125,7 @@ class Call:
         return {**self._outcome("done", milliseconds), "rows": rows(answer.fields, values)}
 
     def failed(self, error: BaseException, milliseconds: float) -> Outcome:
-        """Return the outcome for the page: the error message, and its explanation."""
+        """Return the outcome of a failed call for the page: the error message and its explanation."""
         self.error = error
         failure = Failure(name=type(error).__name__, words=str(error))
         if explanation := known(f"{failure['name']}: {failure['words']}"):
@@ -133,7 +139,7 @@ class Call:
         return {"phase": phase, "number": self.number, "at": at, "ms": round(milliseconds, digits)}
 
     def entry(self, outcome: Outcome) -> Entry:
-        """Return the call as an entry of the history."""
+        """Return the call and its outcome as an entry of the history."""
         said = (
             outcome["error"]["name"]
             if self.error is not None

@@ -1,4 +1,4 @@
-"""The widget of the service panel: traits hold the state of the model, and clicks call the model."""
+"""The widget of the service panel: its traits are the model's state, and a click calls the model."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is the name of the service, or None to pick one on the page. `deadline` (s) limits each call.
-    `kind` is needed for a type that was made in the notebook and is in no package. The panel follows the
-    graph while a page shows it, and shows the error of a failed call.
+    `service` is the name of the service; with None, the reader selects one on the page. `deadline` is the
+    maximum time of a call in s. `kind` is the type; it is only needed for a type that was made in the
+    notebook and is in no package. While a page shows the panel, it lists the services on the graph; it shows
+    the error of a failed call.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
@@ -64,25 +65,31 @@ class ServicePanel(Panel):
         return self._model.response
 
     def fill(self, **values: Plain) -> None:
-        """Write plain values into the form, by field. Raises FieldError if a value does not fit."""
+        """Write values into the form; each keyword is the name of a field.
+
+        Raises FieldError if a value is not valid for its field.
+        """
         self._model.fill(values)
 
     def call(self, **values: Plain) -> genpy.Message | None:
-        """Fill the form, call in this cell, and return the response message. Raises errors of the call."""
+        """Fill in the form, call the service, and return the response message.
+
+        Raises the same errors as the call.
+        """
         self._model.fill(values)
         self._model.call(self.deadline)
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call the service once for each of `inputs`, and keep the outcomes for a page without a kernel."""
+        """Call the service once for each of `inputs`, and keep the outcomes for pages without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:
-        """Start to follow the graph."""
+        """Start to list the services on the graph."""
         self._poller.start()
 
     def hidden(self) -> None:
-        """Stop following the graph."""
+        """Stop listing the services on the graph."""
         self._poller.stop()
 
     def received(self, kind: str, content: PageMessage) -> None:
@@ -95,7 +102,7 @@ class ServicePanel(Panel):
             self._model.cancel()
 
     def close(self) -> None:
-        """Remove the panel from every page, end a running call, and stop following the graph."""
+        """Remove the panel from every page, end the running call, and stop listing the services."""
         super().close()
         self._model.close()
 

@@ -1,1 +1,1 @@
-"""The timeline panel: the events of a recording, and which node waited for which."""
+"""The timeline panel: the events of a recording, and the waits between nodes."""

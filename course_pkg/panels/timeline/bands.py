@@ -1,4 +1,4 @@
-"""Gathers events that are too close together into bands; bands.js does the same for the page."""
+"""Joins events that are too close to each other into bands; bands.js does the same for the page."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from course_pkg.panels.timeline.scene import Event, Scene
 
-CLOSE = 3.0  # px; events that are narrower and closer are not drawn one by one
-MANY = 5  # calls or messages that make a band
+CLOSE = 3.0  # px; events that are narrower and closer than this are not drawn separately
+MANY = 5  # least number of calls or messages in a band
 CALLS, REQUESTS = "calls", "requests"
 WHAT = {
     "lookup": CALLS,
@@ -23,7 +23,7 @@ WHAT = {
 
 @dataclass
 class Band:
-    """Close events of one kind, with their place in px and the number of their exchanges."""
+    """Close events of one kind: the start and end of the band (px), and the number of calls or messages."""
 
     what: str
     kind: str

@@ -1,7 +1,8 @@
-"""The data of a timeline: events in columns of numbers, on the rows of their nodes.
+"""The data of a timeline: each property of the events is a list of numbers; each node has rows.
 
-A saved page contains all of the data, so its size is limited. If there are more than 4,000 events, calls are
-kept first, and then messages in the order of time. A note says which events are left out.
+A saved page contains all these data, so their size is limited. If there are more than 4,000 events, the data
+contain the calls and then as many messages as possible, in the order of time. A note says how many events are
+left out.
 """
 
 from __future__ import annotations
@@ -32,8 +33,9 @@ if TYPE_CHECKING:
 
 MOST = 4000  # events; about 200 kB in a saved page
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
-TICKS = 1e6  # per second: the times of the state are whole microseconds
-OPEN = -1  # the end of an event that had not ended; no other event ends before the recording began
+TICKS = 1e6  # ticks per second: the times of the state are whole microseconds
+# the end of an event that was not finished; an event that ended before the recording is not recorded
+OPEN = -1
 
 
 class Lane(TypedDict):
@@ -44,7 +46,10 @@ class Lane(TypedDict):
 
 
 class Columns(TypedDict):
-    """The events, one list for each property; `name` to `note` are indices of `strings`."""
+    """The events, as one list for each property.
+
+    The lists from `name` to `note` contain indices of `strings`.
+    """
 
     kind: list[int]
     lane: list[int]
@@ -62,8 +67,9 @@ class Columns(TypedDict):
 class TimelineState(TypedDict):
     """A recording for the page; times are in µs from its start.
 
-    `strings` are sorted by their numbers. `arrows` are pairs of events. `idle` nodes did nothing.
-    `unrecorded` are the nodes without a record, each with the reason.
+    `strings` is the list to which the indices of the events refer. `arrows` are pairs of indices of events.
+    `idle` are the nodes without an event. `unrecorded` are the nodes that could not be recorded, each with
+    the reason.
     """
 
     length: int
@@ -79,13 +85,13 @@ class TimelineState(TypedDict):
 
 
 class StringTable:
-    """Different strings, each with a number."""
+    """A list of different strings, in which each string has a number."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {"": 0}
 
     def number(self, text: str) -> int:
-        """Return the number of a string."""
+        """Return the number of a string; a new string is added to the list."""
         return self._numbers.setdefault(text, len(self._numbers))
 
     @property
@@ -128,7 +134,7 @@ def state(recording: Recording) -> TimelineState:
 
 @dataclass
 class _Thread:
-    """The events of one thread of a node, by index."""
+    """The events of one thread of a node, as indices."""
 
     numbers: list[int] = field(default_factory=list)
     start: float = math.inf
@@ -141,9 +147,9 @@ class _Thread:
 
 
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
-    """Return each event's row on its node, and its depth: how many events of its thread contain it.
+    """Return the row of each event, and its depth: the number of events of its thread that contain it.
 
-    A thread stays on one row. Several threads can use a row, one after another.
+    All events of a thread are in one row. Several threads can use the same row, one after another.
     """
     rows, depths = [0] * len(events), [0] * len(events)
     nodes: dict[str, dict[str, _Thread]] = defaultdict(lambda: defaultdict(_Thread))
@@ -159,7 +165,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
 
 
 def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
-    around: list[float] = []  # the ends of the events that contain the present one
+    around: list[float] = []  # the ends of the events that contain the current event
     for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
         while around and around[-1] <= events[number].start:
             around.pop()
@@ -172,7 +178,7 @@ def _end(event: Event) -> float:
 
 
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message whose two ends were recorded."""
+    """Return [from, to] for each request, response and message if both ends were recorded."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)
@@ -181,13 +187,14 @@ def arrows(events: Sequence[Event]) -> list[list[int]]:
 
 
 def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[int]]:
-    """Return the arrows of one exchange.
+    """Return the arrows of one call or of one message.
 
-    A response or an error goes from the end of the handler to the caller. A caller that gave up got neither.
+    The arrow of a response or an error goes from the end of the handler to the caller. There is no such arrow
+    if the caller stopped waiting before.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:
-        # The request itself may have been sent before the recording began.
+        # The client may have sent the request before the recording began.
         found += [[caller, handler] for caller in (part[REQUEST] or part[WAIT])[:1]]
         answers = [number for number in (*part[RESPONSE], *part[ERROR]) if events[number].peer]
         found += [[handler, answer] for answer in answers if events[handler].end is not None]
@@ -195,7 +202,7 @@ def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[in
 
 
 def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
-    """Return the events that are drawn, and a sentence about the events that are left out."""
+    """Return the events to draw, and a sentence about the events that are left out."""
     if len(events) <= MOST:
         return list(events), []
     calls = [event for event in events if event.kind in OF_CALLS][:MOST]

@@ -1,4 +1,4 @@
-"""The positions of a recording's events in a still picture; scene.js does the same for the page."""
+"""The positions of the events in a still picture; scene.js does the same for the page."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from course_pkg.panels.paper import State
 
-HEAD, GAP = 22.0, 12.0  # px, height of a lane's name, and distance between lanes
-# Maximal number of rows, px of a row, px between two rows.
+HEAD, GAP = 22.0, 12.0  # height of a node's name, and distance between the rows of two nodes (px)
+# Each entry: maximum number of rows, height of a row (px), distance between rows (px).
 ROWS = ((16, 20.0, 3.0), (32, 12.0, 2.0), (52, 8.0, 2.0), (10**9, 4.0, 1.0))
 BLOCKED = ("lookup", "connect", "wait")
 
 
 @dataclass(frozen=True)
 class Event:
-    """An event with its place in px; `open` says whether it had not ended."""
+    """An event with its position in px; `open` means that the event was not finished."""
 
     number: int
     kind: str
@@ -32,7 +32,7 @@ class Event:
 
 
 class Scene:
-    """The events of a recording on `width` px; times are in µs."""
+    """The events of a recording in a picture that is `width` px wide; times are in µs."""
 
     def __init__(self, recorded: State, width: float) -> None:
         self.length: int = recorded["length"]
@@ -52,7 +52,7 @@ class Scene:
         self.arrows = [(self.events[source], self.events[target]) for source, target in recorded["arrows"]]
 
     def x(self, time: float) -> float:
-        """Return the position of a time (px)."""
+        """Return the x coordinate (px) of a time (µs)."""
         return (time - self._from) * self._scale
 
     def _event(self, number: int, recorded: State) -> Event:

@@ -1,4 +1,4 @@
-"""The widget of the timeline, which only sends a recording to the page."""
+"""The widget of the timeline; it only sends a recording to the page."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ HERE = Path(__file__).parent
 
 
 class Timeline(Panel):
-    """A sequence diagram of a recording: rows for each node, time to the right.
+    """A sequence diagram of a recording: each node has rows, and time runs from left to right.
 
-    Give it the recording of a block that has ended: `with node.record() as recording: …`.
+    Its argument is the recording of a block that has ended: `with node.record() as recording: …`.
     """
 
     front_end: ClassVar[Path] = HERE / "timeline.js"
@@ -35,7 +35,7 @@ class Timeline(Panel):
 
     @property
     def text(self) -> str:
-        """Sentences about which node waited for which; they are the same in every run."""
+        """Sentences that say which node waited for which node; they are the same in every run."""
         return timeline_text(self._recording)
 
     def __repr__(self) -> str:

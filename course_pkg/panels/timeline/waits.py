@@ -1,4 +1,4 @@
-"""The waits of a recording: callers wait for servers, and publishers do not wait."""
+"""The waits in a recording: a caller waits for a server, but a publisher does not wait."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of a node to a service; `blocked` and `longest` are in s. `open` calls had not ended."""
+    """The calls of one node to one service; `blocked` (the sum of the waits) and `longest` are in s.
+
+    `open` is the number of calls that were not finished.
+    """
 
     node: str
     service: str
@@ -25,7 +28,10 @@ class Wait(TypedDict):
 
 
 class Stream(TypedDict):
-    """The messages of a node on a topic; for `alone` of them, no subscriber was connected."""
+    """The messages of one node on one topic.
+
+    `alone` counts those that were published without a subscriber.
+    """
 
     node: str
     topic: str
@@ -35,14 +41,17 @@ class Stream(TypedDict):
 
 
 class Waits(TypedDict):
-    """The calls, with the longest wait first, and the streams."""
+    """The calls, sorted by the longest wait, and the streams of messages."""
 
     calls: list[Wait]
     streams: list[Stream]
 
 
 def waits_of(recording: Recording) -> Waits:
-    """Return the waits of a recording; a wait that had not ended counts until the end of the recording."""
+    """Return the waits of a recording.
+
+    A wait that was not finished is counted until the end of the recording.
+    """
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)
     receivers: dict[str, set[str]] = defaultdict(set)
@@ -90,15 +99,16 @@ def _stream(node: str, topic: str, events: list[Event], receivers: dict[str, set
 
 
 def timeline_text(recording: Recording) -> str:
-    """Return sentences about which node waited for which, one on each line, without times.
+    """Return one sentence on each line: which node waited for which node, without times.
 
-    Calls come first, and the lines are sorted. So the text is the same in every run with the same events.
+    Calls come first, and the lines are sorted. Therefore, the text is the same in every run with the same
+    events.
     """
     return "\n".join(sentences(waits_of(recording)))
 
 
 def sentences(waits: Waits) -> list[str]:
-    """Return the sentences of `timeline_text` from the waits of a recording."""
+    """Return the sentences of `timeline_text` for these waits."""
     lines = sorted(_called(each) for each in waits["calls"])
     lines += sorted(_published(each) for each in waits["streams"])
     return lines or ["Nothing was recorded."]

@@ -1,1 +1,1 @@
-"""The topic panel: publish on a topic, receive its messages, and see what happens to each message."""
+"""The topic panel: it publishes and receives messages, and explains what happens to each message."""

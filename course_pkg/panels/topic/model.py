@@ -1,4 +1,7 @@
-"""The state of a topic panel, without a page or ROS: a topic process takes commands and sends reports."""
+"""The state of a topic panel, without a page or ROS.
+
+The panel's topic process receives commands and sends reports.
+"""
 
 from __future__ import annotations
 
@@ -25,19 +28,19 @@ from course_pkg.ros.topic.field_paths import measurement, numbers
 from course_pkg.ros.topic.reports import Connections, Report
 from course_pkg.types import MessageSchema, MessageType, message_type, publisher_lines, rostopic_line, schema
 
-BURST = 1000  # messages in a burst
+BURST = 1000  # number of messages in a burst
 NAME = r"(/[A-Za-z]\w*)+"  # http://wiki.ros.org/Names
 ACTIONS = ("publish", "burst", "repeat")
-RATE, QUEUE = "@rate", "@queue"  # no field of a message can have these names
+RATE, QUEUE = "@rate", "@queue"  # "@" cannot be part of a field's name
 SLOWEST, FASTEST = 0.1, 100.0  # 1/s
-LONGEST = 10_000  # messages in a queue
+LONGEST = 10_000  # maximum length of a publisher's queue (messages)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """The typed settings of the publisher: the rate, the queue size, and whether to latch.
+    """The publisher's settings as texts: the rate, the queue size, and whether the topic is latched.
 
-    `path` is the field that is drawn, or "" for none.
+    `path` is the field to plot, or "" for none.
     """
 
     rate: str = "10"
@@ -47,18 +50,18 @@ class Settings:
 
     @classmethod
     def of_page(cls, given: Mapping[str, str | bool]) -> Settings:
-        """Return the settings that a page has sent."""
+        """Return the settings from the content of a page's message."""
         rate, queue, path = (str(given.get(name, "")) for name in ("rate", "queue", "path"))
         return cls(rate, queue, bool(given.get("latch")), path)
 
     @property
     def hertz(self) -> float:
-        """The rate in 1/s. Raises FieldError if it is not a number or out of range."""
+        """The rate in messages per second. Raises FieldError if it is not a number or is out of range."""
         return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
 
     @property
     def size(self) -> int:
-        """The queue size in messages, 0 for no limit. Raises FieldError if it is not valid."""
+        """The queue size in messages; 0 means no limit. Raises FieldError if it is not valid."""
         allowed = f"a whole number from 0 (no limit) to {LONGEST}"
         size = _number(QUEUE, self.queue, 0, LONGEST, allowed)
         if size != int(size):
@@ -67,7 +70,10 @@ class Settings:
 
 
 class About(TypedDict, total=False):
-    """The topic, the fields and numbers of its type. `problem` says why there is no form, or is ""."""
+    """The topic, and the fields of its type; the numeric fields can be plotted.
+
+    `problem` says why there is no form; "" means that there is one.
+    """
 
     topic: str
     problem: str
@@ -78,10 +84,10 @@ class About(TypedDict, total=False):
 
 
 class TopicModel:
-    """One topic: its type, the typed message, the settings of the publisher, and the received messages.
+    """One topic: its type, the message in the form, the publisher's settings, and the received messages.
 
-    `kind` is the type, or None to take the type of the first publisher. `changed` is called after each
-    change. Its keyword arguments are `about`, `settings`, `draft`, `check`, `connections`, `publisher`,
+    `kind` is the type; with None, the type of the first publisher is used. The model calls `changed` after
+    each change. Its keyword arguments are `about`, `settings`, `draft`, `check`, `connections`, `publisher`,
     `subscription`, `messages`, `latest`, `curve` and `trouble`. `command` sends a command to the topic
     process, if there is one. Raises NotATopic if `topic` is not a valid name.
     """
@@ -122,7 +128,10 @@ class TopicModel:
             self._changed(about=self._about(), settings=asdict(self.settings))
 
     def process_began(self) -> None:
-        """Send a new topic process the type and the drawn field, which the previous process knew."""
+        """Send the type and the plotted field to a new topic process.
+
+        Only the previous process received them.
+        """
         with self._turn:
             self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}
             self.see({**self._connections, "sources": []})
@@ -158,7 +167,7 @@ class TopicModel:
                 self._changed(messages=self._log.entries, latest=self._log.latest)
 
     def see(self, connections: Connections) -> None:
-        """Store the present connections of the topic."""
+        """Store the present publishers and subscribers of the topic."""
         with self._turn:
             self._connections = connections
             if self.kind is None:
@@ -168,14 +177,14 @@ class TopicModel:
             self._changed(connections=seen, about=self._about())
 
     def edit(self, draft: Draft) -> None:
-        """Store the texts of the form; report their errors, or the commands that do the same."""
+        """Store the texts of the form; report their errors, or the equivalent commands."""
         with self._turn:
             if self._form:
                 self.draft = draft
                 self._changed(check=self._checked())
 
     def set(self, settings: Settings) -> None:
-        """Store the settings of the publisher and the field to draw."""
+        """Store the publisher's settings and the field to plot."""
         with self._turn:
             before, self.settings = self.settings, settings
             if settings.path != before.path:
@@ -184,7 +193,7 @@ class TopicModel:
             self._changed(check=self._checked())
 
     def act(self, action: str, draft: Draft, settings: Settings) -> None:
-        """Publish once, in a burst, or at a rate, unless a typed text has an error."""
+        """Publish once, in a burst, or at a rate; do nothing if a text in the form has an error."""
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return
@@ -211,7 +220,7 @@ class TopicModel:
         self._command("withdraw")
 
     def _checked(self) -> Check:
-        """Return the errors, or the commands that do the same."""
+        """Return the errors of the form, or the equivalent commands."""
         if not self._form:
             return {"errors": {}, "refused": self._refusals}
         check = self._form.checked(self.draft)
@@ -224,7 +233,7 @@ class TopicModel:
         return {**check, "errors": {**check["errors"], **wrong}, "refused": self._refusals}
 
     def _commands(self, values: Values) -> Check:
-        """Return the lines that publish these values once and at a rate; {} if a setting has an error."""
+        """Return the commands that publish these values once and at a rate; {} if a setting has an error."""
         assert self.kind is not None
         settings = self.settings
         try:
@@ -239,7 +248,7 @@ class TopicModel:
         }
 
     def _type_on_the_graph(self) -> str:
-        """Return the type of a publisher or, if no publisher has one, the type that the master knows."""
+        """Return the type of a publisher; if there is no publisher, return the type that the master knows."""
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))
         return next((each for each in known if each and each != ANY), "")

@@ -1,4 +1,4 @@
-"""Turns reports of the topic process into texts: the last messages, and sentences about the publisher."""
+"""Turns reports of the topic process into texts: the latest messages, and sentences about the publisher."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from course_pkg.ros.topic.connections import ANY
 from course_pkg.ros.topic.reports import Connections, Figures, MessageReport, Peer, PublisherReport, Source
 from course_pkg.types import MessageType
 
-SHORT = 8  # digits of an MD5, which are enough to distinguish two types
-KEPT = 10  # messages that are listed
-LINES = 40  # lines of the table for the latest message
+SHORT = 8  # number of digits of an MD5 that is enough to distinguish two types
+KEPT = 10  # number of listed messages
+LINES = 40  # maximum number of rows in the table of the latest message
 
 FindType = Callable[[str], MessageType]
 
 
 class PublisherState(PublisherReport, total=False):
-    """A report for the page, with a sentence, and the name of the panel's node."""
+    """A report of the publisher for the page, with a sentence and the name of the panel's node."""
 
     words: str
     own: str
 
 
 class SubscriptionState(TypedDict):
-    """The number of received messages, and figures about their timing."""
+    """The number of received messages, and statistics about their timing."""
 
     count: int
     statistics: Figures
 
 
 class ShownMessage(TypedDict):
-    """A received message for the page: its values in one line, or a remark if they cannot be shown."""
+    """A received message for the page: its values in one line, or the reason why they cannot be shown."""
 
     number: int
     ago: float
@@ -44,7 +44,7 @@ class ShownMessage(TypedDict):
 
 
 class MessageLog:
-    """The last messages of a topic, each in one line, and the latest message as a table."""
+    """The latest messages of a topic, each in one line, and the last message as a table."""
 
     def __init__(self) -> None:
         self._entries: deque[ShownMessage] = deque(maxlen=KEPT)
@@ -52,11 +52,11 @@ class MessageLog:
 
     @property
     def entries(self) -> list[ShownMessage]:
-        """The messages, the latest first."""
+        """The messages; the latest message comes first."""
         return list(self._entries)
 
     def add(self, messages: Iterable[MessageReport], kind: MessageType | None) -> None:
-        """Add new messages, the oldest first."""
+        """Add new messages; the oldest message comes first."""
         for each in messages:
             lines = _rows(each, kind)
             self._entries.appendleft(
@@ -86,7 +86,10 @@ def _remark(message: MessageReport, kind: MessageType | None) -> str:
 
 
 def published(report: PublisherReport, own: str) -> str:
-    """Return a sentence about the latest message; `own` is the panel's node, which also subscribes."""
+    """Return a sentence about the last published message.
+
+    `own` is the panel's node, which also subscribes.
+    """
     count = report.get("published", 0)
     if not count:
         return "Nothing is published yet. The first message creates the publisher."
@@ -113,7 +116,7 @@ def _rate(report: PublisherReport) -> str:
 
 
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
-    """Return a sentence for each node whose type is not `kind`, because rospy does not report this error."""
+    """Return a sentence for each node with another type than `kind`; rospy does not report this error."""
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [
         *_of_publishers(kind, connections.get("publishers", ()), sources, own, find),
@@ -159,7 +162,7 @@ def _differs(kind: MessageType, name: str, md5: str) -> bool:
 
 
 def _md5(name: str, find: FindType) -> str:
-    """Return the MD5 of the named type, or "" if the type is not known here."""
+    """Return the MD5 of the type `name`, or "" if `find` does not know the type."""
     try:
         return find(name).md5 if name and name != ANY else ""
     except CourseError:
@@ -175,7 +178,7 @@ def _peer(node: str, own: str) -> str:
 
 
 def _all(names: list[str]) -> str:
-    """Return the names as one text, such as "a, b and c"."""
+    """Return the names as a list in one text, such as "a, b and c"."""
     *most, last = names
     return f"{', '.join(most)} and {last}" if most else last
 

@@ -1,1 +1,1 @@
-"""The turtle panel: turtles and their trails, from the messages on the graph."""
+"""The turtle panel: it draws turtles and their trails from messages on the graph."""

@@ -1,8 +1,8 @@
-"""The state of a turtle's pen, derived from its poses and from the colour under the turtle.
+"""Derives the state of a turtle's pen from its poses and from the colour under the turtle.
 
-turtlesim publishes neither the pen nor calls of `clear` and `reset`. But its colour sensor reads the paper
-under the turtle. A turtle that moves slowly or stands still is on its own line. A fast turtle reads the
-paper in front of its line.
+turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. But it publishes the colour
+of the background or the line under the turtle. Under a slow turtle, or one that does not move, this is the
+colour of its own line. Under a fast turtle, this is the colour in front of its line.
 """
 
 from __future__ import annotations
@@ -12,18 +12,20 @@ from enum import Enum
 
 Colour = tuple[int, int, int]  # red, green, blue
 
-USUAL: Colour = (179, 184, 255)  # the colour of a pen at the start
-HOME = 5.544444561  # m, where the first turtle begins
-# Up to this speed (m/s), the line always reaches under the turtle: 0.8 px per tick, with a pen of 3 px.
+USUAL: Colour = (179, 184, 255)  # the colour of every pen at the start
+HOME = 5.544444561  # m, x and y of the first turtle at the start
+# Up to this speed (m/s), the line always reaches under the turtle: the turtle moves 0.8 px per tick, and the
+# pen is 3 px wide.
 SLOW = 1.1
 BRISK = 3.0  # m/s; up to this speed, the line often reaches under the turtle
 STILL = 1e-4  # m; a turtle that moves less between two observations is at rest
-SETTLED = 2  # successive observations, at rest or moving, until the line is under the turtle
+# number of successive observations, all at rest or all moving, after which the line is under the turtle
+SETTLED = 2
 
 
 @dataclass(frozen=True)
 class Observation:
-    """A turtle at one time: place (m), angle (rad), speed (m/s), and the colour under it, if known."""
+    """A turtle at one time: position (m), angle (rad), speed (m/s), and the colour under it, if known."""
 
     x: float
     y: float
@@ -33,31 +35,33 @@ class Observation:
 
 
 class Finding(Enum):
-    """What an observation shows in addition to the movement."""
+    """What an observation tells about the pen and the paper."""
 
     NOTHING = "nothing"
     UNDRAWN = "undrawn"  # the pen was up since the previous observation
     CLEARED = "cleared"  # the paper is empty again
-    RESET = "reset"  # the paper is empty, and the turtles are as they were at the start
+    RESET = "reset"  # the paper is empty, and the turtles are in the state of the start
 
 
 @dataclass
 class Pen:
-    """The pen of one turtle: `colour` is its colour while it is down, and None while it is up.
+    """The pen of one turtle; `colour` is None while the pen is up.
 
-    `sure` says whether the last observation showed the state of the pen.
+    `colour` is its colour while it is down, and None while it is up.
+
+    `sure` says whether the latest observation proved the state of the pen.
     """
 
     background: Colour
     colour: Colour | None = USUAL
     sure: bool = False
-    _moved: bool = False  # whether it moved since the paper or the pen was new
+    _moved: bool = False  # whether the turtle has moved since the paper or the pen was new
     _still: int = 0  # number of consecutive observations at rest
-    _going: int = 0  # moving observations in a row
+    _going: int = 0  # number of consecutive observations in motion
     _last: Observation | None = None
 
     def observe(self, seen: Observation) -> Finding:
-        """Store an observation, and return what it shows."""
+        """Store an observation, and return what it tells about the pen and the paper."""
         last, self._last = self._last, seen
         self.sure = False
         if last is None:
@@ -76,7 +80,7 @@ class Pen:
         return self._read(last, seen, moving)
 
     def _read(self, last: Observation, seen: Observation, moving: bool) -> Finding:
-        """Derive the state of the pen from a colour that two successive observations show."""
+        """Derive the state of the pen from two successive observations with the same colour."""
         plain = seen.colour == self.background
         near = not moving or seen.speed <= (SLOW if plain else BRISK)
         settled = max(self._still, self._going) >= SETTLED

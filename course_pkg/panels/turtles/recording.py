@@ -1,4 +1,4 @@
-"""A recording of turtles, as rows that a page can draw and replay. It needs neither ROS nor Jupyter.
+"""A recording of turtles, as rows that a page can draw and play. It needs neither ROS nor Jupyter.
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
@@ -20,8 +20,8 @@ Place = tuple[int, int, int, int, int, int]
 Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
-MOST = 6000  # rows; 150 kB when saved
-STEP = (5, 5, 10)  # mm, mm, mrad: a smaller movement adds no row
+MOST = 6000  # maximum number of rows; they take 150 kB in a saved page
+STEP = (5, 5, 10)  # mm, mm, mrad; a smaller movement adds no row
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -39,7 +39,7 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its last place if no row was added for this place."""
+    """One turtle: its pen, its last row, and its latest position if no row was added for this position."""
 
     number: int
     pen: Pen
@@ -50,7 +50,9 @@ class _Track:
 
 @dataclass
 class TurtleRecording:
-    """Rows in order of time, at most MOST. If there are more, every second place of each turtle is left out.
+    """The rows are in the order of time; there are at most MOST.
+
+    If there are more, every second position of each turtle is removed.
 
     `edition` increases when earlier rows change.
     """
@@ -64,7 +66,7 @@ class TurtleRecording:
     _tracks: dict[str, _Track] = field(default_factory=dict)
 
     def see(self, ms: int, name: str, seen: Observation) -> None:
-        """Record the place of a turtle."""
+        """Record the position of a turtle."""
         self.length = max(self.length, ms)
         track = self._tracks.get(name)
         if track is None:
@@ -82,12 +84,12 @@ class TurtleRecording:
             track.skipped = row
             return
         if track.skipped is not None:
-            self._add((*track.skipped[:5], UP))  # the turtle did not move before this place
+            self._add((*track.skipped[:5], UP))  # the turtle did not move before this time
         track.last, track.skipped = row, None
         self._add(row)
 
     def miss(self, ms: int, name: str) -> None:
-        """Record that a turtle has left."""
+        """Record that a turtle has left the simulator."""
         track = self._tracks.pop(name, None)
         if track is not None:
             self.length = max(self.length, ms)

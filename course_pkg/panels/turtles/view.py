@@ -24,24 +24,26 @@ HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
 SEND = 0.1  # s between messages to the page
-KEEP = 5.0  # s between two saved states while no page shows the panel
-ALONE = 300.0  # s; if no page shows the panel for this time, it stops recording
+KEEP = 5.0  # s between two saved states if no page shows the panel
+ALONE = 300.0  # s; if no page shows the panel for this time, the recording stops
 
 
 class Page(Enum):
     """Whether a page shows the panel."""
 
     NONE = "none"
-    PAUSED = "paused"  # a page has the panel, but scrolled out of view
+    PAUSED = "paused"  # a page contains the panel, but the reader scrolled it out of view
     OPEN = "open"
 
 
 class TurtlePanel(Panel):
-    """All turtles of the graph with their trails, from this course's simulator or from the real one.
+    """All turtles of the graph with their trails.
 
-    The panel subscribes only to poses and colours. It derives from them the states of the pens, and calls of
-    `clear` and `reset`. It records from the start, even if no page shows it, and a page can play the
-    recording.
+    The simulator is this course's own or the original turtlesim.
+
+    The panel subscribes only to the poses and the colour sensors. From their messages, it derives the states
+    of the pens, and calls of `clear` and `reset`. It records from the beginning, even if no page shows it; a
+    page can play the recording.
     """
 
     front_end: ClassVar[Path] = HERE / "turtles.js"
@@ -63,17 +65,17 @@ class TurtlePanel(Panel):
         self._reader.start()
 
     def shown(self) -> None:
-        """Send the whole recording to the page, and then each new row."""
+        """Send the whole recording to the page; each new row follows later."""
         self._reader.start()
         self._send_all()
 
     def hidden(self) -> None:
-        """Save the recording, which continues for ALONE s without a page."""
+        """Save the recording; without a page, the panel continues to record for ALONE s."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 
     def received(self, kind: str, content: PageMessage) -> None:  # noqa: ARG002
-        """Handle a message of the page: it misses rows, or the panel is out of view."""
+        """Handle a message from the page: it needs missing rows, or the panel has left the visible area."""
         if kind == "resend":
             self._send_all()
         elif kind == "pause":
@@ -150,7 +152,7 @@ class TurtlePanel(Panel):
 
 
 def _background() -> Colour:
-    """Return the colour of empty paper: from the simulator's parameters, or the default colour."""
+    """Return the background colour: from the simulator's parameters, or the default colour."""
     try:
         own = MasterClient(master_uri(), 0.5).get_param("/turtlesim", {})
     except GraphError:

@@ -1,1 +1,1 @@
-"""The type browser: service and message types, their fields, and the services and topics that have them."""
+"""The type browser: service and message types, their fields, and the services and topics of each type."""

@@ -1,4 +1,4 @@
-"""The state of a type browser, without a page or ROS: the types on this machine, and the open type."""
+"""The state of a type browser, without a page or ROS: all types on this machine, and the open type."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH, so the panel shows 
 
 
 class FieldNode(TypedDict):
-    """A field; `fields` are the fields inside a message, inside a time, or inside an array of these."""
+    """A field; `fields` are the fields of a nested message, of a time, or of the elements of an array."""
 
     name: str
     type: str
@@ -59,9 +59,10 @@ class Part(TypedDict):
 
 
 class TypeState(TypedDict):
-    """A type for the page; `problem` says why it cannot be read, and `warning` what the reader should know.
+    """A type for the page; `problem` says why it cannot be read, and `warning` is a note for the reader.
 
-    A type that cannot be read still has its file and its text. `lines` are commands to copy.
+    A type that cannot be read still has a file path and the text of the file. `lines` are commands that the
+    reader can copy.
     """
 
     name: str
@@ -84,7 +85,7 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-Use = dict[str, str | list[str]]  # a service or topic: its name, and its nodes by their role
+Use = dict[str, str | list[str]]  # a service or topic: its name, and for each role the names of its nodes
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
 
@@ -94,7 +95,7 @@ def catalogue() -> Catalogue:
 
 
 def described(name: str, half: DefinitionKind) -> TypeState:
-    """Return the state of a type for the page."""
+    """Return the page's state for the type `name`."""
     file = _file(name, half)
     state: TypeState = {
         "name": name,
@@ -125,7 +126,7 @@ def described(name: str, half: DefinitionKind) -> TypeState:
 
 
 def lines(name: str, half: DefinitionKind) -> list[dict[str, str]]:
-    """Return the lines to copy, for a terminal and for Python."""
+    """Return the commands for a terminal and the lines of Python that the reader can copy."""
     package, _, short = name.partition("/")
     tool = TOOLS[half]
     return [
@@ -136,7 +137,7 @@ def lines(name: str, half: DefinitionKind) -> list[dict[str, str]]:
 
 
 def packages(known: Catalogue) -> list[PackageTypes]:
-    """Return the packages that have types, sorted by name."""
+    """Return the packages that define types, sorted by name."""
     found: dict[str, PackageTypes] = {}
     for half, names in zip(("srv", "msg"), known, strict=True):
         for name in names:
@@ -161,7 +162,7 @@ def offers(snapshot: Snapshot) -> Offers:
 
 
 class TypeModel:
-    """Lists types, shows one of them, and lists the services or topics that have this type now.
+    """Lists all types, shows one type, and lists the present services or topics of this type.
 
     `changed` is called with keyword arguments: `packages` (the types of each package), `described` (the open
     type), and `offers` (the services and topics of each type on the graph).
@@ -182,7 +183,7 @@ class TypeModel:
         self._described: TypeState | None = None
 
     def update(self, known: Catalogue) -> None:
-        """Store the present types, and read the open type again, because its file may have changed."""
+        """Store all present types, and read the open type again, because its file may have changed."""
         with self._turn:
             if known != self._known:
                 self._known = known
@@ -190,18 +191,21 @@ class TypeModel:
             self._show()
 
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
-        """Show a type. Without `half`, a service type has priority over a message type of the same name."""
+        """Show a type. Open a type.
+
+        Without `half`, a service type has priority over a message type with the same name.
+        """
         with self._turn:
             self._open = (name, half or self._half(name))
             self._show()
 
     @property
     def file(self) -> str:
-        """The path of the open type's file, or "" if it has no file or if no type is open."""
+        """The path of the open type's file; "" if it has no file or no type is open."""
         return self._described["file"] if self._described else ""
 
     def see(self, snapshot: Snapshot) -> None:
-        """Report the services and topics of each type in a snapshot of the graph."""
+        """Report the services and topics of each type in this snapshot of the graph."""
         with self._turn:
             self._changed(offers=offers(snapshot))
 
@@ -222,7 +226,7 @@ def _file(name: str, half: DefinitionKind) -> Path | None:
     try:
         return definition_file(name, half)
     except InterfaceError:
-        return None  # the name is not a valid name of a type
+        return None  # the text is not a valid name of a type
 
 
 def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path | None) -> str:

@@ -20,11 +20,11 @@ from course_pkg.panels.paper import (
 
 HALVES = {"srv": "service type", "msg": "message type"}
 INDENT = 16.0  # px
-MOST = 40  # fields that are shown of a part
+MOST = 40  # maximum number of fields of a part
 
 
 def still(state: State) -> str:
-    """Return the picture of the open type, without the list of all types and without the path of its file."""
+    """Return the picture of the open type, without the list of types and without the path of the file."""
     described = state.get("described") or {}
     if not described.get("name"):
         count = sum(len(each["srv"]) + len(each["msg"]) for each in state.get("packages", ()))

@@ -15,16 +15,16 @@ from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
 PAUSE = 3.0  # s between two checks of the files
-SHARE = 50  # a list of a thousand packages takes long, so it may use at most a 50th of the time
+SHARE = 50  # reading a thousand packages takes long, so this may use at most a 50th of the time
 
 Files = tuple[Catalogue, int]  # the types, and the time (ns) at which the file of the open type was written
 
 
 class TypeBrowser(Panel):
-    """All service and message types of this machine, with their fields and their services or topics.
+    """All service and message types on this machine, with their fields, and their services or topics.
 
-    `name` is the type that is open at first, such as "std_srvs/SetBool". While a page shows it, the browser
-    follows the files and the graph.
+    `name` is the type that is open at the beginning, such as "std_srvs/SetBool". While a page shows the
+    browser, it reads changed files and follows the graph.
     """
 
     front_end: ClassVar[Path] = HERE / "types.js"
@@ -51,12 +51,12 @@ class TypeBrowser(Panel):
             self._graph.once()
 
     def shown(self) -> None:
-        """Start to follow the files and the graph."""
+        """Start to watch the files and the graph."""
         self._files.start()
         self._graph.start()
 
     def hidden(self) -> None:
-        """Stop following the files and the graph."""
+        """Stop watching the files and the graph."""
         self._files.stop()
         self._graph.stop()
 
@@ -69,7 +69,7 @@ class TypeBrowser(Panel):
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
     def _list(self) -> Files:
-        """Return all types, and the time at which the file of the open type was written."""
+        """Return all types, and the time (ns) at which the open type's file was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()

@@ -1,1 +1,1 @@
-"""The wire view: a real call, byte by byte."""
+"""The wire view: the bytes of a real call, explained one by one."""

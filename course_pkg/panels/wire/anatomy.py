@@ -1,4 +1,4 @@
-"""Finds the parts of TCPROS bytes: the frames of a stream, and the pieces of a header, a request and a reply.
+"""Splits TCPROS bytes: a stream into frames, and a header, a request or a reply into pieces.
 
 Sources: http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte),
 http://wiki.ros.org/ROS/Connection%20Header (the fields), and http://wiki.ros.org/msg (the order of a
@@ -29,23 +29,27 @@ from course_pkg.types import Field, Kind, MessageType
 from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
-ERROR = 400  # characters that are shown of an error message
-ITEMS = 8  # elements of an array that are shown one by one
-CODES = {1: "b", 2: "h", 4: "i", 8: "q"}  # codes of struct for signed integers; unsigned: capital letters
+ERROR = 400  # maximum number of shown characters of an error message
+ITEMS = 8  # number of elements of an array that are shown separately
+# the format characters of `struct` for signed integers; capital letters are for unsigned integers
+CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 
 Pieces = list[PieceState]
 
 
 class Frame(NamedTuple):
-    """One message; `at` is its offset in the stream. A message that was cut off ends with the stream."""
+    """One message of the stream; `at` is its offset.
+
+    If a message was cut off, the frame ends at the end of the stream.
+    """
 
     at: int
     data: bytes
 
 
 def the_header(stream: bytes) -> Frame | None:
-    """Return the connection header with its length, or None if the stream is empty."""
+    """Return the frame of the connection header, or None if the stream is empty."""
     return _frame(stream, 0, 0)
 
 
@@ -74,7 +78,7 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 
 
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
-    """Return the frame at `at`, whose length comes after `extra` bytes."""
+    """Return the frame that begins at `at`; its length field comes after `extra` bytes."""
     if at >= len(stream):
         return None
     if at + extra + 4 > len(stream):
@@ -91,12 +95,12 @@ def header_pieces(data: bytes) -> Pieces:
         while reader.rest:
             _header_field(reader)
     except ShortOfBytes:
-        pass  # close() adds the bytes that are left
+        pass  # close() adds the remaining bytes
     return reader.close()
 
 
 def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Return the pieces of a request: its length, and its fields."""
+    """Return the pieces of a request: its length field, and its fields."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the request")
@@ -107,7 +111,7 @@ def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
 
 
 def reply_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Return the pieces of a reply: the ok byte, a length, and the response's fields or the error message."""
+    """Return the pieces of a reply: the ok byte, the length field, and the response or the error message."""
     reader = Reader(data)
     try:
         worked = data[:1] == b"\1"
@@ -188,19 +192,22 @@ def _array(reader: Reader, field: Field, name: str) -> None:
 
 
 def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
-    """Read elements that are not shown. Numbers are read all at once, because an image has millions."""
+    """Read elements, but do not list them.
+
+    All numbers are read at once, because an image has millions of them.
+    """
     if item.fields or not item.kind.is_scalar or item.kind is Kind.STRING:
         for _ in range(count):
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                return  # elements without fields take no bytes, so a wrong count could be very large
+                return  # elements without fields take no bytes, so a wrong count could cause a very long loop
     else:
         reader.take(count * _format(item)[1], RAW, name)
 
 
 def _format(field: Field) -> tuple[str, int]:
-    """Return the format of a number for `struct`, and its size in bytes."""
+    """Return the character of a number's type in a `struct` format, and the size in bytes."""
     if field.kind is Kind.BOOL:
         return "<B", 1
     if field.type in FLOATS:

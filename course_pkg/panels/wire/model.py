@@ -1,6 +1,6 @@
-"""The data of the wire view: the steps of a call, and for each step the pieces of its bytes.
+"""The data of the wire view: the steps of a call, each with the pieces of its bytes.
 
-It needs no master and no page: its input is a recording from ros/wire/capture.py.
+This module needs no master and no page: its input is a recording from ros/wire/capture.py.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from course_pkg.ros.wire.capture import Wire
     from course_pkg.ros.wire.relay import RelayedConnection
 
-STEPS = 60  # steps that are shown of a long recording
-XML = 900  # characters that are shown of a request to the master, or of its response
+STEPS = 60  # maximum number of shown steps of a recording
+XML = 900  # maximum number of shown characters of a request to the master, or of the master's response
 
 FindType = Callable[[str], ServiceType]
 
@@ -37,10 +37,10 @@ _Ends = TypedDict("_Ends", {"from": str, "to": str})
 
 
 class Step(_Ends):
-    """A step of a call, `ms` after the first step; `says` explains it, and `bad` marks an error.
+    """A step of a call; `ms` is its time after the first step, `says` explains it, and `bad` marks an error.
 
-    `pieces` are the pieces of its `size` bytes; a look-up has a `text` instead. `connection` is the number of
-    the connection, or 0 if there is only one.
+    `pieces` describe the `size` bytes of the step; a look-up at the master has a `text` instead. `connection`
+    is the number of the connection, or 0 if there is only one.
     """
 
     title: str
@@ -54,7 +54,10 @@ class Step(_Ends):
 
 
 class WireState(TypedDict):
-    """A captured call for the page: `names` are those of client, server and master, `outcome` its error."""
+    """A captured call for the page: `names` are the names of the client, the server and the master.
+
+    `outcome` is the error message of the call, if it failed.
+    """
 
     service: str
     names: dict[str, str]
@@ -66,7 +69,7 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    `find` returns the type with a name. It is needed if only the connection headers contain the type.
+    `find` returns the type for a name. It is needed if the type is known only from the connection headers.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))
@@ -87,7 +90,7 @@ def _all(wire: Wire) -> list[RelayedConnection]:
 
 
 def _names(wire: Wire) -> dict[str, str]:
-    """Return the names of the client and the server, from the first connection headers."""
+    """Return the names of the client and the server; they are in the first connection headers."""
     names = {"client": "the client", "server": "the server", "master": "master"}
     for connection in reversed(wire.connections):
         for end, by_client in (("client", True), ("server", False)):
@@ -165,13 +168,13 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
 
 
 def _xml(http: bytes) -> str:
-    """Return the body of an HTTP message, with one line for each value."""
+    """Return the body of an HTTP message; each XML value is on a separate line."""
     body = http.partition(b"\r\n\r\n")[2].decode("utf-8", "replace")
     return shortened(re.sub(r"\s*\n\s*", "", body).replace("><", ">\n<"), XML)
 
 
 class _ConnectionSteps:
-    """The steps of one connection."""
+    """Collects the steps of one connection."""
 
     def __init__(
         self, connection: RelayedConnection, number: int, wire: Wire, start: float, find: FindType

@@ -1,6 +1,6 @@
-"""The pieces of a message's bytes, each with its place, name and value, and a reader that finds them.
+"""The pieces of a message, each with its offset, name and value, and a reader that splits the bytes.
 
-A long piece is folded: a page shows only its beginning and its length.
+A long piece is shortened: a page shows only its beginning and its length.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TypedDict
 
-SHOWN = 144  # bytes that are shown of one piece
-MOST = 160  # pieces that are shown of one message
-TEXT = 80  # characters that are shown of a value
+SHOWN = 144  # maximum number of shown bytes of one piece
+MOST = 160  # maximum number of shown pieces of one message
+TEXT = 80  # maximum number of shown characters of a value
 
 LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "bad", "value", "raw", "group"
 
@@ -33,9 +33,11 @@ class PieceState(TypedDict):
 
 @dataclass(frozen=True)
 class Piece:
-    """Bytes with one meaning. A GROUP has no bytes of its own: it is the heading of the pieces inside it.
+    """A range of bytes with one meaning.
 
-    `at` is the offset in the message, `size` the number of bytes there, and `depth` the indentation.
+    A GROUP has no bytes: it is a heading for the next pieces, which have a larger `depth`.
+
+    `at` is the offset in the message, `size` is the number of bytes, and `depth` is the level of indentation.
     """
 
     role: str
@@ -62,11 +64,11 @@ class Piece:
 
 
 class ShortOfBytes(Exception):
-    """The bytes end before the end of the piece that should be read."""
+    """The data end before the end of the piece that the reader should read."""
 
 
 class Reader:
-    """Reads `data` from its beginning, and collects the pieces."""
+    """Reads `data` from the beginning to the end, and collects the pieces."""
 
     def __init__(self, data: bytes) -> None:
         self.data = data
@@ -74,15 +76,15 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # the offset at which the maximum number of pieces was reached
+        self._folded: int | None = None  # the offset at which the number of pieces reached its maximum
 
     @property
     def rest(self) -> int:
-        """The number of bytes that are left."""
+        """The number of bytes that have not been read."""
         return len(self.data) - self.at
 
     def take(self, count: int, role: str, name: str, kind: str = "", value: str | None = None) -> bytes:
-        """Read `count` bytes as one piece. Raises ShortOfBytes if there are fewer bytes."""
+        """Read `count` bytes as one piece. Raises ShortOfBytes if fewer bytes are left."""
         if count > self.rest:
             raise ShortOfBytes(f"{name}: {count} bytes are needed, and {self.rest} are left")
         data = self.data[self.at : self.at + count]
@@ -91,20 +93,20 @@ class Reader:
         return data
 
     def number(self, role: str, name: str) -> int:
-        """Read a length or a count: an unsigned integer of 4 bytes, little-endian."""
+        """Read a length or a count, which is an unsigned integer of 4 bytes in little-endian order."""
         at = self.at
         (number,) = struct.unpack("<I", self.take(4, role, name, "uint32"))
         self.say(at, str(number))
         return int(number)
 
     def say(self, at: int, value: str, most: int = TEXT) -> None:
-        """Set the value of the piece that was read last, if it begins at `at` and is kept."""
+        """Set the value of the last piece, if this piece begins at `at` and was not left out."""
         if self.pieces and self.pieces[-1].at == at and not self._silent:
             self.pieces[-1] = replace(self.pieces[-1], value=shortened(value, most))
 
     @contextmanager
     def group(self, name: str, kind: str = "", value: str = "") -> Iterator[None]:
-        """Put the pieces of the block below a heading."""
+        """Show the pieces that are read in the `with` block below a heading."""
         start, place = self.at, len(self.pieces)
         self._keep(Piece(GROUP, start, b"", name, kind, value, self.depth, 0))
         self.depth += 1
@@ -117,7 +119,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """Join all bytes that are read in the block into one piece."""
+        """Show all bytes that are read in the `with` block as one piece."""
         start = self.at
         self._silent += 1
         try:
@@ -128,7 +130,7 @@ class Reader:
                 self._keep(Piece(RAW, start, self.data[start : self.at], name, "", "", self.depth))
 
     def close(self) -> list[PieceState]:
-        """Return all pieces for the page; the bytes that were not read are the last piece."""
+        """Return all pieces for the page; the bytes that were not read are one more piece at the end."""
         if self.rest:
             self.take(self.rest, RAW, "the rest", "", "bytes that belong to no other piece")
         if self._folded is not None:
@@ -146,5 +148,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return a text, shortened to at most `most` characters."""
+    """Return the text; if it has more than `most` characters, cut it and add "…"."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,4 +1,4 @@
-"""The still picture of a call: a sequence diagram of its steps, and the bytes of some of them."""
+"""The still picture of a call: a sequence diagram of the steps, and the bytes of some steps."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ from course_pkg.panels.paper import (
     wrapped,
 )
 
-ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}  # px, position of the line of each end
-ROW = 34.0  # px, height of a step
-MOST, BYTES = 24, 8  # pieces of a step, and bytes of a piece that are shown
-# The addresses are replaced, because their ports differ in each run.
+# x coordinate of the client, the server and the master (px)
+ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}
+ROW = 34.0  # height of a step (px)
+MOST, BYTES = 24, 8  # maximum number of shown pieces of a step, and of shown bytes of a piece
+# A fixed text replaces each address, because the ports differ in each run.
 ADDRESS = re.compile(r"(?:rosrpc://|http://)?[\w.-]+:\d{4,5}\b/?")
 SMALL = Style(12.0)
 DETAILED = ("Request", "Response", "Error")
@@ -80,7 +81,7 @@ def _draw_step(paper: Paper, step: State) -> None:
 
 
 def _draw_pieces(paper: Paper, step: State) -> None:
-    """Draw a row for each piece of a message: its offset, its bytes, its name, type and value."""
+    """Draw a row for each piece of a message: its offset, bytes, name, type and value."""
     paper.rule()
     paper.write(f"{step['title']}, {step['size']:,} bytes", HEADING)
     paper.y += 2

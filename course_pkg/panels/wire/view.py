@@ -1,4 +1,4 @@
-"""The widget of the wire view, which only sends a recorded call to the page."""
+"""The widget of the wire view; it only sends a recorded call to the page."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ HERE = Path(__file__).parent
 
 
 class WireView(Panel):
-    """A real call, byte by byte: look-up, connection headers, request and reply, each piece with its value.
+    """The bytes of a real call: the look-up, the connection headers, the request and the reply.
 
     `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows it, even if it
-    fails. `kind` is a type to use instead of the server's own type. `headers` are additional fields for the
-    connection header. `WireView(wire)` shows a recorded call. The protocol is described at
+    fails. `kind` is a type that the client uses instead of the server's type. `headers` are additional fields
+    of the client's connection header. `WireView(wire)` shows a recorded call. The protocol is described at
     http://wiki.ros.org/ROS/TCPROS and http://wiki.ros.org/ROS/Connection%20Header.
     """
 
@@ -47,12 +47,12 @@ class WireView(Panel):
 
     @property
     def from_client(self) -> bytes:
-        """The bytes that the client sent to the server; empty if there was no connection."""
+        """The bytes that the client sent to the server; it is empty if there was no connection."""
         return self._bytes(client=True)
 
     @property
     def from_server(self) -> bytes:
-        """The bytes that the server sent to the client; empty if there was no connection."""
+        """The bytes that the server sent to the client; it is empty if there was no connection."""
         return self._bytes(client=False)
 
     def error_message(self) -> str:
@@ -72,7 +72,7 @@ def _recorded(
     headers: Mapping[str, str] | None,
     fields: Mapping[str, Plain],
 ) -> Wire:
-    # The module imports rospy, which a page with a recorded call does not need.
+    # capture.py imports rospy, and a page with a recorded call does not need rospy.
     from course_pkg.ros.wire.capture import record_call
 
     return record_call(name, kind, headers, fields)

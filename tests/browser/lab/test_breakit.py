@@ -1,4 +1,4 @@
-"""The fault lab in a real JupyterLab, and its saved state without a kernel."""
+"""The panel "Break it" in a real JupyterLab, and its saved state without a kernel."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ LABEL = "Break it"
 
 
 def number(name: str) -> int:
-    """Return the number of the case with this fault."""
+    """Return the number of the case with the fault `name`."""
     return next(case.number for case in cases() if case.fault.name == name)
 
 
 def begin(lab: Locator, name: str) -> None:
-    """Open the case and wait for its symptom."""
+    """Open the case with the fault `name`, and wait for its symptom."""
     lab.get_by_role("button", name=f"Case {number(name)},").click()
     expect(lab.get_by_text(f"Case {number(name)}. ")).to_be_visible()
     expect(lab.get_by_text("The fault is there.")).to_be_visible()
 
 
 def answer(lab: Locator, fault: Fault) -> None:
-    """Choose a diagnosis and a remedy, and check them."""
+    """Choose the right diagnosis and remedy of a fault, and check them."""
     lab.get_by_label(fault.diagnosis.replace("`", "")).check()
     lab.get_by_label(fault.remedy.replace("`", "")).check()
     lab.get_by_role("button", name="Check").click()
@@ -54,14 +54,14 @@ def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
 
 @pytest.fixture
 def form(shared: Page) -> Locator:
-    """Run all cells again, which gives a fresh panel."""
+    """Run all cells again, so that the notebook has a new panel."""
     shared.set_viewport_size({"width": 1280, "height": 1600})
     run_all(shared)
     return panel(shared, LABEL)
 
 
 def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
-    """At first only the symptom is shown, then tools; each answer is shown with its reason."""
+    """At first, only the symptom is shown, then the outputs of tools; each answer gets a reason."""
     picture(form, "breakit-opened")
     begin(form, "stale")
     expect(form.get_by_label("What it printed")).to_contain_text("[Errno 111] Connection refused")
@@ -85,7 +85,10 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
 
 
 def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
-    """The row of cases is one tab stop with arrow keys inside; Enter begins, Space chooses, Enter checks."""
+    """The Tab key reaches the row of cases once; inside it, the arrow keys move.
+
+    Enter begins a case, Space chooses, and Enter checks the answer.
+    """
     form.get_by_role("button", name=re.compile("^Case")).first.focus()
     at = sorted(number(name) for name in ("stale", "stopped", "returns_none"))
     for _ in range(at.index(number("returns_none"))):
@@ -106,7 +109,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
 
 
 def test_a_hanging_call_is_described(form: Locator) -> None:
-    """A call without an answer within 2 s is described; at 560 px nothing overflows the panel."""
+    """If a call gets no response within 2 s, the panel says so; nothing overflows a panel of 560 px."""
     begin(form, "stopped")
     expect(form.get_by_text("No answer within 2 s; still waiting.")).to_be_visible()
     form.page.set_viewport_size({"width": 560, "height": 1600})
@@ -117,14 +120,14 @@ def test_a_hanging_call_is_described(form: Locator) -> None:
 
 
 def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) -> None:
-    """When no page shows the lab any more, its fault and its nodes are removed from the graph."""
+    """When no page shows the panel any more, its fault and its nodes are removed from the graph."""
     with (
         new_page(context) as page,
         running_notebook(page, lab, "leaving", SET_UP.replace("NODE", "leaving"), SHOW),
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        before = master.system_state().nodes  # these can include nodes of another lab's fault
+        before = master.system_state().nodes  # these nodes can include those of another panel's fault
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before
         page.goto("about:blank")
@@ -135,7 +138,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
 def test_a_saved_lab_shows_the_last_case(
     page: Page, tmp_path: Path, master: PrivateMaster, theme: str
 ) -> None:
-    """The last symptom and answer are shown, nothing can be pressed, and a sentence gives the reason."""
+    """The last symptom and answer are shown. All buttons are disabled, and a sentence gives the reason."""
     assert master.uri
     widget = BreakIt("stopped", "returns_none", store=CaseStore(tmp_path / "cases.json"))
     widget._model.open(number("returns_none"))

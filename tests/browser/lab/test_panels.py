@@ -62,7 +62,10 @@ PLOT = "plt.plot([0, 1], [1.5, 2.5])\nplt.xlabel('time (s)')\nplt.show()"
 
 
 def test_the_graph_panel_follows_the_graph(lab: Lab, lab_page: Page) -> None:
-    """Nodes and topics appear at once, a service that starts later appears, and a click shows its type."""
+    """Nodes and topics appear at once.
+
+    A service that starts later appears, too, and a click shows its type.
+    """
     later = f"import threading\nthreading.Timer(2, lambda: exec({SERVE!r}, globals())).start()"
     with running_notebook(lab_page, lab, "graph", GRAPH, "GraphPanel(node=node)", later):
         graph = panel(lab_page, "Graph panel")
@@ -82,7 +85,7 @@ def test_the_graph_panel_follows_the_graph(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
-    """After another run of the cell, the prediction is still there and is shown beside the result."""
+    """When the cell runs again, the prediction is still there; the result is shown next to it."""
     with running_notebook(
         lab_page, lab, "predict", GRAPH, PREDICT, 'p.compare("an error")', 'predictions("05")'
     ):
@@ -97,7 +100,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """All cases are decided by keyboard, then the reasons appear. Only the first choices count."""
+    """When the user has decided all cases by keyboard, the reasons appear. Only the first choices count."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
@@ -134,7 +137,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
 
 
 def test_the_dark_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
-    """Each text of each panel has a contrast of at least 4.5 : 1 in JupyterLab's dark theme."""
+    """In JupyterLab's dark theme, each text of each panel has a contrast of at least 4.5 : 1."""
     cells = (GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', PREDICT)
     with running_notebook(lab_page, lab, "dark", *cells, theme="Dark"):
         form = panel(lab_page)
@@ -149,7 +152,7 @@ def test_the_dark_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
 
 
 def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
-    """The same in the light theme, with an error and its explanation visible."""
+    """In the light theme, each text has this contrast, too; an error and its explanation are visible."""
     with running_notebook(
         lab_page, lab, "light", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()"
     ):
@@ -169,7 +172,7 @@ def test_an_empty_graph_says_what_to_do(lab: Lab, lab_page: Page) -> None:
 
 
 def test_every_kind_of_field_reaches_the_server(lab: Lab, lab_page: Page) -> None:
-    """Numbers with all digits, times, nested messages and arrays arrive as they were typed."""
+    """Numbers with all digits, times, nested messages and arrays reach the server as they were typed."""
     with running_notebook(lab_page, lab, "kinds", GRAPH, KINDS, 'ServicePanel("/kinds", kind=kinds)'):
         lab_page.set_viewport_size({"width": 1280, "height": 2000})
         form = panel(lab_page)

@@ -32,20 +32,20 @@ SHOW = 'form = ServicePanel("/getGeometry")\nform'
 
 
 def serving(page: Page, lab: Lab, node: str) -> AbstractContextManager[None]:
-    """Run a notebook that serves geometry as `node` and shows a panel for it."""
+    """Run a notebook that serves geometry as the node `node`, and that shows a service panel."""
     return running_notebook(page, lab, node, SERVER.replace("NODE", node), SHOW)
 
 
 @pytest.fixture(scope="module")
 def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
-    """Open one notebook for all tests that change neither its cells nor its kernel."""
+    """Open one notebook for all tests that do not change its cells and its kernel."""
     with new_page(context) as page, serving(page, lab, "shared"):
         yield page
 
 
 @pytest.fixture
 def form(shared: Page) -> Locator:
-    """Run all cells of the shared notebook again, which gives a fresh panel."""
+    """Run all cells of the shared notebook again, so that it has a new panel."""
     shared.set_viewport_size({"width": 1280, "height": 1000})
     run_all(shared)
     return panel(shared)
@@ -53,13 +53,13 @@ def form(shared: Page) -> Locator:
 
 @pytest.fixture
 def own_form(lab: Lab, lab_page: Page, request: pytest.FixtureRequest) -> Iterator[Locator]:
-    """Open a notebook and a kernel for this test only."""
+    """Open a notebook with a kernel for one test only."""
     with serving(lab_page, lab, request.node.name):
         yield panel(lab_page)
 
 
 def fill(form: Locator, **values: str) -> None:
-    """Type into the fields."""
+    """Type these values into the fields."""
     for name, text in values.items():
         field = form.get_by_label(name)
         field.fill(text)
@@ -71,7 +71,7 @@ def answer(form: Locator, name: str) -> Locator:
 
 
 def run_cell(page: Page, code: str) -> None:
-    """Write into a new last cell and run it."""
+    """Add a last cell with this code, and run it."""
     page.locator(".jp-Notebook-footer").click()
     editor = page.locator(".jp-CodeCell .cm-content").last
     editor.click()
@@ -80,7 +80,7 @@ def run_cell(page: Page, code: str) -> None:
 
 
 def test_fill_call_read(form: Locator) -> None:
-    """A call shows area and volume for length, width and height, with the command for the same call."""
+    """A call shows area and volume for length, width and height, and the equivalent terminal command."""
     fill(form, length="1.2", width="5.2", height="8.9")
     expect(form.get_by_label("Command for a terminal")).to_have_text(
         "rosservice call /getGeometry 1.2 5.2 8.9"
@@ -115,7 +115,10 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
 
 
 def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None:
-    """The kernel reports the mistake before Call is pressed; the message moves the page after the click."""
+    """The kernel reports the mistake while Call is pressed.
+
+    The message moves the button only after the click.
+    """
     fill(form, length="1.2", width="five")
     expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
     form.get_by_role("button", name="Call").click(delay=100)
@@ -124,7 +127,7 @@ def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None
 
 
 def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
-    """While the server does not answer, the kernel is free, and Escape cancels the call."""
+    """While the server does not answer, the kernel can run cells, and Escape cancels the call."""
     fill(form, length="-1", width="1", height="1")
     form.get_by_role("button", name="Call").click()
     expect(form.get_by_text("Calling…")).to_be_visible()
@@ -137,7 +140,7 @@ def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
 
 
 def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
-    """The call ends after the typed number of seconds, with a message that names the next step."""
+    """The call ends after the typed number of seconds, and the message says what to do next."""
     fill(form, length="-1")
     form.get_by_label("Wait at most").fill("0.3")
     form.get_by_role("button", name="Call").click()
@@ -148,7 +151,7 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
 
 
 def test_everything_by_keyboard(form: Locator) -> None:
-    """Tab moves from the service through the fields to Call; the history fills the form again."""
+    """Tab moves from the service through the fields to Call; an entry of the history fills the form again."""
     page = form.page
     form.get_by_label("Service", exact=True).focus()
     for text in ("2", "3", "4"):
@@ -169,7 +172,7 @@ def test_everything_by_keyboard(form: Locator) -> None:
 
 
 def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None:
-    """A service that starts appears; one that ends is reported as gone, and the typed values stay."""
+    """A service that starts appears. A service that ends is shown as gone, and the typed values stay."""
     form = own_form
     fill(form, length="7")
     hello = 'from std_srvs.srv import Trigger\nnode.serve("/hello", Trigger, lambda _: (True, "hi"))'
@@ -200,7 +203,7 @@ def test_a_copy_button_copies(form: Locator) -> None:
 
 
 def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) -> None:
-    """After a shutdown of the kernel the panel keeps its last state, names the reason, and does not call."""
+    """When the kernel was shut down, the panel keeps its last state, shows the reason, and makes no calls."""
     form = own_form
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "area")).to_have_text("0.0")
@@ -214,7 +217,7 @@ def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) ->
 
 @pytest.mark.parametrize("width", [1280, 560])
 def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
-    """In a wide and in a narrow window nothing overflows, and a call moves nothing above it."""
+    """In a wide and in a narrow window, nothing overflows; a call does not move anything above its result."""
     form.page.set_viewport_size({"width": width, "height": 1000})
     fill(form, length="1.2", width="5.2", height="8.9")
     before = form.get_by_role("button", name="Call").bounding_box()
@@ -234,7 +237,7 @@ def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
 def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page) -> None:
     """All cells run, the first check passes, and the form shows the area and the volume.
 
-    `course lab` removes some parts of JupyterLab; no remaining part depends on a removed one.
+    `course lab` removes some parts of JupyterLab; the other parts still work.
     """
     said: list[str] = []
     page.on("console", lambda message: said.append(message.text))
@@ -258,7 +261,7 @@ def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page)
 
 
 def _write_nothing(route: Route) -> None:
-    """Prevent the page from saving the solution in the checkout."""
+    """Prevent the page from writing the solution in the checkout."""
     if route.request.method == "PUT":
         route.abort()
     else:

@@ -1,6 +1,7 @@
-"""Chapter 07, followed literally in JupyterLab's terminal, from an empty folder to the service's response.
+"""Chapter 07 in JupyterLab's terminal, from an empty folder to the service's response.
 
-The test types each block of bash that the chapter shows, writes each exercise's file, and reads the terminal.
+The test types each block of commands in the chapter, writes the file of each exercise, and reads the
+terminal.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from tests.support import eventually
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-BUILDING = 240.0  # s for one block of commands; catkin_make takes 3 s on an idle machine
-LAST = "## 13."  # from here on, the student works without a lab sheet
+BUILDING = 240.0  # time limit for one block of commands (s); catkin_make takes 3 s on an idle machine
+LAST = "## 13."  # from this section on, the student works without a lab sheet
 SERVER = "rosrun my_geometry server.py"
 SERVED = "until rosservice list | grep -q getGeometry; do sleep 0.2; done"
-# Functions of the page: open a terminal, and return the text of the terminal with a number.
+# Functions that run in the page. They open a terminal, and return the text of the terminal with this number.
 OPEN = """async () => {
   const main = await window.jupyterapp.commands.execute("terminal:create-new");
   await main.content.ready;
@@ -41,7 +42,7 @@ TEXT = """(number) => {
 
 
 class Terminal:
-    """A terminal of JupyterLab, used with the keyboard."""
+    """A terminal of JupyterLab; the test uses it with the keyboard."""
 
     def __init__(self, page: Page, number: int) -> None:
         self._page, self._number, self._typed = page, number, 0
@@ -55,14 +56,14 @@ class Terminal:
         return text
 
     def type(self, commands: str) -> None:
-        """Type commands, each with Enter."""
+        """Type each command, and press Enter after it."""
         self._page.evaluate(SHOW, self._number)
         for line in commands.splitlines():
             self._page.keyboard.type(line)
             self._page.keyboard.press("Enter")
 
     def run(self, commands: str) -> str:
-        """Type commands, wait for the last one to end, and return what the terminal shows from then on."""
+        """Type commands, wait until the last command has ended, and return the output since then."""
         before = len(self.text.rstrip())
         self._typed += 1
         self.type(f"{commands}\necho done-{self._typed} $?")
@@ -73,7 +74,10 @@ class Terminal:
 
 @pytest.fixture
 def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
-    """Start a JupyterLab in an empty folder; make does not wait for an idle machine, and git has a name."""
+    """Start a JupyterLab in an empty folder.
+
+    make does not wait for an idle machine, and git knows a user name.
+    """
     for name, value in {
         "ROS_PARALLEL_JOBS": "-j2",
         "GIT_AUTHOR_NAME": "You",
@@ -103,7 +107,7 @@ def steps() -> Iterator[tuple[str, str]]:
 
 
 def test_the_lab_sheet_leads_to_both_outputs(context: BrowserContext, lab: Lab) -> None:
-    """From an empty folder, the typed commands lead to the area and the volume of the lab sheet's box."""
+    """In an empty folder, the commands of the lab sheet print the area and the volume of the sheet's box."""
     page = context.new_page()
     page.goto(f"{lab.url}/lab?reset")
     page.wait_for_function("window.jupyterapp", timeout=READY)

@@ -1,4 +1,7 @@
-"""The topic panel in a real JupyterLab: publish, receive, plot, and report what happened to each message."""
+"""The topic panel in a real JupyterLab.
+
+It publishes, receives, plots, and says what happened to each message.
+"""
 
 from __future__ import annotations
 
@@ -22,14 +25,14 @@ PANEL = 'TopicPanel("/speed", "std_msgs/Float64")'
 
 
 def listening(page: Page) -> Locator:
-    """Return the panel when its node has subscribed."""
+    """Return the panel as soon as it has subscribed."""
     found = panel(page, "Topic panel")
     expect(found.locator(".ros-who")).to_contain_text("this panel")
     return found
 
 
 def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Page) -> None:
-    """A message that is published before a subscriber connects is lost; the next one is received."""
+    """A message that is published before a subscriber connects is lost; the next message is received."""
     with running_notebook(lab_page, lab, "first", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("1.5")
@@ -48,7 +51,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
 
 
 def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
-    """With latch, the first message waits for its subscriber, and the panel reports it."""
+    """A latched message reaches a subscriber that connects later, and the panel says this."""
     with running_notebook(lab_page, lab, "latched", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("Latch").check()
@@ -60,7 +63,10 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
-    """Publishing at 50 Hz is received at about 50 Hz, plotted, and ends with a click."""
+    """Messages that are published at 50 Hz arrive at about 50 Hz, until a click stops them.
+
+    They are also plotted.
+    """
     with running_notebook(lab_page, lab, "rate", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("Rate", exact=True).fill("50")
@@ -77,7 +83,7 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
 
 
 def test_leaving_the_page_ends_the_node(lab: Lab, lab_page: Page) -> None:
-    """Closing the page ends the panel's publisher, while the kernel continues."""
+    """When the page is closed, the panel's publisher ends; the kernel continues."""
     with running_notebook(lab_page, lab, "left", JOIN, 'open("master.txt", "w").write(node.master)', PANEL):
         topic = listening(lab_page)
         topic.get_by_role("button", name="Publish at a rate").click()
@@ -90,7 +96,7 @@ def test_leaving_the_page_ends_the_node(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
-    """A click while a cell runs takes effect after the cell; until then a sentence gives the reason."""
+    """A click while a cell runs takes effect after the cell; until then, a sentence explains this."""
     busy = lab.folder / "busy"
     wait = "import os, time\nwhile os.path.exists('busy'): time.sleep(0.05)"
     with running_notebook(lab_page, lab, "waiting", JOIN, PANEL, wait):
@@ -107,7 +113,7 @@ def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
 
 
 def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
-    """Nothing is published while a field or a setting is wrong; the first wrong one gets the focus."""
+    """While a field or a setting is wrong, nothing is published; the first wrong field gets the focus."""
     with running_notebook(lab_page, lab, "wrong", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("fast")
@@ -122,7 +128,10 @@ def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
-    """A publisher and a subscriber of another type are named with their types; rospy reports neither."""
+    """The panel names a publisher and a subscriber of another type, with their types.
+
+    rospy reports neither.
+    """
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
         talker.publish("fast")
@@ -141,7 +150,7 @@ def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_panel_waits_for_its_topic(lab: Lab, lab_page: Page) -> None:
-    """Without a type, the panel waits for a publisher and uses its type."""
+    """If no type is given, the panel waits for a publisher and uses its type."""
     later = """
 import threading
 threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float64, queue_size=1))).start()

@@ -1,4 +1,4 @@
-"""A cell can create an action server again each time it runs, and stop() removes the action."""
+"""A cell that creates an action server can run again, and stop() removes the action."""
 
 from __future__ import annotations
 
@@ -38,19 +38,19 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_goal_is_executed(joined: Kernel) -> None:
-    """The function receives the goal and the server, and its result is returned to the client."""
+    """The function receives the goal and the server, and the client receives the function's result."""
     assert joined.run('server = ActionServer("/fetch", FetchAction, returning(3))\nresult = asked()') == 3
 
 
 def test_serving_again_replaces(joined: Kernel, master: PrivateMaster) -> None:
-    """If a cell runs again, only its new function executes goals: no variable refers to the old server."""
+    """If a cell runs again, only the new function executes goals."""
     joined.run('server = ActionServer("/fetch", FetchAction, returning(1))')
     joined.run('server = ActionServer("/fetch", FetchAction, returning(2))')
     assert joined.run("result = [asked(), asked()]") == [2, 2]
 
 
 def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
-    """A function that raises an error or sets no result aborts its goal; the next goal is executed."""
+    """If a function raises an error or sets no result, its goal is aborted; the next goal is executed."""
     assert joined.run("""
         def failing(goal, server):
             if goal.things:
@@ -66,7 +66,7 @@ def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
 
 
 def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
-    """A kernel with an action server ends by itself and unregisters the action's topics."""
+    """A kernel with an action server can end, and it unregisters the action's topics."""
     with Kernel() as kernel:
         kernel.run(START)
         kernel.run('server = ActionServer("/fetch", FetchAction, until_called_off)')

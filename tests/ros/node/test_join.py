@@ -1,4 +1,4 @@
-"""A kernel becomes a node, stays the same node when cells run again, and works again with a new master."""
+"""A kernel becomes a node, stays the same node if cells run again, and can change to a new master."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ JOIN = "from course_pkg.ros import join\nnode = join('student')"
 
 
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
-    """The set-up cell returns the same node each time, and the kernel is registered once."""
+    """The set-up cell always returns the same node, and the kernel is registered only once."""
     kernel.run(JOIN)
     assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
         True,
@@ -50,7 +50,10 @@ def test_workspace_is_found_without_sourcing() -> None:
 
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
-    """join() reports a malformed ROS_MASTER_URI at once, with an example; after the correction it works."""
+    """For a malformed ROS_MASTER_URI, join() raises an error with an example at once.
+
+    After a correction, it works.
+    """
     with Kernel({"ROS_MASTER_URI": uri}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MalformedMasterUri"
@@ -61,7 +64,7 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """join() reports an address without a master at once; after the correction it works."""
+    """If there is no master at the address, join() raises an error at once; after a correction, it works."""
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"
@@ -71,7 +74,7 @@ def test_no_program_at_the_uri() -> None:
 
 
 def test_silent_program_at_the_uri() -> None:
-    """join() reports an address that accepts connections but sends nothing, within 4 s."""
+    """If a program accepts the connection but sends nothing, join() raises an error within 4 s."""
     with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
         uri = f"http://localhost:{mute.getsockname()[1]}"
         kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")
@@ -81,7 +84,7 @@ def test_silent_program_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """join() reports that a web server is not a master."""
+    """If a web server is at the address, join() says that it is not a master."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None
@@ -92,7 +95,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """The second kernel gets an error because the name is taken, and the first kernel stays a node."""
+    """The second kernel gets an error, because the name is in use; the first kernel stays a node."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)
@@ -103,7 +106,7 @@ def test_two_kernels_with_one_name(kernel: Kernel) -> None:
 
 
 def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
-    """After SIGKILL of a kernel, a new kernel can use its name, and the old registrations are removed."""
+    """After SIGKILL of a kernel, a new kernel can have the same name. The old registrations are removed."""
     former = Kernel()
     former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
     former.kill()
@@ -114,7 +117,10 @@ def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
 
 
 def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
-    """One process can be only one node: a second name is refused, and the node does not change."""
+    """A process can be only one node.
+
+    join() with a second name raises an error, and the node does not change.
+    """
     kernel.run(JOIN)
     reply = kernel.ask("join('other')")
     assert reply.error == "NotJoined"
@@ -124,12 +130,12 @@ def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
 def test_illegal_name(kernel: Kernel, name: str) -> None:
-    """An invalid name is refused before anything is started."""
+    """For an invalid name, join() raises an error before it starts anything."""
     assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
 
 
 def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
-    """join() on another thread raises an error before it calls rospy, so join() still works afterwards."""
+    """On another thread, join() raises an error before it calls rospy; a later join() still works."""
     kernel.run("""
         import threading
         from course_pkg.errors import NotJoined
@@ -149,7 +155,7 @@ def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
 
 
 def test_private_master_killed() -> None:
-    """If the kernel's private master was killed, the set-up cell starts a new one and registers again."""
+    """If the kernel's private master was killed, the set-up cell starts a new master and registers again."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         uri = kernel.run("""
@@ -188,7 +194,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """If a shared master was restarted, the set-up cell registers everything again."""
+    """If a shared master was restarted, the set-up cell registers the node's services and topics again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -219,7 +225,7 @@ def test_moving_to_another_master() -> None:
 
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
-    """Requests to a stopped master fail within their timeout; after the master continues, they work."""
+    """While a master is stopped, requests fail within their timeout; when it continues, requests work."""
     kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
     with stopped(master.pid):
         for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
@@ -230,7 +236,7 @@ def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_exit_while_the_master_is_stopped() -> None:
-    """A kernel ends within 12 s even if its master does not answer."""
+    """A kernel ends within 12 s, even if its master does not answer."""
     with PrivateMaster() as own:
         kernel = Kernel({"ROS_MASTER_URI": own.uri})
         kernel.run(JOIN)
@@ -247,7 +253,10 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters everything and ends all processes; after join(), the kernel can serve again."""
+    """leave() unregisters everything and ends all processes.
+
+    After another join(), the kernel can serve again.
+    """
     kernel.run(
         JOIN
         + """
@@ -267,7 +276,10 @@ result = server.running
 
 
 def test_leaving_is_prompt(kernel: Kernel) -> None:
-    """leave() and the end of the process are quick, because they do not wait for rospy's threads."""
+    """leave() does not wait for rospy's threads, and neither does the end of the process.
+
+    So both are fast.
+    """
     kernel.run(JOIN)
     assert kernel.ask("node.leave()").took < 0.3
     started = time.monotonic()
@@ -276,7 +288,7 @@ def test_leaving_is_prompt(kernel: Kernel) -> None:
 
 
 def test_root_logger_is_not_changed(kernel: Kernel) -> None:
-    """join() does not change the handlers and the level of the root logger."""
+    """join() changes neither the handlers nor the level of the root logger."""
     assert kernel.run("""
         import logging
         logging.basicConfig(level=logging.ERROR)
@@ -289,7 +301,7 @@ def test_root_logger_is_not_changed(kernel: Kernel) -> None:
 
 
 def test_log_of_a_handler_is_not_printed_in_the_cell(master: PrivateMaster) -> None:
-    """Log messages of a handler's thread go to the node's file; log messages of the cell are printed."""
+    """What a handler's thread logs goes to the node's log file; what the cell logs is printed."""
     kernel = Kernel()
     kernel.run(
         JOIN
@@ -322,7 +334,7 @@ rospy.spin()
 
 @pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
 def test_node_that_was_shut_down_starts_again(kernel: Kernel, master: PrivateMaster, how: str) -> None:
-    """After a shutdown, the node's methods raise an error until the set-up cell restores everything."""
+    """After a shutdown, the node's methods raise an error, until the set-up cell restores the node."""
     kernel.run(
         JOIN
         + """
@@ -353,7 +365,7 @@ heard = node.subscribe("/numbers", UInt32)
 
 
 def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
-    """A forked child is not the node, and its end does not unregister its parent's services."""
+    """A forked child is not the node; when it ends, its parent's services stay registered."""
     assert kernel.run(
         JOIN
         + """

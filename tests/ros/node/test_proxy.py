@@ -1,4 +1,7 @@
-"""Calls that never end with plain rospy end at their deadline, with an error message."""
+"""With plain rospy, these calls never end.
+
+With the course, they end at their timeout with an error message.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # s; the deadline is 0.5 s, but the machine may be busy
+LONGEST = 2.0  # s; the timeout is 0.5 s, but the machine may be busy
 
 RAW_SERVER = """
 import rospy, sys, threading
@@ -44,7 +47,7 @@ rospy.spin()
 
 @pytest.fixture
 def raw() -> Iterator[NodeProcess]:
-    """Run a node of plain rospy, without the course."""
+    """Run a node that uses only rospy, without the course."""
     with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
         process.wait_for_service("/raw/well")
         yield process
@@ -59,12 +62,13 @@ def joined(kernel: Kernel) -> Kernel:
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Return a port that never sends anything; without `accept`, it does not accept connections."""
+    """Return a port on which nothing is ever sent; without `accept`, it does not accept connections."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         listener.listen(0)
         held = []
-        if not accept:  # The queue of connections is full, so more connections get no answer to their SYN.
+        # the queue of connections is full, so a new connection gets no answer to its SYN packet
+        if not accept:
             for _ in range(4):
                 held.append(socket.socket())
                 held[-1].setblocking(False)
@@ -76,7 +80,7 @@ def listening(accept: bool = True) -> Iterator[int]:
 
 @contextmanager
 def registered(name: str, uri: str) -> Iterator[None]:
-    """Register a service that no node serves at the master."""
+    """Register a service at the master, although no node serves it."""
     master = MasterClient(os.environ["ROS_MASTER_URI"])
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
@@ -84,7 +88,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 
 def times_out(kernel: Kernel, name: str) -> str:
-    """Check that a call from the kernel ends with CallTimeout at its deadline; return the error message."""
+    """Assert that a call in the kernel raises CallTimeout in time; return the error message."""
     reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
@@ -93,20 +97,20 @@ def times_out(kernel: Kernel, name: str) -> str:
 
 @pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
 def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str) -> None:
-    """A call ends at its deadline if the handler never returns or calls sys.exit(); other calls work."""
+    """If the handler never returns, or calls sys.exit(), the call ends at its timeout; other calls work."""
     assert "its handler is still working" in times_out(joined, name)
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_stopped_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A call of a stopped server ends at its deadline; after the server continues, calls work again."""
+    """A call to a stopped server ends at its timeout; when the server continues, calls work again."""
     with stopped(raw.pid):
         assert "but sends nothing" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
-    """If an idle connection blocks a server of plain rospy, a call still ends at its deadline."""
+    """If an idle connection blocks a server of plain rospy, the call still ends at its timeout."""
     uri = MasterClient(os.environ["ROS_MASTER_URI"]).lookup_service("/raw/well")
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
@@ -115,7 +119,7 @@ def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess)
 
 
 def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster) -> None:
-    """If the master is stopped, the error message names the master, not the server."""
+    """If the master is stopped, the error message says "master" and not "server"."""
     with stopped(master.pid):
         assert "the master" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
@@ -123,13 +127,13 @@ def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster)
 
 @pytest.mark.parametrize("accept", [True, False], ids=["accepts", "does not even accept"])
 def test_silent_address(joined: Kernel, accept: bool) -> None:
-    """A call to an address that does not answer, or does not accept the connection, ends at its deadline."""
+    """If an address does not answer, or does not accept the connection, the call ends at its timeout."""
     with listening(accept) as port, registered("/mute", f"rosrpc://localhost:{port}"):
         times_out(joined, "/mute")
 
 
 def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
-    """If the server ends during the call, rospy's error is raised at once."""
+    """If the server ends during the call, the call raises rospy's error at once."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/dies', Trigger, timeout=20)")
     assert reply.error == "ServiceException"
     assert reply.words.startswith(
@@ -139,7 +143,7 @@ def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_killed_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A killed server stays registered, so a call raises rospy's error about the connection."""
+    """A killed server stays registered, so the call raises rospy's error about the connection."""
     raw.kill()
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/well', Trigger)")
     assert (reply.error, reply.words) == (
@@ -149,13 +153,13 @@ def test_killed_server(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_no_such_service(joined: Kernel) -> None:
-    """A name without a service raises rospy's error."""
+    """If there is no service with this name, the call raises rospy's error."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/nope', Trigger)")
     assert (reply.error, reply.words) == ("ServiceException", "service [/nope] unavailable")
 
 
 def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
-    """Another thread can cancel a running call, and afterwards the proxy can call again."""
+    """Another thread can cancel a running call, and the proxy can call again afterwards."""
     reply = joined.ask("""
         import threading
         from std_srvs.srv import Trigger
@@ -169,7 +173,7 @@ def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
-    """An interrupt of the cell ends its call, and the node continues."""
+    """An interrupt of the cell ends its call, and the node continues to work."""
     joined.begin("from std_srvs.srv import Trigger\nnode.call('/raw/sleeps', Trigger, timeout=20)")
     eventually(lambda: "sleeping" in raw.output())
     joined.interrupt()
@@ -179,7 +183,7 @@ def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
-    """A persistent proxy reconnects after its server was replaced, without an error."""
+    """If its server was replaced, a persistent proxy connects again without an error."""
     joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
     for _ in range(2):
         with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
@@ -188,7 +192,7 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
-    """If a call on a persistent connection times out, the next call opens a new connection."""
+    """If a call on a persistent connection times out, the next call uses a new connection."""
     joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
     joined.run("proxy()")
     with stopped(raw.pid):
@@ -200,7 +204,7 @@ def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess
 
 @contextmanager
 def switching_often() -> Iterator[None]:
-    """Make Python switch threads as often as possible, which makes race conditions more probable."""
+    """Make Python switch threads as often as possible, so that race conditions become more likely."""
     kept = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:
@@ -215,7 +219,7 @@ def watching() -> list[threading.Thread]:
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """An overdue action is repeated until disarm(), and does not run after that."""
+    """An overdue action is called again and again until disarm(), and never afterwards."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -227,7 +231,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Return after the watchdog's thread has ended one loop and begun the next."""
+    """Wait until the watchdog's thread has finished one loop and begun the next loop."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -235,7 +239,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The watchdog's thread ends some time after the last call, and the next call starts a new thread."""
+    """Some time after the last call, the watchdog's thread ends; the next call starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()
@@ -249,7 +253,7 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
 
 
 def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An action runs at its deadline even if it is armed at the moment when the thread ends."""
+    """An action is called at its deadline, even if it was armed at the moment when the thread ended."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

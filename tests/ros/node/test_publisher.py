@@ -1,4 +1,4 @@
-"""A cell can create a publisher again each time it runs, and the publisher counts its messages."""
+"""A cell that creates a publisher can run again, and the publisher counts its messages."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
-    """wait() returns when a subscriber is connected; the subscriber receives the next messages."""
+    """wait() returns as soon as a subscriber is connected; the subscriber receives all later messages."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -45,7 +45,10 @@ def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
 
 
 def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
-    """A message that is published before a subscriber connects is lost, and counted as unheard."""
+    """A message that is published before a subscriber connects is lost.
+
+    The publisher counts it as unheard.
+    """
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -55,11 +58,11 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
         heard.wait(1)
         result = [m.data for m in heard.messages], spoken.published, spoken.unheard
     """) == [[2], 2, 1]
-    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts it as sent
+    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts the message as sent
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
-    """With latch, a later subscriber receives the last message, and this message counts as sent."""
+    """With latch, a subscriber that connects later receives the last message. This message counts as sent."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32, latch=True)
         spoken.publish(1)
@@ -72,7 +75,7 @@ def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
 
 
 def test_a_cell_that_runs_again_replaces_its_publisher(joined: Kernel, master: PrivateMaster) -> None:
-    """The earlier publisher stops, with its latch and its type, and the new publisher publishes."""
+    """The old publisher stops, with its latched message and its type; the new publisher publishes."""
     reply = joined.ask("""
         old = node.advertise("/numbers", UInt32, latch=True)
         old.publish(1)
@@ -91,7 +94,7 @@ def test_a_cell_that_runs_again_replaces_its_publisher(joined: Kernel, master: P
 
 
 def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
-    """A full queue drops its oldest message; each message counts as sent, waiting or dropped."""
+    """A full queue drops its oldest message; each message is counted as sent, waiting or dropped."""
     with Kernel() as other:
         other.run(LISTEN + 'heard = node.subscribe("/long", String)')
         kernel.run(START + 'spoken = node.advertise("/long", String, queue_size=2); spoken.wait(1)')
@@ -113,7 +116,7 @@ def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: Private
 
 
 def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
-    """Messages to a subscriber that has ended stay counted; the subscriber is no longer listed."""
+    """When a subscriber has ended, its messages are still counted. The subscriber is not listed any more."""
     assert joined.run("""
         from tests.support import eventually
         spoken = node.advertise("/numbers", UInt32)
@@ -129,7 +132,7 @@ def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
 
 
 def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
-    """wait() raises an error after its timeout, with a command that lists the subscribers."""
+    """wait() raises an error after its timeout; the message contains a command that lists the subscribers."""
     reply = joined.ask("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.wait(1, timeout=0.2)
@@ -139,7 +142,7 @@ def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
 
 
 def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters the publisher, and after join() it stays stopped."""
+    """leave() unregisters the publisher; join() does not start it again."""
     joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         node.leave()
@@ -150,7 +153,7 @@ def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, mas
 
 
 def test_a_publisher_is_restored_when_rospy_starts_again(joined: Kernel) -> None:
-    """After a shutdown, join() advertises the node's topics again."""
+    """After a shutdown of the node, join() registers its topics again."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.publish(1)
@@ -164,7 +167,7 @@ def test_a_publisher_is_restored_when_rospy_starts_again(joined: Kernel) -> None
 
 
 def test_a_silent_master_is_reported(joined: Kernel, master: PrivateMaster) -> None:
-    """advertise() raises MasterSilent if the master does not answer; rospy.Publisher would wait for ever."""
+    """If the master does not answer, advertise() raises MasterSilent; rospy.Publisher would wait for ever."""
     with stopped(master.pid):
         reply = joined.ask("node.advertise('/numbers', UInt32)")
         assert (reply.error, reply.took < 4) == ("MasterSilent", True)

@@ -1,4 +1,4 @@
-"""A cell can define a service again each time it runs, and the service stores its calls."""
+"""A cell that defines a service can run again, and the service stores its calls."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_serving_again_replaces(joined: Kernel) -> None:
-    """The latest handler answers, on new connections and on persistent connections."""
+    """On new and on persistent connections, the latest handler is called."""
     assert joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -42,7 +42,10 @@ def test_serving_again_replaces(joined: Kernel) -> None:
 
 
 def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
-    """serve() also replaces a service of rospy.Service; rospy itself would raise 'already registered'."""
+    """serve() also replaces a service that rospy.Service made.
+
+    Rospy itself would raise 'already registered'.
+    """
     assert (
         joined.run("""
         raw = rospy.Service("/x", Trigger, lambda request: (True, "raw"))
@@ -55,7 +58,7 @@ def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
 
 
 def test_another_type_with_the_same_name(joined: Kernel) -> None:
-    """A service name can get another type; a client with a persistent connection receives an error."""
+    """A service can change its type; a client with a persistent connection then gets an error."""
     reply = joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -72,7 +75,7 @@ def test_another_type_with_the_same_name(joined: Kernel) -> None:
 
 
 def test_calls_are_stored(joined: Kernel) -> None:
-    """The service stores the request, response and time of the last 1000 calls."""
+    """The service stores the request, the response and the time of each of the last 1000 calls."""
     assert joined.run("""
         import time
         started = time.time()
@@ -120,7 +123,7 @@ def test_errors_are_sent_to_the_client_and_stored(joined: Kernel, handler: str, 
 
 
 def test_traceback_shows_the_handler(joined: Kernel) -> None:
-    """The stored traceback names the line of the handler that failed."""
+    """The stored traceback contains the line of the handler that failed."""
     assert joined.run("""
         def stumbling_handler(request):
             raise ValueError("no bottom")
@@ -131,7 +134,7 @@ def test_traceback_shows_the_handler(joined: Kernel) -> None:
 
 
 def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
-    """The handler's printed text is in `output`; only the cell's own text is printed below the cell."""
+    """`output` contains the handler's printed text; below the cell, only the cell's own text is printed."""
     output = joined.run("""
         def chatty(request):
             print("from the handler")
@@ -149,7 +152,10 @@ def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
 
 
 def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
-    """A stopped service is unregistered; a second stop, or a stop of a replaced service, changes nothing."""
+    """A stopped service is unregistered.
+
+    A second stop changes nothing, and neither does a stop of a replaced service.
+    """
     assert joined.run("""
         first = node.serve("/x", Trigger, lambda request: (True, "first"))
         second = node.serve("/x", Trigger, lambda request: (True, "second"))
@@ -171,7 +177,7 @@ def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
     ],
 )
 def test_another_class_in_place_of_the_type(joined: Kernel, kind: str, told: str) -> None:
-    """An argument that is not a service type raises an error with the expected type."""
+    """If an argument is not a service type, the error contains the expected type."""
     for cell in (f"node.serve('/x', {kind}, print)", f"node.call('/x', {kind})"):
         reply = joined.ask(cell)
         assert reply.error == "NotAServiceType"
@@ -179,7 +185,7 @@ def test_another_class_in_place_of_the_type(joined: Kernel, kind: str, told: str
 
 
 def test_idle_connections_do_not_block_clients(joined: Kernel, master: PrivateMaster) -> None:
-    """Connections that send nothing, or only a part of a header, do not block other clients."""
+    """Connections on which nothing, or only a part of a header, is sent do not block other clients."""
     joined.run("node.serve('/x', Trigger, lambda request: (True, 'here'))")
     uri = MasterClient(master.uri).lookup_service("/x")
     assert uri is not None
@@ -196,7 +202,10 @@ def test_idle_connections_do_not_block_clients(joined: Kernel, master: PrivateMa
 
 
 def test_burst_of_clients(joined: Kernel) -> None:
-    """Thirty simultaneous calls all succeed within 1 s, so none of them waited for TCP's next attempt."""
+    """Thirty simultaneous calls all succeed within 1 s.
+
+    So no connection had to wait for a TCP retransmission.
+    """
     took = joined.run("""
         import time
         from concurrent.futures import ThreadPoolExecutor
@@ -226,7 +235,10 @@ def test_calling_itself(joined: Kernel) -> None:
 
 
 def test_three_ways_to_give_a_request(joined: Kernel) -> None:
-    """A call accepts fields by position, fields by name, or a request; wrong values raise rospy's errors."""
+    """A call accepts positional fields, named fields, or a request.
+
+    For wrong values, it raises rospy's errors.
+    """
     assert joined.run("""
         from std_srvs.srv import SetBoolRequest
         node.serve("/x", SetBool, lambda request: (request.data, ""))
@@ -239,7 +251,7 @@ def test_three_ways_to_give_a_request(joined: Kernel) -> None:
 
 
 def test_types_from_text_and_from_a_name(joined: Kernel) -> None:
-    """serve() and call() also accept a class that was compiled from text, and the name of a type."""
+    """serve() and call() also accept a class that was made from text, and the name of a type."""
     assert joined.run("""
         from course_pkg.types import compile_service
         echo = compile_service("course_pkg/Echo", "string text\\n---\\nstring text\\n")

@@ -1,4 +1,4 @@
-"""A cell with plain rospy can run again: the objects of its last run are ended first."""
+"""A cell with plain rospy can run again, because the objects of its last run are ended first."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def value(notebook: NotebookKernel, code: str) -> str:
 
 
 def silent(shown: Shown) -> None:
-    """Assert that a cell ran without any output."""
+    """Assert that a cell had no output."""
     assert shown == Shown(), shown
 
 
@@ -33,7 +33,10 @@ def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """Objects from a class's `__init__` belong to the cell that calls it, not to the cell with the class."""
+    """Objects that a class creates in `__init__` belong to the cell that calls it.
+
+    They do not belong to the cell with the class.
+    """
     notebook.run(
         """
         class Counter:
@@ -73,7 +76,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If a changed cell no longer creates the publisher and subscriber, both are unregistered."""
+    """If the changed cell does not create the publisher and the subscriber, both are unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -100,7 +103,7 @@ def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_action_server_cell_runs_again(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The new action server executes the goals; the thread and the topics of the old one have ended."""
+    """The new action server executes the goals; the old one's thread and topics are gone."""
     notebook.run("import actionlib\nfrom actionlib_msgs.msg import GoalStatus\nfrom course_pkg import msg")
     cell = """
     def execute(goal):
@@ -125,7 +128,10 @@ def test_action_server_cell_runs_again(notebook: NotebookKernel, master: Private
 
 
 def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
-    """A cell replaces the service of another cell with the same name, and prints one line about it."""
+    """A cell that serves the same name as another cell replaces that service.
+
+    It prints one line about this.
+    """
     serve = "service = rospy.Service('/shared', Trigger, lambda r: (True, '{}'))"
     silent(notebook.run(serve.format("one"), "one"))
     for cell in ("two", "one", "two"):
@@ -136,7 +142,7 @@ def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
 
 
 def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
-    """In one run of a cell, rospy refuses a second service with the same name, as in a script."""
+    """If one run of a cell serves a name twice, rospy refuses the second service, as it does in a script."""
     cell = "rospy.Service('/twice', Trigger, print)\nrospy.Service('/twice', Trigger, print)"
     shown = notebook.run(cell, "twice")
     assert (shown.ename, shown.evalue) == ("ServiceException", "service [/twice] already registered")
@@ -144,14 +150,17 @@ def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
 
 
 def test_cells_without_ids(notebook: NotebookKernel) -> None:
-    """A client such as nbclient sends no cell ids, so each execution counts as a separate cell."""
+    """A client such as nbclient sends no cell ids; then each execution counts as a separate cell."""
     serve = "service = rospy.Service('/no_id', Trigger, lambda r: (True, ''))"
     silent(notebook.run(serve))
     assert notebook.run(serve) == Shown(out=REPLACES.format("/no_id"))
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """A publisher from a handler stays registered when the cell that called the handler runs again."""
+    """If a handler creates a publisher, the publisher stays.
+
+    This is so even if the cell that called the handler runs again.
+    """
     cell = """
     def handle(request):
         global made
@@ -167,7 +176,7 @@ def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, mast
 
 
 def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
-    """A service belongs to the running cell, even if a thread that the cell started creates it."""
+    """If a thread of a cell creates a service while the cell runs, the service belongs to this cell."""
     cell = """
     def work():
         global service
@@ -182,7 +191,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:
-    """A persistent proxy of the old service gets an error message: create the proxy again."""
+    """A persistent proxy of the old service raises an error that says: create the proxy again."""
     serve = "service = rospy.Service('/kept', Trigger, lambda r: (True, ''))"
     notebook.run(serve, "kept")
     notebook.run("proxy = rospy.ServiceProxy('/kept', Trigger, persistent=True)\nproxy()", "proxy")
@@ -198,7 +207,7 @@ def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
 
 
 def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """When the cell with join() runs again, /rosout and the logger services stay registered."""
+    """If the cell with join() runs again, /rosout and the logger services stay registered."""
     for _ in range(2):
         silent(notebook.run("node = join('student')", "join"))
     state = MasterClient(master.uri).system_state()
@@ -207,7 +216,7 @@ def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, maste
 
 
 def test_init_node_after_join(notebook: NotebookKernel) -> None:
-    """After join(), a call of init_node() in a cell changes nothing, with any valid arguments."""
+    """After join(), a call of init_node() with any valid arguments changes nothing."""
     for arguments in ("'listener'", "'listener', anonymous=True", "'student', disable_signals=True"):
         silent(notebook.run(f"rospy.init_node({arguments})"))
     assert value(notebook, "rospy.get_name()") == "'/student'"
@@ -215,7 +224,10 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """Without a master, a cell can run again and does not block; with a new master, it serves again."""
+    """Without a master, a cell can run again and does not block.
+
+    With a new master, its service works again.
+    """
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")
         kernel.run("node = join('student')", "join")
@@ -230,7 +242,7 @@ def test_cell_that_runs_again_without_a_master() -> None:
 
 
 def test_kernel_ends_although_it_has_an_action_server(master: PrivateMaster) -> None:
-    """The kernel's process can end even if a thread of actionlib is running."""
+    """The kernel's process can end, even if a thread of actionlib is running."""
     with NotebookKernel() as kernel:
         kernel.run("import actionlib\nfrom course_pkg import join, msg\nnode = join('acting')")
         kernel.run("server = actionlib.SimpleActionServer('/act', msg.FetchAction, print, auto_start=False)")

@@ -1,4 +1,4 @@
-"""%rosrun and %roslaunch start programs; these end when their cell runs again, or with the kernel."""
+"""%rosrun and %roslaunch start programs; the programs end when their cell runs again, or with the kernel."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def value(notebook: NotebookKernel, code: str) -> str:
 
 
 def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The returned object waits for a service, contains the output, and stops the program."""
+    """The returned object can wait for a service, contains the output, and can stop the program."""
     notebook.run("server = %rosrun course_pkg server", "rosrun")
     assert notebook.run("server.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "server") == "<rosrun course_pkg server: running>"
@@ -32,7 +32,7 @@ def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster
 
 
 def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
-    """%rosrun passes arguments to the program, also in quotes; wait() returns the exit status."""
+    """%rosrun passes arguments to the program, even in quotes; wait() returns the exit status."""
     shown = notebook.run("client = %rosrun course_pkg client 1 2 'not a number'\nclient.wait()")
     assert shown.results == ["2"], shown
     assert value(notebook, "client").endswith("'not a number': ended with exit status 2>")
@@ -78,7 +78,7 @@ def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
     ],
 )
 def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: str) -> None:
-    """A misspelt name raises an error with one message below the line of the cell."""
+    """For a misspelt name, the cell shows one error message."""
     shown = notebook.run(line)
     assert shown.ename == error
     assert words in shown.evalue
@@ -92,12 +92,12 @@ def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: st
 
 @pytest.mark.parametrize("line", ["%rosrun course_pkg", "%roslaunch", "%roslaunch course_pkg"])
 def test_usage(notebook: NotebookKernel, line: str) -> None:
-    """A missing argument shows the usage, as in a terminal."""
+    """If an argument is missing, the usage is shown, as in a terminal."""
     assert notebook.run(line).err.startswith(f"UsageError: usage: {line.split()[0]} PACKAGE")
 
 
 def test_a_killed_kernel_leaves_no_program(master: PrivateMaster) -> None:
-    """After SIGKILL of the kernel, its program ends and is unregistered."""
+    """After SIGKILL of the kernel, its program ends and its registrations are removed."""
     with NotebookKernel() as kernel:
         kernel.run(SETUP.replace("student", "killed"))
         kernel.run("server = %rosrun course_pkg server\nserver.wait(service='/getGeometry')")

@@ -37,18 +37,18 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether all of the processes have ended; a zombie has ended."""
+    """Return whether all these processes have ended; a zombie counts as ended."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
 def port_is_free(uri: str) -> bool:
-    """Return whether no process listens at the port of the address."""
+    """Return whether no process listens on the port of this address."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", int(uri.rstrip("/").rpartition(":")[2]))) != 0
 
 
 def test_killed_owner_of_a_private_master() -> None:
-    """After SIGKILL of a kernel, all its descendants end, also roslaunch's nodes, and the port is free."""
+    """After SIGKILL of a kernel, all its descendants end, even the nodes of roslaunch. Its ports are free."""
     kernel = Kernel({"ROS_MASTER_URI": None})
     uri = kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -85,7 +85,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed after its owner's end, and its registrations are removed."""
+    """A node that ignores SIGTERM is killed after the end of its owner. Its registrations are removed."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
@@ -104,7 +104,7 @@ node.wait_for_service("/deafened")
 
 
 def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
-    """A kernel that ends normally leaves no registrations and no processes, and ends within 5 s."""
+    """A kernel that ends normally leaves no registrations and no processes; this takes at most 5 s."""
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -114,7 +114,7 @@ def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
 
 
 def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
-    """An interrupt of the kernel does not reach its nodes, because they are not in its process group."""
+    """An interrupt of the kernel does not reach its nodes, because they are in another process group."""
     kernel.run(
         "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
     )
@@ -141,7 +141,7 @@ def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_stubborn_descendants_are_killed(number: signal.Signals) -> None:
-    """A grandchild in its own session that ignores signals is killed after its parent's end."""
+    """If a grandchild in another session ignores signals, it is killed after the end of its parent."""
     stubborn = "import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)]; time.sleep(1000)"
     parent = f"""
 import subprocess, sys, time
@@ -174,7 +174,7 @@ sys.exit(process.returncode)
 
 
 def test_background_processes_of_a_foreground_command_end(tmp_path: Path) -> None:
-    """A command in the foreground uses the owner's input and output; its background processes are ended."""
+    """A foreground command uses its owner's input and output; its background processes end with it."""
     line = f"sleep 1000 & echo $! > {tmp_path}/pid; setsid sleep 1000 & cat; exit 4"
     done = subprocess.run(
         [sys.executable, "-c", OWNER, "sh", "-c", line],
@@ -189,7 +189,7 @@ def test_background_processes_of_a_foreground_command_end(tmp_path: Path) -> Non
 
 
 def test_a_terminal_interrupts_a_foreground_command_once() -> None:
-    """The command receives each Ctrl-C exactly once, and may continue after it."""
+    """Each Ctrl-C reaches the command exactly once, and the command may continue."""
     command = (
         "import signal\n"
         "came = []\n"

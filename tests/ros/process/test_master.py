@@ -16,7 +16,10 @@ from tests.support import eventually, stopped
 
 
 def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The master answers inside the block and has ended after it; its log file is in ROS_LOG_DIR."""
+    """Inside the `with` block, the master answers; after it, the master has ended.
+
+    Its log file is in ROS_LOG_DIR.
+    """
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     with PrivateMaster() as master:
         client = MasterClient(master.uri)
@@ -38,7 +41,7 @@ def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_busy_port() -> None:
-    """start() raises PortBusy with the number of the port if another program uses it."""
+    """If another program uses the port, start() raises PortBusy with the number of the port."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         with pytest.raises(PortBusy, match=str(port)):
@@ -104,7 +107,7 @@ def test_unknown_host() -> None:
 
 
 def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
-    """A client can call a new master at the same address, despite its open connection to the old master."""
+    """A client can call a new master at the address of the old one, even after a call of the old one."""
     with PrivateMaster() as former:
         client = MasterClient(former.uri)
         client.pid()

@@ -1,4 +1,4 @@
-"""Nodes as processes: start them, wait for them, end them with their registrations; private graphs."""
+"""Nodes as processes: start them, wait for them, end them, and remove their registrations; private graphs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.usefixtures("master")
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:
-    """The error message for an unknown package or program contains similar names."""
+    """For an unknown package or program, the error message contains similar names."""
     with pytest.raises(UnknownExecutable) as error:
         NodeProcess.rosrun(package, program)
     assert message in str(error.value)
@@ -68,7 +68,10 @@ def test_waiting_has_a_limit() -> None:
 
 
 def test_waiting_for_output() -> None:
-    """wait_for_output() returns after the text is printed; it fails at the timeout or the process's end."""
+    """wait_for_output() returns when the text was printed.
+
+    It fails at the timeout, and when the process ends.
+    """
     script = "import time; print('first'); time.sleep(60)"
     with NodeProcess([sys.executable, "-c", script]) as process:
         process.wait_for_output("first")
@@ -82,7 +85,7 @@ def test_waiting_for_output() -> None:
 
 
 def test_waiting_checks_the_process(kernel: Kernel) -> None:
-    """wait_for_service() does not return while another node still serves the name."""
+    """While another node serves the name, wait_for_service() does not return."""
     kernel.run("""
         from course_pkg.srv import geometry
         from course_pkg.ros import join
@@ -113,7 +116,7 @@ threading.Event().wait()
 
 
 def test_stop_unregisters_a_node_that_registers_meanwhile(master: PrivateMaster) -> None:
-    """stop() also removes a registration that the process makes when it receives SIGINT."""
+    """If the process registers a service while it ends, stop() removes this registration, too."""
     late = """
 import os, rosgraph, signal, socket
 listener = socket.create_server(("127.0.0.1", 0))
@@ -134,7 +137,7 @@ signal.pause()
 
 
 def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
-    """kill() leaves registrations at the master; the next node with the same name replaces them."""
+    """After kill(), the registrations stay at the master; the next node with the same name replaces them."""
     process = NodeProcess.rosrun("course_pkg", "server")
     process.wait_for_service("/getGeometry")
     process.kill()
@@ -162,7 +165,7 @@ def test_running_again_replaces(kernel: Kernel) -> None:
 
 
 def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
-    """A program can run in two namespaces; a second run in the same namespace replaces the first."""
+    """A program can run in two namespaces; a second run in one namespace replaces the first run there."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -192,7 +195,7 @@ def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
 
 
 def test_messages_continue_without_the_master() -> None:
-    """Connected nodes still exchange messages after their master has ended; a new tool finds no master."""
+    """Connected nodes exchange messages even after the end of their master; a new tool finds no master."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         echo = graph.start("rostopic", "echo", "/pulse")
@@ -215,7 +218,10 @@ def test_the_second_node_with_a_name_ends_the_first() -> None:
 
 
 def test_close_ends_everything_of_a_private_graph() -> None:
-    """close() ends all programs and the master; a graph also ends when no variable refers to it."""
+    """close() ends all programs and the master.
+
+    This also happens when no variable refers to the graph any more.
+    """
     graph = PrivateGraph()
     running, killed = (graph.run("course_pkg", "pulse", f"__name:=pulse_{number}") for number in range(2))
     master = graph._master.pid
@@ -229,7 +235,7 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 
 
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
-    """run() raises errors with a similar program name, or with the output of the ended program."""
+    """run() raises an error with similar program names, or with the output of the program that ended."""
     started = time.monotonic()
     with PrivateGraph() as graph:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):

@@ -57,7 +57,7 @@ def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path)
 
 
 def test_it_listens_on_loopback_only(core: Roscore) -> None:
-    """/rosout listens only on 127.0.0.1, because LD_PRELOAD loads the library from loopback.c."""
+    """/rosout listens only on 127.0.0.1. LD_PRELOAD loads the library that is built from loopback.c."""
     with core:
         [rosout] = processes(descendants(os.getpid()))
         sockets = [each for each in rosout.net_connections("inet") if each.status == psutil.CONN_LISTEN]
@@ -81,7 +81,7 @@ def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
 def test_without_the_node_the_master_ends(
     core: Roscore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the package rosout is missing, start() raises an error with the next step and ends the master."""
+    """If the package rosout is missing, start() ends the master and raises an error that says what to do."""
     monkeypatch.setattr("course_pkg.ros.process.roscore._prefix", lambda: tmp_path)
     with pytest.raises(SetupError, match="course doctor"):
         core.start()

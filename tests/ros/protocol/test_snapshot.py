@@ -1,4 +1,4 @@
-"""A snapshot lists the nodes, topics and services, and which of them answer, within a time limit."""
+"""A snapshot lists the nodes, topics and services, and says within a time limit which of them answer."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 
 def test_contents_of_a_snapshot(server: NodeProcess) -> None:
-    """A snapshot lists nodes, topics and services with their types and servers, and can become JSON."""
+    """A snapshot lists nodes, topics and services, with their types and servers.
+
+    It can be written as JSON.
+    """
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         seen = look()
@@ -51,7 +54,7 @@ def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A stopped node is listed as silent, and remove_stale() keeps its registrations."""
+    """A stopped node is listed as silent (it does not answer), and remove_stale() keeps its registrations."""
     with stopped(server.pid):
         started = time.monotonic()
         seen = look()
@@ -65,7 +68,7 @@ def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> 
 
 
 def test_killed_node_is_stale_until_removed(server: NodeProcess) -> None:
-    """remove_stale() removes the registrations of a killed node, and keeps those of a running node."""
+    """remove_stale() removes the registrations of a killed node, but keeps those of a running node."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         server.kill()

@@ -1,4 +1,4 @@
-"""A reader of many topics at the same time, on a real graph."""
+"""The bulk reader reads many topics of a real graph at the same time."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_every_message_in_order(master: PrivateMaster) -> None:
 
 
 def test_the_reader_is_not_a_subscriber(master: PrivateMaster) -> None:
-    """The reader is not registered as a subscriber of the topic."""
+    """The topic has no additional subscriber because of the reader."""
     notes = Notes()
     reader = notes.reader()
     with pulse("alone"):
@@ -60,7 +60,7 @@ def test_the_reader_is_not_a_subscriber(master: PrivateMaster) -> None:
 
 
 def test_a_publisher_that_ends_and_returns(master: PrivateMaster) -> None:
-    """The reader reports a publisher that ends, and reads a new publisher of the topic."""
+    """The reader reports the end of a publisher, and reads the messages of a new publisher."""
     notes = Notes()
     reader = notes.reader()
     reader.start()

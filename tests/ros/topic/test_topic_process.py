@@ -1,4 +1,7 @@
-"""A separate node for one topic publishes, subscribes, lists the topic's nodes, and ends with its owner."""
+"""A separate process for one topic.
+
+It publishes, subscribes, lists the topic's nodes, and ends with its owner.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +71,10 @@ def publish(reports: Reports, text: str, **how: Plain) -> None:
 
 
 def test_rate_of_recent_messages() -> None:
-    """Rate, jitter and longest gap are computed for recent messages; after a long silence there are none."""
+    """Rate, jitter and longest gap are computed from recent messages.
+
+    After a long silence, there are no values.
+    """
     statistics = RateStatistics()
     assert statistics.figures(0.0) == {}
     for at in (0.0, 0.1, 0.2, 0.4):
@@ -81,7 +87,7 @@ def test_rate_of_recent_messages() -> None:
 
 
 def test_rate_of_rare_and_of_frequent_messages() -> None:
-    """One message per 10 s has a rate; for 10,000 messages per second, only a limited number is stored."""
+    """One message per 10 s gives a rate; of 10,000 messages per second, only a limited number is stored."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -92,7 +98,10 @@ def test_rate_of_rare_and_of_frequent_messages() -> None:
 
 
 def test_a_curve_keeps_extreme_values() -> None:
-    """Each step keeps its first, smallest, largest and last value; values older than 20 s are removed."""
+    """For each step, the first, smallest, largest and last value are kept.
+
+    Values older than 20 s are removed.
+    """
     curve = DownsampledSeries()
     for at, value in ((0.01, 5.0), (0.02, 9.0), (0.03, 1.0), (0.04, 4.0), (0.05, 3.0), (STEP * 1.5, 2.0)):
         curve.add(at, value)
@@ -123,7 +132,7 @@ def test_a_timer_ticks_until_it_is_stopped() -> None:
 
 
 def test_a_timer_skips_late_ticks() -> None:
-    """After a very slow tick, the timer skips the late ticks and counts them."""
+    """After a very slow tick, the timer leaves out the missed ticks, and counts them."""
     held = threading.Event()
     ticks: list[int] = []
 
@@ -167,7 +176,10 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Numbers in fields, nested messages and first array elements have paths; strings have none."""
+    """Numbers in fields, in nested messages and in first elements of arrays have paths.
+
+    Strings have no path.
+    """
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -196,12 +208,15 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     ],
 )
 def test_the_first_measurement_of_a_message(name: str, path: str) -> None:
-    """measurement() returns the first number that is not in a header and is not a limit of the sensor."""
+    """measurement() returns the first number that is neither in a header nor a limit of the sensor."""
     assert measurement(message_type(name)) == path
 
 
 def test_a_whole_number_is_a_measurement_if_the_message_has_no_float() -> None:
-    """Without a float, measurement() selects an integer outside of the header, or else a bool."""
+    """If there is no float, measurement() returns an integer outside the header.
+
+    If there is none, it returns a bool.
+    """
     counted = compile_message("demo/Counted", "std_msgs/Header header\nbool on\nint32 parts\n")
     switched = compile_message("demo/Switched", "std_msgs/Header header\nbool on\n")
     assert (measurement(counted), measurement(switched)) == ("parts", "on")
@@ -222,7 +237,7 @@ def test_a_number_is_found_in_the_bytes() -> None:
 
 
 def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
-    """The result contains the type of each node; the master itself stores only one type."""
+    """The result contains the type of each node, because the master stores only one type."""
     with Kernel() as one, Kernel() as other:
         one.run("""
             from course_pkg.ros import join
@@ -241,7 +256,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """A message before the connection counts as unheard; the next message is received and reported."""
+    """A message before the connection is counted as unheard; the next message is received and reported."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -266,7 +281,10 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """Another queue size creates a new publisher with new counts; `withdraw` unregisters it."""
+    """With another queue size, there is a new publisher with new counts.
+
+    The command `withdraw` unregisters it.
+    """
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
@@ -324,7 +342,7 @@ def test_messages_of_another_type_are_reported_without_values(reports: Reports, 
 
 
 def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
-    """The process can use a type that is not built, because it receives the type's text."""
+    """The process can use a type that is not built, because it receives the text of the type."""
     kind = compile_message("demo/Spot", "float64 x\nstring what\n")
     reports.process.tell("type", name=kind.name, text=kind.text)
     texts = {"x": "1", "what": "a"}
@@ -352,7 +370,7 @@ def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -
 
 
 def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
-    """end() kills a stopped process and unregisters its node; commands to the process do not block."""
+    """end() kills a stopped process and unregisters its node; commands to this process do not block."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):
@@ -362,7 +380,7 @@ def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) ->
 
 
 def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel) -> None:
-    """Before the command `type`, the process reads messages with the publisher's type."""
+    """Before the command `type`, the process reads messages with the type of the publisher."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -389,7 +407,10 @@ def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_it_waits_for_a_master_and_registers_again(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Without a master, the process reports the reason; at a restarted master, it registers again."""
+    """Without a master, the process reports the reason.
+
+    When the master is back, the process registers again.
+    """
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

@@ -1,4 +1,4 @@
-"""Nodes report how many messages they have sent, and servers report their callers."""
+"""Nodes report the number of messages that they have sent, and servers report their callers."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def counted(wanted: Callable[[Traffic], bool]) -> int | None:
 
 
 def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None:
-    """A poll returns both ends of a connection and its number of messages, without a new subscriber."""
+    """A poll returns both ends of a connection and its number of messages; it adds no subscriber."""
     speaker, _ = pair
     before = [topic for topic in look().topics if topic.name == "/words"]
     speaker.run("for number in range(3): speaker.publish(str(number))")
@@ -90,7 +90,7 @@ def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None
 
 
 def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
-    """A publisher without subscribers has no traffic, but its node is not listed as silent."""
+    """A publisher without subscribers has no traffic. Its node is not listed as silent (not responding)."""
     kernel.run(SPEAK + "\nfor number in range(3): speaker.publish('x')")
     seen = ActivityPoller().poll(look())
     assert [each for each in seen.traffic if each.topic == "/words"] == []
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """If XML-RPC cannot encode a node's count of bytes, the poll lists this node as silent."""
+    """If a node's byte count is too large for XML-RPC, the poll lists this node as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """The poll lists a node that does not answer as silent."""
+    """The poll lists a stopped node as silent, because it does not answer."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):
@@ -117,7 +117,10 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """The counts of a C++ node are read, although its format differs; it reports no callers of services."""
+    """The counts of a C++ node are read, although they have another format.
+
+    The node does not report callers.
+    """
     try:
         process = NodeProcess.rosrun("rosout", "rosout")
     except UnknownExecutable:
@@ -169,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """If a node of another library uses another format, the parts that cannot be read are not counted."""
+    """If a node of another library answers in another format, the unreadable parts are ignored."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
@@ -194,7 +197,10 @@ def ask(master: PrivateMaster, *nodes: str) -> Callers:
 
 
 def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
-    """A service reports its callers with number of calls and time; without calls, the list is empty."""
+    """A service reports its callers, each with the number of calls and the time.
+
+    Without calls, the list is empty.
+    """
     kernel.run(SERVE)
     before = time.time()
     with Kernel() as asker:
@@ -206,7 +212,7 @@ def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_waiting_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
-    """A caller counts as waiting while the handler is running, and no longer after its end."""
+    """A caller counts as waiting while the handler runs, but not after the end of the handler."""
     kernel.run(SERVE)
     with Kernel() as asker:
         asker.run(ASK)
@@ -219,7 +225,10 @@ def test_waiting_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> N
 
 
 def test_a_node_that_does_not_count_callers(kernel: Kernel, master: PrivateMaster) -> None:
-    """A node that does not count its callers, or does not answer, is missing; the request still ends."""
+    """A node that does not count its callers, or does not answer, is not in the result.
+
+    The request still ends.
+    """
     kernel.run(SERVE)
     with stopped(kernel.pid):
         began = time.monotonic()
@@ -252,7 +261,7 @@ result = proxy.getBusStats("/test"), proxy.getBusStats("/test", "too much")[0]
     "answer", [b"", b"HTTP/1.0 200 OK\r\n\r\n<methodResponse>", b"nonsense</methodResponse>"]
 )
 def test_an_invalid_answer(answer: bytes) -> None:
-    """An answer that is not XML-RPC counts as no answer."""
+    """An answer that is not XML-RPC is treated as a missing answer."""
     probe = callers_probe("http://localhost:1/")
     probe.answer, probe.reach = answer, Reach.ANSWERED
     assert answered_callers(probe) == {}

@@ -1,4 +1,4 @@
-"""Spans are matched by connection and number; a span with more than one possible match stays unmatched."""
+"""Spans are matched by connection and number; a span with several possible matches is not matched."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def events(*records: list[SpanData], start: float = 0.0, end: float = 100.0) -> 
 
 
 def keys(found: tuple[Event, ...]) -> list[tuple[str, str]]:
-    """Return kind and key of each event."""
+    """Return the kind and the key of each event."""
     return [(event.kind, event.key) for event in found]
 
 
@@ -81,7 +81,7 @@ def test_another_service_on_the_same_ports() -> None:
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and numbers, their handlers are not matched."""
+    """If two calls have the same ports and the same number, their handlers are not matched."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
@@ -95,14 +95,17 @@ def test_contradictory_times() -> None:
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """Calls with the same number in two processes are different calls, even with the same node name."""
+    """In two processes, calls with the same number are different calls.
+
+    This is so even if the nodes have the same name.
+    """
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]
 
 
 def test_one_message_many_callbacks() -> None:
-    """All callbacks of a message, on all connections, are matched with the message."""
+    """All callbacks that received a message are matched with this message, on all connections."""
     wires = [TRANSFER, ["127.0.0.1:40001>50000", 9, "/n2"]]
     found = events(
         [span("publish", 1, 1.1, transfers=wires)],
@@ -114,26 +117,29 @@ def test_one_message_many_callbacks() -> None:
 
 
 def test_a_callback_of_an_unknown_message() -> None:
-    """A callback is not matched if its message was not recorded, or was published after the callback."""
+    """If the message of a callback was not recorded, or was published later, the callback is not matched."""
     assert keys(events([span("callback", 2, 3, transfers=[])])) == [("callback", "message 1")]
     assert len({event.key for event in events([span("publish", 5, 6)], [span("callback", 2, 3)])}) == 2
 
 
 def test_events_outside_of_the_recording() -> None:
-    """Events before and after the recording are omitted; an event that ends after it has no end."""
+    """Events before and after the recording are left out.
+
+    An event that continues after the recording has no end.
+    """
     spans = [span("publish", 1, 2), span("publish", 4, 6), span("publish", 8, 12), span("publish", 11, 12)]
     found = events(spans, start=5, end=10)
     assert [(event.start, event.end) for event in found] == [(-1, 1), (3, None)]
 
 
 def test_threads_of_one_name() -> None:
-    """If two threads of a node have the same name, the second one gets a number."""
+    """If two threads of a node have the same name, a number is added to the second name."""
     spans = [span("callback", start, start + 1, transfers=[], thread=["/x", start]) for start in (1, 2)]
     assert [event.thread for event in events(spans)] == ["/x", "/x (2)"]
 
 
 def test_a_message_that_was_dropped() -> None:
-    """If a message was sent to only some connections, its note says so after publish() has ended."""
+    """If a message was sent only to some connections, its note says this when publish() has ended."""
     (lost,) = events([span("publish", 1, 2, connections=2)])
     assert "sent to 1 of 2" in lost.note
     (going,) = events([span("publish", 1, None, connections=2)])

@@ -1,4 +1,4 @@
-"""A process records its last ended spans, all running spans, and the callers of its services."""
+"""A process records the spans that ended last, all running spans, and the callers of its services."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course_pkg.ros.trace.recorder import CALLERS, LONGEST, CallCounter, Recorde
 
 
 def test_the_number_of_stored_spans_is_bounded() -> None:
-    """The recorder keeps the last ended spans and all running spans; `complete_from` is correct."""
+    """The recorder keeps the spans that ended last, and all running spans; `complete_from` is correct."""
     recorder = Recorder(size=3)
     lasting = recorder.begin("handler", "/x", "/caller", [])
     spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]
@@ -22,7 +22,7 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """Before the recorder's memory is full, the record is complete from the beginning."""
+    """As long as the recorder has free memory, its record is complete from the beginning."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
@@ -69,7 +69,7 @@ def test_reading_while_others_write() -> None:
 
 
 def test_calls_are_counted_by_caller() -> None:
-    """Calls and running calls are counted by service and caller, and the latest caller is first."""
+    """Calls and running calls are counted for each service and caller; the latest caller comes first."""
     counter = CallCounter()
     for caller in ("/a", "/b", "/a"):
         counter.begin("/x", caller)
@@ -82,7 +82,7 @@ def test_calls_are_counted_by_caller() -> None:
 
 
 def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
-    """The counter keeps a limited number of callers, but always the callers that are waiting."""
+    """The counter keeps a limited number of callers, and always keeps the callers that are waiting."""
     counter = CallCounter()
     counter.begin("/x", "/waiting")
     for number in range(CALLERS + 10):
@@ -101,7 +101,7 @@ class _Owner:
 
 
 def test_a_hook_fits_only_the_expected_method() -> None:
-    """A hook does not fit a method with other parameters or other globals, or a missing method."""
+    """A hook cannot be installed for a missing method, or for a method with other parameters or globals."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()

@@ -1,4 +1,4 @@
-"""A recording contains the events at both ends of each connection, and matches them."""
+"""A recording contains the events at both ends of each connection, and matches these events."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def asker(kernel: Kernel) -> Kernel:
 
 
 def recorded(asker: Kernel, cell: str) -> Recording:
-    """Run a cell with a recording named `recording`, and return the recording."""
+    """Run a cell that makes the recording `recording`, and return this recording."""
     found = asker.run(f"{textwrap.dedent(cell)}\nresult = dataclasses.asdict(recording)")
     events = tuple(Event(**event) for event in found["events"])
     return Recording(
@@ -73,7 +73,7 @@ def plain_node(master: PrivateMaster) -> Iterator[None]:
     "how", ["node.call('/getGeometry', geometry", "rospy.ServiceProxy('/getGeometry', geometry)("]
 )
 def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
-    """A call has five parts of the caller, and the handler runs between the request and the response."""
+    """A call has five events of the caller; the handler runs between the request and the response."""
     opening = how if how.endswith("(") else f"{how}, "
     recording = recorded(
         asker,
@@ -105,7 +105,7 @@ def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
 
 
 def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
-    """On a persistent connection, only the first call has a lookup; each call has its own handler."""
+    """On a persistent connection, only the first call has a look-up; each call has its own handler event."""
     recording = recorded(
         asker,
         """
@@ -143,7 +143,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """A call of an unknown service has only a lookup and an error without a peer."""
+    """A call to an unknown service has only a look-up, and an error without a second node."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """A client in another process sends its record when it ends, and no parameter remains at the master."""
+    """When a client in another process ends, it sends its record; the master keeps no parameter of it."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """A node of another notebook sends its record when it leaves the graph."""
+    """When a node of another notebook leaves the graph, it sends its record."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -242,13 +242,13 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The reason is not checked, because it depends on which socket closes first.
+    # The reason is not checked, because it depends on the order in which the sockets close.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A stopped node delays the recording only a little, and is listed as unrecorded."""
+    """A stopped node delays the recording only a little; it is listed as unrecorded."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -266,7 +266,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
-    """A node without prepare_node() is listed as unrecorded; the caller's events are recorded."""
+    """A node without prepare_node() is listed as unrecorded, but the caller's events are recorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]
@@ -408,7 +408,10 @@ def test_an_error_in_the_block(asker: Kernel) -> None:
 
 
 def test_a_rospy_with_other_methods(kernel: Kernel) -> None:
-    """If a method of rospy has other parameters, it is not replaced, and the recording says so."""
+    """If a method of rospy has unexpected parameters, the course does not replace it.
+
+    The recording says so.
+    """
     assert kernel.run("""
         from rospy.impl.tcpros_service import ServiceImpl
         bare = ServiceImpl._handle_request

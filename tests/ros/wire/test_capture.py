@@ -1,4 +1,4 @@
-"""The relay forwards all bytes, and a recorded call contains the bytes of both directions."""
+"""The relay forwards all bytes; a recorded call contains the bytes of both directions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def echo() -> Iterator[int]:
-    """Return a port that sends all received bytes back, and a last message at the end."""
+    """Return a port on which all received bytes are sent back, and a last message at the end."""
 
     def serve() -> None:
         while True:
@@ -49,13 +49,13 @@ def echo() -> Iterator[int]:
 
 
 def relay_threads() -> list[str]:
-    """Return the relays' threads that are still running."""
+    """Return the names of the relays' running threads."""
     targets = (getattr(thread, "_target", None) for thread in threading.enumerate())
     return [target.__qualname__ for target in targets if target is not None and "relay" in target.__module__]
 
 
 def test_every_byte_is_forwarded_and_kept(echo: int) -> None:
-    """The bytes of both directions and the end of a stream arrive unchanged; no thread is left."""
+    """The bytes of both directions, and the end of each stream, arrive unchanged; no thread is left."""
     sent = bytes(range(256)) * 4000
     with Relay("127.0.0.1", echo) as relay, socket.create_connection(("127.0.0.1", relay.port)) as sock:
         came = b""
@@ -74,7 +74,7 @@ def test_every_byte_is_forwarded_and_kept(echo: int) -> None:
 
 
 def test_bytes_beyond_the_limit_are_forwarded_and_counted(echo: int) -> None:
-    """The relay forwards all bytes, but stores only a limited number and counts the others."""
+    """The relay forwards all bytes; it stores a limited number of them, and counts the others."""
     sent = bytes(MOST + 100_000)
     with Relay("127.0.0.1", echo) as relay, socket.create_connection(("127.0.0.1", relay.port)) as sock:
         threading.Thread(
@@ -116,7 +116,7 @@ def test_a_closed_relay_ends_its_connections(echo: int) -> None:
 
 
 def test_a_call_is_recorded_as_rospy_makes_it() -> None:
-    """record_call() records the lookup and the connection, and does not change the response."""
+    """record_call() records the look-up and the connection, and returns the unchanged response."""
     wire = record_call(NAME, fields=SIDES, headers={"session": "alice"})
     assert wire.error == ""
     assert (wire.response.area, wire.response.volume) == (2.0, 6.0)
@@ -129,7 +129,7 @@ def test_a_call_is_recorded_as_rospy_makes_it() -> None:
 
 
 def test_a_failed_call_is_recorded_and_a_wrong_field_is_an_error() -> None:
-    """An error of the server is in the record; a wrong field name raises FieldError."""
+    """The record contains the server's error message; a wrong field name raises FieldError."""
     other = compile_service(
         KIND, "int32 length\nint32 width\nint32 height\n---\nfloat32 area\nfloat32 volume"
     )
@@ -143,7 +143,7 @@ def test_a_failed_call_is_recorded_and_a_wrong_field_is_an_error() -> None:
 
 
 def test_a_call_of_a_stopped_server_is_recorded(server: NodeProcess) -> None:
-    """If a call times out, the record contains the sent bytes and no received bytes."""
+    """If a call times out, the record contains the sent bytes, but no received bytes."""
     with stopped(server.pid):
         wire = record_call(NAME, KIND, fields=SIDES, timeout=0.5)
     assert "no answer within 0.5 s" in wire.error
