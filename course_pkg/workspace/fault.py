@@ -8,10 +8,6 @@ from dataclasses import dataclass, replace
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TAG = re.compile(r"<(?P<name>[A-Za-z_]\w*)(?:\s[^<>]*)?>(?P<text>[^<]*)")
-_DEPENDENCY_TAGS = {
-    "build": ("build_depend", "depend"),
-    "run": ("exec_depend", "run_depend", "depend"),
-}
 
 
 @dataclass(frozen=True)
@@ -46,16 +42,29 @@ class Tag:
     text: str
 
 
+def without_comments(text: str) -> str:
+    """Return a package.xml without its comments; all other text stays in its line."""
+    return _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+
+
 def manifest_tags(text: str) -> Iterator[Tag]:
     """Yield the opening tags in their order, without the tags in comments."""
-    bare = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+    bare = without_comments(text)
     for found in _TAG.finditer(bare):
         yield Tag(found["name"], bare.count("\n", 0, found.start()) + 1, found["text"].strip())
 
 
 def dependencies(text: str, purpose: str) -> set[str]:
-    """Return the packages that a package.xml names for `purpose`: "build" or "run"."""
-    return {tag.text for tag in manifest_tags(text) if tag.name in _DEPENDENCY_TAGS[purpose]}
+    """Return the packages that a package.xml names for `purpose`: "build" or "run".
+
+    A dependency with a condition does not count, because it does not hold always. `text` has to be valid for
+    catkin.
+    """
+    from catkin_pkg.package import parse_package_string  # imported here because it takes 50 ms
+
+    package = parse_package_string(text)
+    named = package.build_depends if purpose == "build" else package.exec_depends
+    return {each.name for each in named if each.condition is None}
 
 
 def locate(fault: Fault, text: str) -> Fault:

@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 from course_pkg import chapters
+from course_pkg.checking.client import TIMEOUT
 from course_pkg.checking.parts import Part, every_part, find, folder_of, folders_for, parts_of
 from course_pkg.checking.parts import chapters as numbers
 from course_pkg.errors import UnknownCheck
+from course_pkg.waiting import MOST
 from tests.selection import chapter_paths
 
 COMPILED = ("13.", "14.")  # a compiler runs before the check, and the machine may be busy
@@ -95,3 +97,8 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
     assert names == {"ch07", "ch09", "ch14", "14_d"}
     assert {Path(path).name[:4] for path in chapter_paths("05")} == {"ch05", "05_w"}
     assert set(chapter_paths("")) > set(chapter_paths("14")) | set(chapter_paths("05"))
+
+
+def test_check_client_waits_longer_than_every_deadline() -> None:
+    """The kernel does not end before the check, even if it receives no message until the deadline."""
+    assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

@@ -74,7 +74,7 @@ def tree_of(source: str) -> ast.Module:
 
 
 def _given(tree: ast.Module) -> frozenset[str]:
-    """Return the names that a cell defines at top level, not in a function, class or comprehension."""
+    """Return the names that a cell defines outside functions, classes and comprehensions."""
     nodes: list[ast.AST] = []
     todo: list[ast.AST] = list(tree.body)
     while todo:

@@ -58,6 +58,9 @@ class SecondMaster:
             self._running = None
 
 
+REGISTERED = "Register the service again when the master does not know it."
+
+
 @part(
     "12.4",
     points=3,
@@ -67,13 +70,14 @@ class SecondMaster:
     ),
     needs=["Watchdog"],
     deadline=60.0,
+    goals={REGISTERED: 2, "Poll with pauses, and end when stop() is called.": 1},
 )
 def a_watchdog(context: CheckContext) -> None:
     """Start, stop and restart a master; register another node; then stop the watchdog during a poll."""
     name = f"/{context.random.word()}"
     second = SecondMaster(context)
     master = second.start()
-    watched = CheckedMaster(second.uri)
+    watched = CheckedMaster(second.uri, slow=context.random.number(1.2, 2.2))
     context.place("checked_master", watched)
     context.prepare(KERNEL_CODE)
     begun = time.monotonic()
@@ -94,6 +98,7 @@ def a_watchdog(context: CheckContext) -> None:
     uri, node_uri = opened.returned(list)
     try:
         _registers_again(context, watched, name, uri, second, master)
+        context.fulfilled(REGISTERED)
         _registers_both_addresses(context, watched, uri, node_uri)
         _polls_with_pauses(context, watched, time.monotonic() - begun)
         _stops(context, watched)
