@@ -123,12 +123,14 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
     driver.serve("toggle_forward", "change_speed")
     called(len(ORDER), LIMIT)
     done = running.status
-    actual = [f"/{name}" for name in driver.calls]
+    actual = ", ".join(f"/{name}" for name in driver.calls)
+    if not actual:
+        actual = "no call" if done is None else f"no call, {outcome(running.stop())}"
     context.require(
         "the program calls /spawn, /toggle_forward and /change_speed once each, in this order",
         holds=driver.calls == list(ORDER),
         expected=", ".join(f"/{name}" for name in ORDER),
-        actual=", ".join(actual) or "no call",
+        actual=actual,
         hints=_why_not_called(driver.calls, running, ended=done is not None),
     )
     context.expect(
