@@ -39,6 +39,7 @@ from collections.abc import Mapping
 from course_pkg.errors import ChannelBroken, ChannelClosed, CheckError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.types import Plain
+from course_pkg.waiting import at_this_load
 
 PROTOCOL = 4
 LIMIT = 1 << 20  # maximum bytes of a line
@@ -53,13 +54,15 @@ class Channel(JsonChannel):
         self._asked = 0
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
-        """Send the request `do` to the check client, and return its reply, within `timeout` s.
+        """Send the request `do` to the check client, and return its reply.
 
-        Raises ChannelBroken if the reply belongs to another request, and the exceptions of JsonChannel.
+        The time limit is `timeout` s, or longer on a busy machine. Raises ChannelBroken if the reply belongs
+        to another request, and the exceptions of JsonChannel.
         """
         self._asked += 1
-        self.send({"ask": self._asked, "do": do, **arguments}, timeout)
-        reply = self.receive(timeout)
+        limit = at_this_load(timeout)
+        self.send({"ask": self._asked, "do": do, **arguments}, limit)
+        reply = self.receive(limit)
         if type(reply.get("answer")) is not int or reply["answer"] != self._asked:
             raise ChannelBroken(f"an answer to another request: {str(reply)[:80]}")
         if "wrong" in reply:

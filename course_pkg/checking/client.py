@@ -22,8 +22,9 @@ from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 
-# time limit in s between two messages of the check runner; the deadline of a check is much shorter
-TIMEOUT = 90.0
+# time limit in s between two messages of the check runner. In grading, another process runs the commands of a
+# check, so the kernel may receive no message until the deadline, which is 600 s at most on a busy machine.
+TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process import main; main()"
 
 

@@ -42,9 +42,14 @@ class Tag:
     text: str
 
 
+def without_comments(text: str) -> str:
+    """Return a package.xml without its comments; all other text stays in its line."""
+    return _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+
+
 def manifest_tags(text: str) -> Iterator[Tag]:
     """Yield the opening tags in their order, without the tags in comments."""
-    bare = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+    bare = without_comments(text)
     for found in _TAG.finditer(bare):
         yield Tag(found["name"], bare.count("\n", 0, found.start()) + 1, found["text"].strip())
 

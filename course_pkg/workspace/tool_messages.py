@@ -138,6 +138,12 @@ FROM_TOOLS: tuple[Row, ...] = (
         "Look for generate_messages and add_service_files in CMakeLists.txt, and build again.",
     ),
     (
+        r"No module named '(?P<name>numpy|matplotlib)'",
+        "",
+        "The Python that runs the program does not have the library {name}.",
+        "Write #!/usr/bin/env python3 as the first line, because it chooses the Python that has the library.",
+    ),
+    (
         r"No module named '(?P<name>\w+)'",
         "",
         "Python does not find {name} on its path.",

@@ -249,6 +249,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
 # Command lines that are run after the build, and a part of the advice.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
+    "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
     "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
     "not sourced: rossrv": ("rossrv show my_services/Box", False, "Source devel/setup.bash"),
     "wrong case": (

@@ -45,14 +45,13 @@ class Folder:
         """
         self._doing(worded or " ".join(argv))
         limit = at_this_load(within)
-        timeout = limit + at_this_load(SLACK)
-        reply = self._channel.ask("run", timeout=timeout, argv=argv, folder=self._number, within=limit)
+        reply = self._channel.ask("run", timeout=within + SLACK, argv=argv, folder=self._number, within=limit)
         return Finished(reply)
 
     def start(self, *argv: str, worded: str = "") -> Running:
         """Start a command here that runs until it is stopped; a context manager."""
         self._doing(worded or " ".join(argv))
-        reply = self._channel.ask("start", timeout=at_this_load(SLACK), argv=argv, folder=self._number)
+        reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
         if not isinstance(number, int):
             raise CheckError("The kernel did not start a command of the check. Restart the kernel.")

@@ -1,4 +1,4 @@
-"""The servers with a state: the counter, and the switch."""
+"""The servers that have a state: the counter and the switch."""
 
 from collections.abc import Callable
 
@@ -54,6 +54,10 @@ ELSEWHERE = {
         "The message is the position before the call. Change the position first, and then set the message."
     ),
 }
+COUNTED = "Count the calls after each reset in the message."
+SUCCESS = "Return success=True."
+POSITION = "Return the position after the call in the message."
+MOVED = "Return in success whether the switch moved."
 
 
 @part(
@@ -61,9 +65,10 @@ ELSEWHERE = {
     points=2,
     goal="Serve /count, which counts its calls, and /reset_count, which sets the count to zero.",
     needs=["Counter|count_service"],
+    goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
-    """Call /count to learn the present count; then reset it, and count beyond 9."""
+    """Call /count to find out the present count; then reset it, and count to more than 9."""
     count = context.service(
         "/count",
         "std_srvs/Trigger",
@@ -93,12 +98,15 @@ def a_counter_that_resets(context: CheckContext) -> None:
         reset()
         for number in range(1, last + 1):
             response = count()
-            context.expect(
-                "success is True",
-                expected=True,
-                actual=response.success,
-                hints=[(False, "success is False: a bool field without a value is False. Set it to True.")],
-            )
+            with context.goal(SUCCESS):
+                context.expect(
+                    "success is True",
+                    expected=True,
+                    actual=response.success,
+                    hints=[
+                        (False, "success is False: a bool field without a value is False. Set it to True.")
+                    ],
+                )
             context.expect(
                 "after each reset, the message counts 1, 2, 3",
                 expected=str(number),
@@ -142,10 +150,14 @@ def a_counter_that_resets(context: CheckContext) -> None:
         hints="The calls of all clients have to change the same count. Store one number in self.",
     )
     _starts_from_zero(context)
+    context.fulfilled(COUNTED)
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Count once with a new object, while /count is not at zero; skip a class that works otherwise."""
+    """Count once with a new object while /count is not at zero.
+
+    A class with another interface is left out.
+    """
     if not context.has("Counter"):
         return
     context.prepare(A_NEW_COUNTER)
@@ -179,52 +191,61 @@ def _follows(before: str) -> Callable[[str], bool]:
         "Serve /switch: move to the wanted position; return whether the switch moved, and the new position."
     ),
     needs=["Switch|switch_service"],
+    goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
-    """Call /switch with data=False, then ten times; then try a new Switch(), which must be off."""
+    """Call /switch with data=False, and then ten more times; then try a new Switch(), which must be off."""
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
     require_served_by_notebook(context, "/switch")
     turn(data=False)
-    context.expect(
-        "data=False means off",
-        expected="off",
-        actual=turn(data=False).message,
-        hints=[
-            ("on", "The field `data` is False, but the message is on. True means on, and False means off."),
-            *MESSAGE,
-        ],
-    )
+    with context.goal(POSITION):
+        context.expect(
+            "data=False means off",
+            expected="off",
+            actual=turn(data=False).message,
+            hints=[
+                (
+                    "on",
+                    "The field `data` is False, but the message is on. True means on, and False means off.",
+                ),
+                *MESSAGE,
+            ],
+        )
     on = False
     for data in [True, True, False, False, *(context.random.choice([True, False]) for _ in range(6))]:
         response = turn(data=data)
-        context.expect(
-            "the message is the position after the call",
-            expected="on" if data else "off",
-            actual=response.message,
-            hints=[("off" if data else "on", ELSEWHERE[data == on]), *MESSAGE],
-        )
-        context.expect(
-            "success shows whether the switch moved",
-            expected=data != on,
-            actual=response.success,
-            hints=[
-                (
-                    True,
-                    "The switch did not move, but success is True. Here, success means that it "
-                    "moved: store the position, and compare it with `data`.",
-                ),
-                (
-                    False,
-                    "The switch moved, but success is False. Compare `data` with the position "
-                    "before you change it.",
-                ),
-            ],
-        )
+        with context.goal(POSITION):
+            context.expect(
+                "the message is the position after the call",
+                expected="on" if data else "off",
+                actual=response.message,
+                hints=[("off" if data else "on", ELSEWHERE[data == on]), *MESSAGE],
+            )
+        with context.goal(MOVED):
+            context.expect(
+                "success shows whether the switch moved",
+                expected=data != on,
+                actual=response.success,
+                hints=[
+                    (
+                        True,
+                        "The switch did not move, but success is True. Here, success means that it "
+                        "moved: store the position, and compare it with `data`.",
+                    ),
+                    (
+                        False,
+                        "The switch moved, but success is False. Compare `data` with the position "
+                        "before you change it.",
+                    ),
+                ],
+            )
         on = data
+    context.fulfilled(POSITION)
+    context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # the handler is not a method of Switch
+    if not context.has("Switch"):  # the handler is not a method of a class Switch
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

@@ -76,6 +76,10 @@ class Robot:
             server.set_succeeded(FetchResult(fetched=self._fetched))
 
 
+FETCHED = "Send a goal, and return the number of fetched things."
+CANCELLED = "Cancel the goal when the limit is over, and return the number."
+
+
 @part(
     "16.2",
     points=3,
@@ -85,12 +89,15 @@ class Robot:
     ),
     needs=["fetch_within"],
     deadline=60.0,
+    goals=[FETCHED, CANCELLED, "Wait for the action server, with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
     """Offer a fast, a slow, a stubborn and a late robot, one after the other; then offer no robot."""
     _in_time(context)
+    context.fulfilled(FETCHED)
     _too_late(context)
     _goes_on(context)
+    context.fulfilled(CANCELLED)
     _comes(context)
     _nobody(context)
 
