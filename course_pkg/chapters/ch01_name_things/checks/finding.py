@@ -112,6 +112,7 @@ def _in_a_random_order(context: CheckContext) -> None:
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
         place, last = (context.random.word() for _ in range(2))
+        context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0})
         if volume is not None:
             context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
