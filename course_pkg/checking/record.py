@@ -9,6 +9,7 @@ import-linter in pyproject.toml forbids the packages grading and sandbox to impo
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import count
@@ -30,6 +31,7 @@ class PartRecord:
     checked: str  # the time of the last check
     passed: str  # the time at which the part passed for the first time
     checks: int
+    points: float = 0  # of the last check
 
 
 class DamagedRecord(Exception):
@@ -124,7 +126,9 @@ def _record(check: str, data: object) -> PartRecord | None:
     if not all(isinstance(text, str) for text in texts):
         return None
     verdict, checked, passed = map(str, texts)
-    return PartRecord(check, verdict, checked, passed, checks)
+    points = data.get("points")
+    earned = points if isinstance(points, (int, float)) and math.isfinite(points) else 0
+    return PartRecord(check, verdict, checked, passed, checks, earned)
 
 
 def _reason(error: Exception) -> str:

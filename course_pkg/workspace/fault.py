@@ -8,10 +8,6 @@ from dataclasses import dataclass, replace
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TAG = re.compile(r"<(?P<name>[A-Za-z_]\w*)(?:\s[^<>]*)?>(?P<text>[^<]*)")
-_DEPENDENCY_TAGS = {
-    "build": ("build_depend", "depend"),
-    "run": ("exec_depend", "run_depend", "depend"),
-}
 
 
 @dataclass(frozen=True)
@@ -59,8 +55,16 @@ def manifest_tags(text: str) -> Iterator[Tag]:
 
 
 def dependencies(text: str, purpose: str) -> set[str]:
-    """Return the packages that a package.xml names for `purpose`: "build" or "run"."""
-    return {tag.text for tag in manifest_tags(text) if tag.name in _DEPENDENCY_TAGS[purpose]}
+    """Return the packages that a package.xml names for `purpose`: "build" or "run".
+
+    A dependency with a condition does not count, because it does not hold always. `text` has to be valid for
+    catkin.
+    """
+    from catkin_pkg.package import parse_package_string  # imported here because it takes 50 ms
+
+    package = parse_package_string(text)
+    named = package.build_depends if purpose == "build" else package.exec_depends
+    return {each.name for each in named if each.condition is None}
 
 
 def locate(fault: Fault, text: str) -> Fault:

@@ -420,3 +420,5 @@ replace(", total=sum(request.seconds)", "")
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
 # %% 04.5 wrong: a total only for a lamp that is lit | hint: The total is 0 for this
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")
+# %% 04.5 wrong: adds only the first five values | hint: Add up all values
+replace("sum(request.seconds)", "sum(request.seconds[:5])")

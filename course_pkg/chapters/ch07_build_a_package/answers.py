@@ -198,6 +198,8 @@ replace(", volume=area * request.height", "")
 replace("area * request.height", "area ** 1.5")
 # %% 07.4 wrong: the handler returns nothing | hint: without a return
 replace("    return geometryResponse", "    geometryResponse")
+# %% 07.4 wrong: an import ends the process | hint: An import of the script starts the node
+replace("import rospy\n", "import os\n\nimport rospy\n\nif __name__ != '__main__':\n    os._exit(0)\n")
 
 # %% 07.5 right: as in the chapter
 solution()
@@ -313,6 +315,9 @@ replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/
 # %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
+# %% 07.6 wrong: an empty client | hint: The installed file is not the script
+based_on("two rules, one of them plain CMake")
+replace("install(PROGRAMS scripts/client.py", 'file(WRITE ${CMAKE_BINARY_DIR}/client.py "#!/bin/true")\ninstall(PROGRAMS ${CMAKE_BINARY_DIR}/client.py')
 
 # %% 07.7 right: short
 """%%writefile src/my_geometry/README.md

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -17,6 +17,11 @@ from dataclasses import dataclass
 LONGEST = 20_000
 # Maximum number of lines of a cell with magics, because IPython's time grows with the square of this number.
 MAGICAL = 300
+# Names that these nodes assign inside are not names of the cell.
+SCOPES = (
+    *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
+    *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
+)
 KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
 
 
@@ -46,12 +51,10 @@ def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
 
 def _read(source: str) -> _Cell:
     tree = tree_of(source)
-    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
-    loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
-    own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
-    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
-    gives = _given(tree)
-    return _Cell(gives, frozenset(loaded - own - arguments) - gives)
+    nodes = list(ast.walk(tree))
+    loaded = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+    arguments = {node.arg for node in nodes if isinstance(node, ast.arg)}
+    return _Cell(_given(tree), frozenset(loaded - _bound(nodes) - arguments))
 
 
 def tree_of(source: str) -> ast.Module:
@@ -71,15 +74,26 @@ def tree_of(source: str) -> ast.Module:
 
 
 def _given(tree: ast.Module) -> frozenset[str]:
-    """Return the names that a cell defines at the top level."""
-    names = set()
-    for statement in tree.body:
-        opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
-        for node in [statement] if opens else ast.walk(statement):
-            if isinstance(node, ast.Import | ast.ImportFrom):
-                names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
-            elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-                names.add(node.name)
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                names.add(node.id)
-    return frozenset(names)
+    """Return the names that a cell defines outside functions, classes and comprehensions."""
+    nodes: list[ast.AST] = []
+    todo: list[ast.AST] = list(tree.body)
+    while todo:
+        node = todo.pop()
+        nodes.append(node)
+        if not isinstance(node, SCOPES):
+            todo += ast.iter_child_nodes(node)
+    # Python deletes the name of a caught exception at the end of the clause.
+    return _bound(node for node in nodes if not isinstance(node, ast.ExceptHandler))
+
+
+def _bound(nodes: Iterable[ast.AST]) -> frozenset[str]:
+    """Return the names that these nodes assign, import, define, or give to a caught exception."""
+    names: set[str | None] = set()
+    for node in nodes:
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.ExceptHandler):
+            names.add(node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            names.add(node.id)
+    return frozenset(name for name in names if name)

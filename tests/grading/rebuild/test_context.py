@@ -25,6 +25,18 @@ def test_known_names_need_no_other_cell() -> None:
     assert needed("def f():\n    return side", "side = 3", ABOVE) == ()
 
 
+def test_names_inside_of_an_answer_need_no_other_cell() -> None:
+    """A caught exception, a function inside of a function, and a local import are the answer's own names."""
+    above = ("error = 1", "def work():\n    pass", "import queue")
+    assert needed("try:\n    f = 1\nexcept OSError as error:\n    print(error)", "", above) == ()
+    assert needed("def f():\n    import queue\n    def work():\n        queue\n    work()", "", above) == ()
+
+
+def test_the_variable_of_a_comprehension_is_not_given() -> None:
+    """A cell does not define a name for later cells in a comprehension."""
+    assert needed("print(error)", "", ("[error for error in (1, 2)]",)) == ()
+
+
 def test_magics_are_read_as_ipython_reads_them() -> None:
     """A line that only IPython understands does not hide the names in the cell."""
     assert needed("%time x = side", "", ABOVE) == ()

@@ -12,6 +12,7 @@ from course_pkg.types import MessageType, ServiceType, compile_service
 from course_pkg.types.definition import lines
 
 FILE = f"{PACKAGE}/srv/Lamp.srv"
+FIELDS = "Write the fields of the request and of the response, with their types."
 
 
 @part(
@@ -20,6 +21,7 @@ FILE = f"{PACKAGE}/srv/Lamp.srv"
     goal="Write Lamp.srv as described in the exercise.",
     needs=[f"file:{FILE}"],
     deadline=60.0,
+    goals={FIELDS: 3, "Write the constants of the request.": 1},
 )
 def the_lamp(context: CheckContext) -> None:
     """Parse the text as ROS does, compare it with the description, and build it in another folder."""
@@ -30,6 +32,7 @@ def the_lamp(context: CheckContext) -> None:
     _names(context, "response", asked.response, given.response, text)
     _types(context, "request", asked.request, given.request, text)
     _types(context, "response", asked.response, given.response, text)
+    context.fulfilled(FIELDS)
     _constants(context, asked, given, text)
     folder = built(context, given=[FILE])
     md5, printed = md5_in(folder)

@@ -39,6 +39,7 @@ START = f"""%%writefile {FILE}
   <exec_depend>std_msgs</exec_depend>
 </package>
 """
+COMPLETE = "List all packages that are needed, in a package.xml that catkin accepts."
 
 
 @part(
@@ -51,6 +52,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
     """Compare the dependencies, build the package, and read the texts that do not affect the build."""
@@ -66,6 +68,7 @@ def the_manifest(context: CheckContext) -> None:
                 hints=_about_dependency(text, package, tag),
             )
     built(context, MY_GEOMETRY, examined=NAME, alone=True)
+    context.fulfilled(COMPLETE)
     for name, (generated, hint) in GENERATED.items():
         whole = re.search(rf"<{name}\b[^>]*>(.*?)</{name}>", without_comments(text), re.DOTALL)
         found = whole[1].strip() if whole else ""
