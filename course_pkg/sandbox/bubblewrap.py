@@ -92,7 +92,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
         *("--new-session", "--die-with-parent", "--clearenv", "--hostname", "classroom"),
         *("--dev", "/dev"),
         *_file_system([*_course(), *readable]),
-        *_variables(),
+        *(option for pair in clean_environment().items() for option in ("--setenv", *pair)),
         *("--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/"),
         "--",
         *prepared,
@@ -154,12 +154,11 @@ def _course() -> Iterator[Path]:
         yield prefix
 
 
-def _variables() -> Iterator[str]:
-    """Yield options that set the course's environment, without variables of the user who grades."""
+def clean_environment() -> dict[str, str]:
+    """Return the course's environment, without variables of the user who grades."""
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
-    for name, value in known.items():
-        yield from ("--setenv", name, value)
+    return known
 
 
 def _invented(path: str, text: str) -> Path:
