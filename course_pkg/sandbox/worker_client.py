@@ -61,6 +61,11 @@ class SandboxWorker:
             raise self._failed("it accepts no jobs") from error
         return result_from(self._line(job.limit + SLACK))
 
+    def kill(self) -> None:
+        """Kill the worker, so that the call of `run` in another thread raises WorkerFailed."""
+        if process := self._process:
+            process.kill()
+
     def close(self) -> None:
         """End the worker and all processes in its sandbox."""
         process, self._process = self._process, None
