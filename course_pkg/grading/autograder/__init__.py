@@ -1,1 +1,1 @@
-"""Grades one submission in the container of an autograder of Gradescope. `course autograder` makes its zip."""
+"""Grades one submission in Gradescope's container; `course autograder` writes the zip for it."""

@@ -1,4 +1,4 @@
-"""What a student handed in on Gradescope: a submission for each chapter, and messages about the other files."""
+"""What a student handed in: a submission for each chapter, and messages about the other files."""
 
 from __future__ import annotations
 

@@ -47,7 +47,9 @@ OURS = "The autograder failed ({}). This is not a mistake in your work. Please t
 
 
 def prepare() -> int:
-    """Give the checks and the solutions of this checkout to root only; the setup of the container does this."""
+    """Make the checks and the solutions of this checkout unreadable for all users except root."""
+    for folder in {path.parent for path in secret_paths()}:
+        (folder / "__pycache__").mkdir(exist_ok=True)  # will contain the compiled fixtures
     for path in [*secret_paths(), Places.of().checkout / "solutions"]:
         path.chmod(0o700 if path.is_dir() else 0o600)
     return 0
