@@ -14,7 +14,7 @@ from course_pkg.handout.autograder.bundle import Options, write_autograder
 
 
 def test_the_zip_contains_the_scripts_and_the_course(tmp_path: Path) -> None:
-    """The scripts are executable shell scripts at the top; answers, tests and notebooks are not in the zip."""
+    """The scripts are executable; answers, tests and notebooks are not in the zip."""
     private = tmp_path / "private"
     private.mkdir()
     (private / "points.json").write_text('{"05.1": 4}', "utf-8")

@@ -86,6 +86,7 @@ for number in itertools.count():
         file.write(bytes(32 << 20))
     time.sleep(0.05)
 """
+FILLED = "/var/tmp"  # noqa: S108 -- the attack writes there
 DAEMON = """
 import os, time
 if not os.fork():
@@ -114,7 +115,7 @@ def main() -> None:
     """Run the attacks, and a right answer after each of them."""
     folder, *secret = sys.argv[1:]
     refusal = users.refusal([*map(users.Path, secret)])
-    os.environ["SECRET_OF_THE_GRADER"] = "yes"
+    os.environ["SECRET_OF_THE_GRADER"] = "yes"  # noqa: S105 -- a marker
     with SandboxWorker(users=True) as worker:
         said = _run(worker, _probe(folder, secret)).messages
         uid, done = json.loads(
@@ -131,7 +132,7 @@ def main() -> None:
         for name, attack in attacks.items():
             points[name] = _points(_run(worker, attack))
             left[name] = [each.pid for each in psutil.process_iter() if uid in each.uids()]
-            left[name] += [each for each in os.listdir("/var/tmp") if each.startswith("filler")]
+            left[name] += [each for each in os.listdir(FILLED) if each.startswith("filler")]
             later[name] = _points(_run(worker, RIGHT))
     found = {"refusal": refusal, "uid": uid, "done": done, "points": points, "later": later, "left": left}
     sys.stdout.write(json.dumps(found))

@@ -1,7 +1,7 @@
 """Runs a command in a copy of the course, as an autograder installs it, on a machine without namespaces.
 
-The copy is visible at the checkout's own path, but only for this command. There, bubblewrap does not work, and
-all users can read the environment of the course.
+The copy is visible at the checkout's own path, but only for this command. There, bubblewrap does not work,
+and all users can read the environment of the course.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`course autograde` in a folder with Gradescope's layout: it always writes results.json, with one message."""
+"""`course autograde` in a folder with Gradescope's layout: it always writes results.json."""
 
 from __future__ import annotations
 
