@@ -26,10 +26,11 @@ from course_pkg.errors import CourseError, GradingError, WorkerFailed
 from course_pkg.files import write_atomically
 from course_pkg.grading.autograder.handed_in import handed_in
 from course_pkg.grading.autograder.settings import days_late, read_settings
-from course_pkg.grading.extras import Extras, read_extras
+from course_pkg.grading.extras import read_extras
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.marking import Run, mark
 from course_pkg.grading.plan import plan
+from course_pkg.grading.points import PointsTable, read_points
 from course_pkg.grading.reports.formats.gradescope import results_of
 from course_pkg.sandbox import bubblewrap, users
 from course_pkg.sandbox.job import PartJob, PartResult
@@ -78,6 +79,7 @@ def _results(root: Path) -> dict[str, Plain]:
     deadline = Deadline(settings.minutes * 60)
     private = root / "source" / "private"
     extras = read_extras(private if private.is_dir() else None)
+    points = read_points(extras.points)
     found, messages = handed_in(root / "submission", settings.chapters)
     weaker = bool(bubblewrap.refusal())
     if weaker:
@@ -87,7 +89,7 @@ def _results(root: Path) -> dict[str, Plain]:
     if policy and late is None:
         messages.append("The time of handing in is not known, so no points were taken off for lateness.")
     with _runner(deadline, str(extras.folder or ""), weaker=weaker) as run:
-        grades = [_grade(each, extras, run).for_student() for each in found]
+        grades = [_grade(each, points, run).for_student() for each in found]
     if policy and late:
         grades = [replace(each, late=late, factor=policy.factor(late)) for each in grades]
     results = results_of(grades)
@@ -102,8 +104,9 @@ def _require_users(root: Path) -> None:
         )
 
 
-def _grade(submission: Submission, extras: Extras, run: Run) -> Grade:
-    return mark(submission, plan(submission.chapter), extras, run, os.urandom(16).hex(), "", sandboxed=True)
+def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
+    secret = os.urandom(16).hex()
+    return points.weighed(mark(submission, plan(submission.chapter), run, secret, "", sandboxed=True))
 
 
 @contextmanager
