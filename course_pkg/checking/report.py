@@ -13,11 +13,13 @@ from dataclasses import asdict, dataclass, field
 from enum import Enum
 from html import escape
 
+from course_pkg.checking.credit import Goal, total
 from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.json_channel import Json
 
 WIDTH = 100
 RIGHT, NEXT, FIRST = "Right so far:", "Fix this next:", "Fix this first:"
+GOALS = "Points for each goal:"
 
 
 class Verdict(str, Enum):
@@ -61,18 +63,30 @@ class Report:
     check: str
     verdict: Verdict
     goal: str = ""
-    points: int = 0
-    possible: int = 0
+    points: float = 0
+    possible: float = 0
     assertions: tuple[Assertion, ...] = ()
     note: str = ""  # what the student should do next, if no assertion shows this
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
+    goals: tuple[Goal, ...] = ()  # the goals among which the points are divided; none for all or nothing
     inconclusive: bool = False  # True if grading counts a check that did not finish as failed
 
     def headline(self) -> str:
         """Return the first line, which contains the result."""
         if not self.possible:
             return f"{self.check} {self.verdict.value}"
-        return f"{self.check} {self.verdict.value}: {self.points} of {self.possible} points"
+        return f"{self.check} {self.verdict.value}: {self.points:g} of {self.possible:g} points"
+
+    def credits(self) -> list[str]:
+        """Return a line for each goal with its points.
+
+        There are none for a pass, if no assertion was checked, or if the part gives all points or none.
+        """
+        if self.verdict is Verdict.PASSED or not self.assertions or not total(self.goals):
+            return []
+        return [
+            f"{goal.points if goal.fulfilled else 0:g} of {goal.points:g}: {goal.text}" for goal in self.goals
+        ]
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
         """Return the assertions with their headings; the assertions that hold come first.
@@ -95,6 +109,8 @@ class Report:
                 for label, text in assertion.details():
                     lines += _block(f"      {label:<10}", text)
         lines += _block("  ", self.note)
+        if shown := self.credits():
+            lines += [f"  {GOALS}", *(line for each in shown for line in _block("    ", each))]
         if self.verdict is not Verdict.PASSED and self.goal:
             lines += _block("  The goal: ", self.goal)
         return "\n".join(lines)
@@ -108,12 +124,14 @@ class Report:
         """Return the report as complete HTML; every text in it is escaped."""
         passed = self.verdict is Verdict.PASSED
         sections = "".join(_section_html(*section) for section in self.sections())
+        items = "".join(f"<li>{escape(each)}</li>" for each in self.credits())
+        divided = f"{_paragraph(GOALS)}<ul>{items}</ul>" if items else ""
         goal = "" if passed or not self.goal else _paragraph(f"The goal: {self.goal}")
         printed = "" if passed else _printed_html(self.printed)
         return (
             f'<section class="course-report" style="{_frame(self.verdict)}">'
             f"<p><strong>{escape(self.headline())}</strong></p>"
-            f"{sections}{_paragraph(self.note)}{goal}{printed}</section>"
+            f"{sections}{_paragraph(self.note)}{divided}{goal}{printed}</section>"
         )
 
     def as_dict(self) -> dict[str, Json]:
@@ -124,7 +142,8 @@ class Report:
 def report_from(data: Mapping[str, Value]) -> Report:
     """Return the report from `data`, the result of `as_dict`."""
     assertions = tuple(Assertion(**each) for each in data["assertions"])
-    return Report(**{**data, "assertions": assertions, "verdict": Verdict(data["verdict"])})
+    goals = tuple(Goal(**each) for each in data.get("goals", ()))
+    return Report(**{**data, "assertions": assertions, "goals": goals, "verdict": Verdict(data["verdict"])})
 
 
 def _block(label: str, text: str) -> list[str]:

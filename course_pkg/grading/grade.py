@@ -121,14 +121,14 @@ class Grade:
         return round(sum(report.points for report in self.reports) * self.factor, 2)
 
     @property
-    def possible(self) -> int:
+    def possible(self) -> float:
         """The points that could be earned."""
-        return sum(report.possible for report in self.reports)
+        return round(sum(report.possible for report in self.reports), 2)
 
     def for_student(self) -> Grade:
         """Return the grade without flags, and without the data that show how a private part is examined."""
         shown = (
-            replace(report, goal="A further check.", assertions=(), note="", printed="")
+            replace(report, goal="A further check.", assertions=(), goals=(), note="", printed="")
             if report.check in self.private
             else report
             for report in self.reports

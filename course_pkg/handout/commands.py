@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
 
 NO_COMMANDS = frozenset(  # for students
-    {"release", "collect", "grade", "grade-one", "autograder", "autograde", "site", "sync", "test"}
+    {"release", "collect", "grade", "grade-one", "points", "autograder", "autograde", "site", "sync", "test"}
 )
 
 

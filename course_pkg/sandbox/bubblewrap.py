@@ -155,10 +155,14 @@ def _course() -> Iterator[Path]:
 
 
 def clean_environment() -> dict[str, str]:
-    """Return the course's environment, without variables of the user who grades."""
+    """Return the course's environment, without variables of the user who grades.
+
+    With more than one arena, glibc reserves about 64 MiB of address space for each thread of a process.
+    Then a student's code could start only about ten threads within the limit MEMORY.
+    """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
-    return known
+    return {**known, "MALLOC_ARENA_MAX": "1"}
 
 
 def _invented(path: str, text: str) -> Path:

@@ -280,7 +280,7 @@ replace("spin();", "spin();\n  return 0;")
 replace('  ros::spin();\n', '')
 # %% 14.5 wrong: no wait | hint: wait for each service
 replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
-# %% 14.5 wrong: the name is fixed | hint: Publish on /NAME/cmd_vel, where NAME is the name in the response of
+# %% 14.5 wrong: the name is fixed | hint: Publish only on /NAME/cmd_vel, where NAME is the name in the response of
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 14.5 wrong: the speed is missing | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')
@@ -391,6 +391,8 @@ int main(int argc, char** argv) {
 replace('++calls[session->second]', '++calls["all"]')
 # %% 14.9 wrong: the name of the node | hint: This is the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
+# %% 14.9 wrong: the session and the name of the node | hint: Another node may continue a session
+replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
 # %% 14.9 wrong: a map in the handler | hint: The count starts again in each call

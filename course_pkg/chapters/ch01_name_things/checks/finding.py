@@ -1,4 +1,4 @@
-"""Find services and publishers, and distinguish running nodes from nodes that are only registered."""
+"""Services and publishers have to be found; a node may be running or only registered."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -6,6 +6,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = "You called another service with a similar name. Compare the whole text after the last slash."
+FOUND = "Find the service, call it, and return the volume."
+RUNNING = "Return the sorted names of the running publishers of a topic."
 
 
 @part(
@@ -17,18 +19,28 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     ),
     needs=["ask_wherever"],
     deadline=25.0,
+    goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
+    """Serve the name and similar names in three namespaces.
+
+    Then pass the name of a service that does not exist.
+    """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
         volume, *others = (whole + 0.375 for whole in context.random.integers(4, 1000, 9000))
-        named = {f"{place}/x{last}": others[0], f"/{last}/x": others[1], f"{place}/{last}x": others[2]}
-        for name, wrong in named.items():
-            context.serve(name, GEOMETRY, lambda _, v=wrong: {"volume": v})
-        answer = {"volume": volume, "area": volume + 1}
-        server = context.serve(f"{place}/{last}", GEOMETRY, lambda _, a=answer: a)
+        wanted = f"{place}/{last}"
+        named = {
+            f"{place}/x{last}": others[0],
+            f"/{last}/x": others[1],
+            f"{wanted}x": others[2],
+            wanted: volume,
+        }
+        servers = {  # in a random order, because the master lists services in the order of their registration
+            name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
+            for name in context.random.shuffled([*named])
+        }
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         context.expect(
             "the volume comes from the right service",
@@ -53,7 +65,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         context.expect(
             "the request has length, width and height",
             expected={"length": length, "width": width, "height": height},
-            actual=server.requests[0],
+            actual=servers[wanted].requests[0],
             near=1e-4,
             hints=[
                 (
@@ -82,6 +94,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             (ANYTHING, "This service responds with the volume 0. Return this value unchanged."),
         ],
     )
+    context.fulfilled(FOUND)
     context.expect(
         "None if there is no such service",
         expected=None,
@@ -94,11 +107,12 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Call the function with new names, so that an answer that only counts its calls fails."""
+    """Call the function with new names, so that an answer that counts its calls fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
         place, last = (context.random.word() for _ in range(2))
+        context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0})
         if volume is not None:
             context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
@@ -138,14 +152,18 @@ _NOBODY = [
     goal="Return the sorted names of the nodes that publish a topic and answer a ping.",
     needs=["living_publishers"],
     deadline=25.0,
+    goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register running and killed publishers of two topics; then pass topics without a running publisher."""
+    """Register running and killed publishers of two topics.
+
+    Then pass topics that have no running publisher.
+    """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
     living, dead = names[:3], names[3:5]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
-        context.fake_node(name, topic, NUMBER, alive=number % 2 == 0)
+        context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
     context.fake_node(names[5], other, NUMBER)
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
@@ -188,6 +206,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
         ],
     )
+    context.fulfilled(RUNNING)
     context.expect(
         "no running publisher gives an empty list",
         expected=[[], []],
@@ -200,7 +219,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=8.0,  # three pings of each node that does not answer take 6 s
+        within=8.0,  # a node that does not answer is pinged three times, which takes 6 s
         hints=[
             (
                 matches("TimesUp"),

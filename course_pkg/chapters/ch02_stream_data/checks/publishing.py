@@ -1,19 +1,23 @@
-"""Publishers: one that publishes at a rate and loses no message, and one that publishes each change."""
+"""Publishers: one publishes at a rate and must not lose a message; the other one publishes each change."""
 
+import threading
+import time
 from itertools import pairwise
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
+from course_pkg.waiting import wait_until
 
 WAITS_FOR_EVER = (
     "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
 )
-# Times in s for a count without a subscriber, which waits 2 s and then publishes for 1 s.
-NO_WAIT, EARLIEST = 1.7, 2.6
+# Times in s for a count without a subscriber; the student's function waits 2 s, and then publishes 11 numbers
+# in 1.1 s. A subscriber connects 2.3 s after the publisher.
+NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
-SOON = 4.0  # s for a message to arrive on a busy machine
-AT_ONCE = 0.3  # s that the fastest of several calls may take
+SOON = 4.0  # maximum time in s until a message arrives on a busy machine
+AT_ONCE = 0.3  # maximum duration in s of the fastest of several calls
 TOO_SOON = (
     "A subscriber that connects within 2 s would not receive the 0. If there is no subscriber, wait for "
     "the full 2 s."
@@ -36,6 +40,8 @@ def create(kind, topic):
 def set_value(topic, value):
     notices[topic].set(value)
 """
+COUNTS = "Publish all numbers at the given rate, from the moment at which a subscriber is connected."
+LATCHED = "Let a node that subscribes later receive the last value."
 
 
 @part(
@@ -47,9 +53,10 @@ def set_value(topic, value):
     ),
     needs=["count_aloud"],
     deadline=40.0,
+    goals={COUNTS: 3, "Begin after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
+    """Subscribe to two counts with different rates; then start a third count, which has no subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -74,25 +81,56 @@ def count_aloud(context: CheckContext) -> None:
                 "as there is one."
             ),
         )
+    context.fulfilled(COUNTS)
+    _counts_alone(context, f"/{context.random.word()}")
+
+
+def _counts_alone(context: CheckContext, topic: str) -> None:
+    """Start a count without a subscriber; subscribe at a time when it should already publish."""
+    late: list[Subscription] = []
+
+    def come() -> None:
+        if wait_until(lambda: any(seen.name == topic for seen in context.look().topics), SOON):
+            time.sleep(COMES)
+            late.append(context.subscribe(topic, "std_msgs/UInt32"))
+
+    comes = threading.Thread(target=come)
+    comes.start()
     alone = context.run(
         "count_aloud",
-        f"/{context.random.word()}",
+        topic,
         10,
-        10,
-        within=7.0,
+        ALONE,
+        within=8.0,
         hints=[
             (matches("TimesUp"), WAITS_FOR_EVER),
             (matches("^(?!TimesUp)"), "Even without a subscriber, the function has to publish all numbers."),
         ],
     )
+    comes.join()
     alone.returned()
     context.require(
         "without a subscriber it begins after 2 s",
-        holds=EARLIEST < alone.took < 5.0,
-        expected="a wait of 2 s, then ten numbers at 10 per second; together about 3 s",
+        holds=EARLIEST < alone.took < 5.5,
+        expected=f"a wait of 2 s, then {ALONE} numbers at 10 per second; together about 3 s",
         actual=f"a count that ended after {alone.took:.1f} s",
         hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
     )
+    numbers = _numbers_until_the_last(late[0]) if late else []
+    if not numbers or numbers != list(range(numbers[0], ALONE)) or numbers[0] == 0:
+        context.fail(
+            "without a subscriber it begins after 2 s",
+            expected=f"a subscriber that comes after {COMES} s receives the last numbers, up to {ALONE - 1}",
+            actual=str(numbers),
+            hint=WAITS_FOR_EVER if numbers[:1] == [0] else NO_NUMBERS,
+        )
+
+
+def _numbers_until_the_last(subscription: Subscription) -> list[int]:
+    """Return the numbers that have arrived; wait at most 0.5 s for the last one."""
+    last = {"data": ALONE - 1}
+    subscription.until(lambda arrivals: bool(arrivals) and arrivals[-1].fields == last, 0.5)
+    return [arrival.fields["data"] for arrival in subscription.arrivals]
 
 
 def _slow(hertz: int) -> Hints:
@@ -144,7 +182,7 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 
 
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
-    """Assert that the average rate is right, and that the numbers are evenly spaced."""
+    """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
     context.require(
         "the average rate is the given rate",
@@ -158,10 +196,12 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     gaps = sorted(later.at - one.at for one, later in pairwise(arrivals))
     context.require(
         "the numbers are evenly spaced",
-        holds=gaps[len(gaps) // 2] > 0.5 / hertz,
+        holds=gaps[len(gaps) // 2] > 0.88 / hertz,
         expected=f"gaps of about {1000 / hertz:.0f} ms",
         actual=f"half of the gaps shorter than {1000 * gaps[len(gaps) // 2]:.0f} ms",
-        hints="The numbers arrive in groups. Pause after each single number.",
+        hints="The numbers arrive in groups. Pause after each single number."
+        if gaps[len(gaps) // 2] < 0.5 / hertz
+        else "The pauses are shorter than 1 / rate. Use rospy.Rate(rate).",
     )
 
 
@@ -171,13 +211,17 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
+    goals=[LATCHED, "Publish each change once, and no value that stays the same."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late subscriber; one may be 0."""
+    """Set values without a subscriber, with a subscriber, and before a late subscriber.
+
+    One of them may be 0.
+    """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
-    second = first + 0.0625  # a very small difference is a change, too
+    second = first + 0.0625  # a very small difference also counts as a change
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
     took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]
@@ -193,6 +237,7 @@ def a_notice(context: CheckContext) -> None:
     listener = _subscribed(context, zero)
     _receives(context, listener, [0.0], "the first value is published, even if it is 0")
     _receives(context, _subscribed(context, twin), [first], LATE)
+    context.fulfilled(LATCHED)
     _set(context, zero, 0.0)
     _receives(context, listener, [0.0], "a value that stays the same is not published again")
     _set(context, topic, first)
@@ -200,7 +245,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(3, within=SOON)  # wait, because in a short queue the next value would replace this one
+    subscriber.wait(3, within=SOON)  # in a short queue, the next value would otherwise replace this one
     _set(context, topic, second)
     _receives(
         context,
@@ -213,7 +258,7 @@ def a_notice(context: CheckContext) -> None:
 
 
 def _set(context: CheckContext, topic: str, value: float) -> float:
-    """Call set(value) of the notice for `topic`; return how long this call took, in s."""
+    """Call set(value) of the student's notice for `topic`; return the duration of this call in s."""
     hints = [(matches("TimesUp"), "set() does not return. A latched message needs no loop and no wait.")]
     done = context.run("set_value", topic, value, worded="Notice(topic).set(value)", hints=hints)
     done.returned()
@@ -221,7 +266,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`; rospy sends a latched message to each new connection."""
+    """Subscribe to `topic`. rospy sends a latched message to each new connection."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the topic that Notice() gets, and do not unregister it."
     subscription.published(hints=[(matches("no publisher"), hint)])
@@ -229,7 +274,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that the values arrive, and that no other message arrives in the next 0.3 s."""
+    """Assert that these values arrive, and that no other message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

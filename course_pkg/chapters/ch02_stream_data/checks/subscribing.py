@@ -1,4 +1,4 @@
-"""Subscribers: one that mirrors every message, and two that need different queues."""
+"""Subscribers: one publishes the mirror image of every message, and two others need different queues."""
 
 import statistics
 import threading
@@ -13,6 +13,7 @@ from course_pkg.checking.peers.subscription import Arrival
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Fields, Value
 from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import at_this_load
 
 JOINTS = "sensor_msgs/JointState"
 KEEPER = """
@@ -49,8 +50,9 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-DRAWING, PREPARING = 0.25, 0.02  # s that one call takes
-OLDEST = 0.5  # s; the largest age of an angle when a drawing begins
+DRAWING, PREPARING = 0.25, 0.02  # duration of one call in s
+RETURNS = 1.5  # maximum time in s until a function returns; it takes some ms on an idle machine
+OLDEST = 0.5  # maximum age in s of an angle when a drawing begins
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
 NO_SUBSCRIBER = "Return the rospy.Subscriber, so that the caller can unregister it."
@@ -63,7 +65,10 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """A callable that takes `pause` s; it records when each call begins, and how many calls run at once."""
+    """A callable that takes `pause` s.
+
+    It records the beginning of each call, and the number of simultaneous calls.
+    """
 
     def __init__(self, pause: float) -> None:
         self.done: list[tuple[float, Value]] = []
@@ -74,7 +79,7 @@ class Work:
 
     @remote
     def __call__(self, value: Value) -> None:
-        """Record the call, and sleep."""
+        """Record the call, and sleep for `pause` s."""
         with self._lock:
             self._busy += 1
             self.at_once = max(self.at_once, self._busy)
@@ -84,12 +89,17 @@ class Work:
             self._busy -= 1
 
 
+MIRRORED = "Publish every message once, with opposite signs and the same header."
+NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in order."
+
+
 @part(
     "02.2",
     points=2,
     goal="Publish every message of one topic immediately on another topic, with opposite signs.",
     needs=["start_mirror"],
     deadline=30.0,
+    goals={MIRRORED: 3, "Publish it immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
     """Publish random joint states, and compare each of them with the mirrored message."""
@@ -122,6 +132,7 @@ def a_mirror(context: CheckContext) -> None:
             actual=subscription.count,
             hints=ONCE,
         )
+        context.fulfilled(MIRRORED)
         _promptly(context, publisher.sent, subscription.arrivals)
         expected, seen = _changed(messages, context.read("witnessed", list))
         context.expect(
@@ -134,10 +145,20 @@ def a_mirror(context: CheckContext) -> None:
                 "changed message. Create a new JointState."
             ),
         )
+    before = subscription.count
+    context.publish(source, JOINTS, messages, every=0.02)
+    subscription.during(0.4)
+    if subscription.count > before:
+        context.fail(
+            "the subscriber is returned",
+            expected="no mirrored message after unregister() of the subscriber",
+            actual=f"{subscription.count - before} messages",
+            hint=NO_SUBSCRIBER,
+        )
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first changed message before and after the change; ({}, {}) if no message was changed."""
+    """Return the first message that was changed, before and after the change; ({}, {}) if there is none."""
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
@@ -161,7 +182,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext) -> list[float]:
-    """Return positive and negative random numbers, so that each mistake with signs changes the result."""
+    """Return positive and negative random numbers, so that each wrong sign changes the result."""
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
     )
@@ -171,11 +192,16 @@ def _of_both_signs(context: CheckContext) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns subscribers of `topics`; unregister them at the end."""
+    """Call the student's function, which returns the subscribers of `topics`; at the end, unregister them."""
     context.prepare(KEEPER)
     try:
         started = context.run(
-            "begin", Its(start), *args, worded=worded, hints=[(matches("TimesUp"), NEVER_RETURNS)]
+            "begin",
+            Its(start),
+            *args,
+            within=at_this_load(RETURNS),
+            worded=worded,
+            hints=[(matches("TimesUp"), NEVER_RETURNS)],
         )
         names = started.returned()
         swapped = len(topics) > 1 and names == list(reversed(topics))
@@ -192,7 +218,7 @@ def _begun(
 
 
 def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[Arrival]) -> None:
-    """Compare each mirrored message with the original that has the same time stamp."""
+    """Compare each mirrored message with the original message with the same time stamp."""
     stamps = [message["header"]["stamp"] for message in messages]
     seen = [arrival.fields["header"]["stamp"] for arrival in heard]
     context.require(
@@ -304,9 +330,10 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goal="Draw only the newest angle of one topic, but prepare all orders of another topic.",
     needs=["start_robot"],
     deadline=30.0,
+    goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
-    """Publish angles much faster than draw() handles them, and many orders within a short time."""
+    """Publish angles much faster than draw() can handle them, and many orders within a short time."""
     topics = [f"/{context.random.word()}" for _ in range(2)]
     angles = context.random.numbers(ANGLES, -900.0, 900.0)
     numbers = context.random.integers(ORDERS, 1000, 9999)
@@ -324,16 +351,22 @@ def two_queues(context: CheckContext) -> None:
         customers.listened(hints="Create a rospy.Subscriber for the topic `orders`, of type UInt32.")
         arm.finish(10.0)
         customers.finish(10.0)
-        time.sleep(max(2 * DRAWING, ORDERS * PREPARING))  # wait for the calls with the last values
+        # wait until the calls with the last values have ended
+        time.sleep(max(2 * DRAWING, ORDERS * PREPARING))
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
-    _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
-    _prepared(context, prepare.at_once, prepared, numbers)
+    with context.goal(NEWEST):
+        _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
+    with context.goal(ALL_ORDERS):
+        _prepared(context, prepare.at_once, prepared, numbers)
 
 
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each angle in `drawn` (time, angle) was the newest; `sent` has the time of each angle."""
+    """Assert that each angle in `drawn` (time, angle) was the newest one.
+
+    `sent` contains the time of each angle.
+    """
     angles = [angle for _, angle in drawn]
     context.require(
         "draw is called with angles of the topic",
@@ -427,7 +460,7 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
 
 
 def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
-    """Assert that no two calls overlapped; `at_once` is how many ran at the same time."""
+    """Assert that calls did not overlap; `at_once` is the maximum number of simultaneous calls."""
     context.expect(
         f"one call of {function} at a time",
         expected=1,

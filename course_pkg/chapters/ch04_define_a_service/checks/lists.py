@@ -1,4 +1,4 @@
-"""The repaired CMakeLists.txt: the build succeeds, and the type can be imported."""
+"""The repaired CMakeLists.txt: the build has to succeed, and Python has to be able to import the type."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
 add_service_files(FILES lamp.srv)
 # generate_messages()
 """
+GENERATED = "Let the build pass, and generate the type Lamp."
 
 
 @part(
@@ -29,6 +30,7 @@ add_service_files(FILES lamp.srv)
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals={GENERATED: 3, "Let other packages find this package.": 1},
 )
 def the_list_file(context: CheckContext) -> None:
     """Build the package with this file and the check's other files; then import the type."""
@@ -48,6 +50,7 @@ def the_list_file(context: CheckContext) -> None:
         expected=lamp_class()._md5sum,
         actual=md5,
     )
+    context.fulfilled(GENERATED)
     context.require(
         "other packages can find this package",
         holds=folder.command("test", "-f", CONFIGURATION).status == 0,
@@ -69,7 +72,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _about(text: str, name: str, reason: str) -> str:
-    """Return a hint: the command is in a comment, or it is not in the file."""
+    """Return a hint: the command is only in a comment, or it is missing."""
     for each in cmake_commands(text):
         if each.name == name and each.is_comment:
             return f"Line {each.line}: {name} is only a comment. Remove the #. {reason}"

@@ -1,4 +1,4 @@
-"""The client as a program: the arguments of its command line."""
+"""The client as a program, with arguments on the command line."""
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 
@@ -7,6 +7,7 @@ def is_list(function, *args):
     return isinstance(function(*args), list)
 """  # a check receives a tuple as a list, so only the kernel sees the difference
 FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other arguments."
+NUMBERS = "Return the three numbers, and ignore arguments for ROS."
 
 
 @part(
@@ -14,9 +15,10 @@ FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other 
     points=2,
     goal="Return the three numbers in the list of arguments, or None if there are not exactly three.",
     needs=["read_sides"],
+    goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments without and with arguments for ROS; then too few, too many, and a word."""
+    """Try valid arguments with and without arguments for ROS; then too few, too many, and a word."""
     name_first = (
         "The first item of the list is the name of the program. The sides begin with the second item."
     )
@@ -83,6 +85,7 @@ def read_the_arguments(context: CheckContext) -> None:
             near=1e-9,
             hints=FOR_ROS,
         )
+    context.fulfilled(NUMBERS)
     context.expect(
         "None when there are too few",
         expected=None,
@@ -95,7 +98,11 @@ def read_the_arguments(context: CheckContext) -> None:
         actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
         hints="Four numbers are too many. Return None; do not ignore one of them.",
     )
-    for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
+    for others in (
+        [texts[0], "wide", texts[2]],
+        [*texts[:2], "wide", texts[2]],
+        [texts[0], f"float({texts[1]})", texts[2]],
+    ):
         context.expect(
             "None when one is not a number",
             expected=None,
@@ -125,7 +132,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Try valid and invalid lists, so that an answer that only counts its calls fails."""
+    """Try valid and invalid lists of arguments, so that an answer that counts its calls fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

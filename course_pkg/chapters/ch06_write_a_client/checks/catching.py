@@ -1,4 +1,4 @@
-"""The client that handles a failed call."""
+"""The client that handles failed calls."""
 
 import math
 
@@ -24,6 +24,8 @@ class no_name:
 """  # each use of this object raises the same error as a name of a wrong type
 
 DEPENDS = "The result must depend on the response of this call, not on earlier calls."
+VOLUME = "Return the volume of the response."
+CAUGHT = "Return None if the call failed."
 
 
 @part(
@@ -32,9 +34,10 @@ DEPENDS = "The result must depend on the response of this call, not on earlier c
     goal="Return the volume, or None if the call failed; do not catch errors of the arguments.",
     needs=["volume_or_none"],
     deadline=30.0,
+    goals={VOLUME: 1, CAUGHT: 2, "Do not catch errors of the arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
-    """Try two working servers, four servers that fail in different ways, and wrong arguments."""
+    """Try two working servers, four servers with different failures, and wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
     (volume,) = volumes(context, 1)
@@ -59,11 +62,13 @@ def catch_what_can_happen(context: CheckContext) -> None:
                 (ANYTHING, "Return the field `volume` of the response."),
             ],
         )
+    context.fulfilled(VOLUME)
     for failure, name, server in _failing(context):
         _fails(context, failure, name, sides)
         if server:
             _is_called_once(context, server)
     _in_a_random_order(context, sides)
+    context.fulfilled(CAUGHT)
     for slip in (f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200):
         _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
     text = str(sides[0])
@@ -79,7 +84,7 @@ def catch_what_can_happen(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
-    """Try new servers that respond or refuse, so that an answer that only counts its calls fails."""
+    """Try new servers that respond or refuse, so that an answer that counts its calls fails."""
     responding = volumes(context, context.random.integer(2, 4))
     failing = [None] * context.random.integer(2, 4)
     for volume in context.random.shuffled([*responding, *failing]):
@@ -89,7 +94,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
             _fails(context, "refuses", name, sides)
             _is_called_once(context, refuses)
         else:
-            context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
+            server = context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
             context.expect(
                 "it returns the volume of the response",
                 expected=volume,
@@ -97,6 +102,13 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
                 near=1e-6,
                 hints=DEPENDS,
             )
+            if len(server.requests) > 1:
+                context.fail(
+                    "it returns the volume of the response",
+                    expected="one call of the service",
+                    actual=f"{len(server.requests)} calls",
+                    hint="The function called the service more than once. Call it once.",
+                )
 
 
 def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:
@@ -122,7 +134,10 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 
 
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
-    """Assert that a call of `name` returns None; the function may wait up to 10 s for the service."""
+    """Assert that a call of the service `name` returns None.
+
+    The function may wait up to 10 s for the service.
+    """
     result = context.run(
         "volume_or_none",
         name,
@@ -155,7 +170,10 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return for each case the kind of failure, the name of the service, and the server or None."""
+    """Return the failures.
+
+    Each is its name, the name of the service, and the server, or None if there is none.
+    """
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))
     dies = context.serve(dying, GEOMETRY, lambda _: HangUp())

@@ -1,4 +1,4 @@
-"""The client that calls the next server after a failure, with a time limit for each call."""
+"""The client that calls the next server after a failure; each call has a time limit."""
 
 from collections.abc import Mapping
 
@@ -9,6 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
+FIRST = "Return the volume of the first service if it responds."
+NEXT = "Return the volume of the next service if a service does not exist or refuses."
 
 
 @part(
@@ -20,19 +22,25 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhe
     ),
     needs=["first_answer"],
     deadline=30.0,
+    goals=[FIRST, NEXT, "Wait one second for a response, and return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
-    """Try a working server alone, after each kind of failing server, and then only failing servers."""
-    names = {kind: f"/{context.random.word()}" for kind in KINDS}  # a name must not show the kind
+    """Try a working server, first alone and then after each kind of failing server.
+
+    At last, try only failing servers.
+    """
+    # the name must not tell the kind of the server
+    names = {kind: f"/{context.random.word()}" for kind in KINDS}
     first, second, late, tardy = volumes(context, 4)
-    context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
+    primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
     reserve = context.serve(names["second"], GEOMETRY, lambda _: {"volume": second})
     context.serve(names["flat"], GEOMETRY, lambda _: {"volume": 0.0})
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
     context.serve(names["frozen"], GEOMETRY, lambda _: Silence())
-    working = _first_of(context, names, "first", "second")
+    sides = context.random.numbers(3, 0.5, 9.0)
+    working = context.run("first_answer", [names["first"], names["second"]], *sides, hints=_ERRORS)
     context.expect(
         "the first service is used if it responds",
         expected=first,
@@ -47,6 +55,13 @@ def ask_the_next_one(context: CheckContext) -> None:
             ),
             (ANYTHING, "Return the volume of the response."),
         ],
+    )
+    context.expect(
+        "the first service is used if it responds",
+        expected=[dict(zip(("length", "width", "height"), sides, strict=True))],
+        actual=primary.requests,
+        near=1e-4,
+        hints="Call a service once, and send the three sides unchanged.",
     )
     context.expect(
         "then no other service is called",
@@ -66,7 +81,9 @@ def ask_the_next_one(context: CheckContext) -> None:
             "test for an empty list or for None."
         ),
     )
-    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
+    context.fulfilled(FIRST)
+    many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 3)])
+    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), many):
         context.expect(
             "the next service is used if one fails",
             expected=second,
@@ -80,6 +97,7 @@ def ask_the_next_one(context: CheckContext) -> None:
                 )
             ],
         )
+    context.fulfilled(NEXT)
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,
@@ -108,8 +126,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     )
     context.require(
         "a frozen service delays the result by about one second",
-        holds=frozen.took - working.took
-        < 1.75,  # a right function may wait for one second for each of the two services
+        holds=frozen.took - working.took < 1.75,  # a right function may wait 1 s for each of the two services
         expected="at most 1 s for the frozen service",
         actual=f"a result after {frozen.took:.1f} s",
         hints="The function waits too long for one service. The time limit is one second for each service.",
@@ -137,7 +154,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Mix lists with and without a working service, so that an answer that only counts its calls fails."""
+    """Mix lists with and without a working service, so that an answer that counts its calls fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
@@ -170,6 +187,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with the names of the services of these kinds, in this order."""
+    """Run the student's function with the names of services of these kinds, in this order."""
     sides = context.random.numbers(3, 0.5, 9.0)
-    return context.run("first_answer", [names[kind] for kind in kinds], *sides, hints=hints or _ERRORS)
+    services = [names[kind] for kind in kinds]
+    return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

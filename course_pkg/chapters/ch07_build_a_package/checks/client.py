@@ -21,10 +21,14 @@ CLIENT = Program("scripts/client.py")
 FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
-WITHIN = 16.0  # s for a run: rospy starts in 0.5 s (5 s on a busy machine), and the client waits up to 5 s
+# maximum time of a run in s: rospy needs 0.5 s to start (5 s on a busy machine), and the client waits up to 5
+# s
+WITHIN = 16.0
 
 START = f"""%%writefile {FILE}
 ..."""
+PRINTED = "Call the service, and print the area and the volume."
+EXPLAINED = "End with 2 if the arguments are wrong."
 
 
 @part(
@@ -37,6 +41,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
+    goals=[PRINTED, EXPLAINED, "End with 1 if there is no response."],
 )
 def the_client(context: CheckContext) -> None:
     """Run the client with a server that responds or refuses, with wrong arguments, and without a server."""
@@ -45,7 +50,9 @@ def the_client(context: CheckContext) -> None:
     package = built(context, MY_GEOMETRY, examined=CLIENT.file)
     can_be_imported(context, package, CLIENT)
     _prints_the_answer(context, package)
+    context.fulfilled(PRINTED)
     _explains_its_usage(context, package)
+    context.fulfilled(EXPLAINED)
     _ends_with_one_after_a_refusal(context, package)
     _gives_up_without_a_server(context, package)
 
@@ -189,7 +196,7 @@ def _run(package: BuiltPackage, arguments: list[str]) -> Finished:
 
 
 def _printed(done: Finished, name: str) -> float | None:
-    """Return the number in the line of `name`, such as "area: 6.24"; None if there is no such line."""
+    """Return the number in the line `name`, such as "area: 6.24"; None if there is no such line."""
     found = re.search(rf"(?m)^\s*{name}:\s*(-?\d+\.\d\d)\s*$", done.out)
     return float(found[1]) if found else None
 

@@ -1,4 +1,4 @@
-"""10.4: a handler that runs in fifty threads at the same time."""
+"""10.4: a handler that runs in fifty threads at a time."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ TWICE = (
     "Two handlers read the same number, so one of the sales was lost. Hold a lock "
     "while you read, decide and write, and use the same lock in all calls."
 )
+EMPTIED = "Sell the things to one client after the other, and then respond with sold out."
 
 
 @part(
@@ -46,9 +47,10 @@ TWICE = (
     ),
     needs=["Stock"],
     deadline=60.0,
+    goals=[EMPTIED, "Sell each thing only once to 50 clients at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
-    """Empty a small shelf with single calls; then make fifty calls at the same time for fewer things."""
+    """Empty a small shelf with single calls; then make fifty simultaneous calls for fewer things."""
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     few = context.random.integer(2, 4)
@@ -58,6 +60,7 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
             _takes_one(context, take, left)
     finally:
         context.run("checked_shop.close")
+    context.fulfilled(EMPTIED)
     count = context.random.integer(28, 36)
     shelf = CheckedShelf(count)
     take = _opened(context, name, shelf, MANY)
@@ -82,7 +85,7 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
 
 
 def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
-    """Take a thing; `left` is the number after this call, or None if the shelf was empty before."""
+    """Take a thing; `left` is the number of things after this call, or None if the shelf was empty."""
     seen = take()
     context.expect(
         "the field `success` is True only if something was left",

@@ -1,4 +1,4 @@
-"""11.1 and 11.2: a connection header in bytes, and an exact number of bytes from a socket."""
+"""11.1 and 11.2: the bytes of a connection header, and reading an exact number of bytes from a socket."""
 
 from __future__ import annotations
 
@@ -35,9 +35,10 @@ ERRORS = [
         "encode() without an argument.",
     )
 ]
-WITHIN = 3.0  # s for one call
-PEEKING = 0.4  # s after which the next piece is sent to a client that peeks and does not read
-CONNECTING = 5.0  # s for the kernel to connect
+WITHIN = 3.0  # time limit for one call (s)
+# s after which the next part is sent to a client that peeks at the bytes and does not read them
+PEEKING = 0.4
+CONNECTING = 5.0  # time limit for the kernel to connect (s)
 
 
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
@@ -57,6 +58,9 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     ]
 
 
+RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
+
+
 @part(
     "11.1",
     points=2,
@@ -64,7 +68,7 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare headers with random fields, with a letter of two bytes, and without fields."""
+    """Compare headers with random fields, with a letter that needs two bytes, and without fields."""
     word = context.random.word
     context.prepare(TYPE_OF_HEADER)
     for what, fields in (
@@ -74,7 +78,8 @@ def packed_header(context: CheckContext) -> None:
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
         packed = context.run("pack_header", fields, hints=ERRORS).returned()
-        orders = [dict(order) for order in permutations(fields.items())]  # TCPROS allows any order
+        # TCPROS allows every order of the fields
+        orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
         context.expect(
             assertion,
@@ -102,7 +107,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the header, or a header with the mistake that the arguments describe."""
+    """Return the bytes of the header, or those with the mistake that the arguments describe."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
@@ -172,9 +177,13 @@ NOT_RAISED: Hints = [
         "raise ConnectionError if the connection ends earlier."
     ),
     needs=["receive"],
+    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
 )
 def exact_read(context: CheckContext) -> None:
-    """Send the bytes together, in pieces, and with additional bytes; then close the connection too early."""
+    """Send the bytes in one piece, in several pieces, and with additional bytes.
+
+    Then close the connection too early.
+    """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
     _receives(context, "bytes that arrive together", [whole], [12])
@@ -183,6 +192,7 @@ def exact_read(context: CheckContext) -> None:
     joined = [whole[:5], whole[5:] + following]
     _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
     _receives(context, "no bytes for a count of 0", [whole], [0, 12])
+    context.fulfilled(RECEIVED)
     with OtherEnd([whole[:7]], closes=True) as other:
         context.prepare(YOUR_END.format(name=other.name))
         context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
@@ -192,16 +202,22 @@ def exact_read(context: CheckContext) -> None:
         )
 
 
-class OtherEnd:
-    """The other end of the student's socket, which sends `pieces`; it is open until the block ends.
+TAKEN = (
+    "The function read more than `count` bytes from the socket. The later bytes belong to the next message: "
+    "leave them in the socket."
+)
 
-    Each piece is sent after the client has read the previous piece. So a client that reads only once gets
-    only one piece.
+
+class OtherEnd:
+    """The other end of the student's socket. It sends `pieces`, and stays open until the end of the block.
+
+    It sends each piece after the client has read the previous one. Therefore, a client that reads only once
+    gets only one piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
-        # The socket is in Linux's abstract namespace: it needs no file, and is visible only in this network
-        # namespace.
+        # The socket is in Linux's abstract namespace: it needs no file, and only this network namespace can
+        # see it.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes = pieces, closes
         self._listener = socket.socket(socket.AF_UNIX)
@@ -209,6 +225,7 @@ class OtherEnd:
         self._listener.listen(1)
         self._listener.settimeout(CONNECTING)
         self._over = threading.Event()
+        self._sock: socket.socket | None = None
         self._sending = threading.Thread(target=self._send, daemon=True)
 
     def __enter__(self) -> OtherEnd:
@@ -222,10 +239,17 @@ class OtherEnd:
         self._sending.join()
         self._listener.close()
 
+    def has_more(self) -> bool:
+        """Return whether there are bytes in the client's socket that the client has not read."""
+        with suppress(OSError):
+            return bool(self._sock and _unread(self._sock))
+        return False
+
     def _send(self) -> None:
-        with suppress(OSError):  # the kernel has closed its socket, or does not connect
+        with suppress(OSError):  # the kernel has closed its socket, or has not connected
             sock, _ = self._listener.accept()
             with sock:
+                self._sock = sock
                 for piece in self._pieces:
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
@@ -234,13 +258,13 @@ class OtherEnd:
 
 
 def _unread(sock: socket.socket) -> int:
-    """Return the number of bytes that were sent but not read."""
+    """Return the number of bytes that were sent but not yet read."""
     (count,) = struct.unpack("i", fcntl.ioctl(sock, termios.TIOCOUTQ, bytes(4)))
     return int(count)
 
 
 def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
-    whole, at = b"".join(pieces), 0
+    whole, at, left = b"".join(pieces), 0, True
     with OtherEnd(pieces) as other:
         context.prepare(YOUR_END.format(name=other.name))
         for count in counts:
@@ -254,10 +278,14 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
                 ).returned(),
                 hints=_not_received(count),
             )
+            left = left and (at == len(whole) or bool(wait_until(other.has_more, PEEKING)))
+    context.require(
+        what, holds=left, expected="the later bytes in the socket", actual="an empty socket", hints=TAKEN
+    )
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for a value that is not the next `count` bytes."""
+    """Return hints for a value other than the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (

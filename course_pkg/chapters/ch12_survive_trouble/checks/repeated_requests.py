@@ -1,4 +1,4 @@
-"""12.2: a server that must charge a repeated request only once."""
+"""12.2: a server that has to charge a repeated request only once."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.checking.result import Result
 
 AT_ONCE = 50
-ONE = 6.0  # s for a single call
-MANY = 20.0  # s for 50 calls at the same time, on a busy machine
+ONE = 6.0  # time limit for a single call (s)
+MANY = 20.0  # time limit for 50 simultaneous calls on a busy machine (s)
 MEETING = 0.05  # s for which a call of take() waits for another call with the same amount
-FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can begin
-BUYERS = 10  # each of them sends its request five times
+FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can start
+BUYERS = 10  # number of clients; each of them sends its request five times
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -51,6 +51,10 @@ RACE = (
     "once. Hold one lock while you check for a receipt, take the money and store "
     "the receipt."
 )
+TOO_SOON = (
+    "A request failed and was repeated, but nothing was charged. Store the request_id after take has "
+    "returned, not before."
+)
 REFUSED = (
     "A repeated request was refused. The client did not get the first response, so send the same "
     "receipt again."
@@ -70,6 +74,8 @@ STUCK = (
     "not released. Use `with self.lock:`, which also releases the lock after an "
     "error."
 )
+CHARGED = "Charge a new request, and send the same receipt when it comes again."
+FAILED = "Charge again after the purse has failed, and refuse a request without an id."
 
 
 @part(
@@ -78,9 +84,13 @@ STUCK = (
     goal="Charge each request only once, even if it comes again, and send the same receipt each time.",
     needs=["Till"],
     deadline=60.0,
+    goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests; let the purse fail; omit the id; send 50 requests at the same time."""
+    """Send new and repeated requests; let the purse fail; leave out the id.
+
+    Send 50 requests at the same time.
+    """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     purse, opened = _opened(context, name)
@@ -95,25 +105,28 @@ def charge_once(context: CheckContext) -> None:
     crowd = context.service(name, CHARGE, hints=hints, timeout=MANY)
     try:
         known = _charges_new_requests(context, purse, charge)
+        context.fulfilled(CHARGED)
         _fails_once(context, purse, charge)
         _refuses_without_an_id(context, charge)
+        context.fulfilled(FAILED)
         _at_once(context, purse, crowd)
         _gives_different_receipts(context, purse, crowd)
+        _remembers(context, charge, *known)
     finally:
         context.run("checked_desk.close")
-    _is_new_to_another_till(context, hints, known)
+    _is_new_to_another_till(context, hints, known[0])
 
 
 class CheckedPurse:
     """A purse. The kernel has a proxy for it.
 
-    A call of take() returns when there is another call with the same amount, or after a short time. So two
-    repetitions without a lock always run at the same time here.
+    A call of take() returns when there is another call with the same amount, or after a short time.
+    Therefore, two repeated requests without a lock always run at the same time here.
     """
 
     def __init__(self) -> None:
         self.took: list[Value] = []
-        self.stuck = False  # whether the next take() fails
+        self.stuck = False  # whether the next call of take() fails
         self.meeting = MEETING
         self._long_waits = 0
         self._asked: Counter[str] = Counter()
@@ -136,12 +149,12 @@ class CheckedPurse:
             self.took.append(cents)
 
     def await_crowd(self) -> None:
-        """Let the next take() wait longer, so that the other calls can begin even on a busy machine."""
+        """Let the next call of take() wait longer. The other calls can then start even on a busy machine."""
         self._long_waits = 1
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return its purse and the result of the call that creates it."""
+    """Serve `name` with a new Till; return its purse, and the result of the call that creates the Till."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")
@@ -158,8 +171,8 @@ ANOTHER_RECEIPT: Hints = [
 ]
 
 
-def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> str:
-    """Send new requests, and repeat them; return the id of a request that was charged."""
+def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> tuple[str, int]:
+    """Send new requests and repeat them; return the id and the receipt of a charged request."""
     cents = context.random.integer(100, 900)
     first, second = context.random.word(12), context.random.word(12)
     receipt = charge(request_id=first, cents=cents).receipt
@@ -192,7 +205,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
-        repeated = charge(request_id=again, cents=cents).receipt
+        repeated = charge(request_id=again, cents=context.random.integer(100, 900)).receipt
         _purse_has(context, purse, "a repeated request is not charged again", [cents, cents], AGAIN)
         context.expect(
             "a repeated request gets the same receipt again",
@@ -200,11 +213,11 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
             actual=repeated,
             hints=ANOTHER_RECEIPT,
         )
-    return first
+    return first, receipt
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words` with the condition that the purse was used only once."""
+    """Return the hint `words`, with the condition that the purse was used only once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -221,16 +234,30 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         ),
     )
     charge(request_id=request_id, cents=cents)
-    _purse_ends_with(
-        context,
-        purse,
+    _purse_ends_with(context, purse, "a request that failed can be sent again", cents, TOO_SOON)
+    _fails_for_twins(context, purse, charge)
+
+
+def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    """Send a request twice at the same time, and let the purse fail once.
+
+    There may be a receipt only for a charge.
+
+    If both requests share one call of take(), both clients get an error.
+    """
+    before, cents = len(purse.took), context.random.integer(10_000, 19_000)
+    purse.stuck = True
+    purse.await_crowd()
+    replies = charge.replies([{"request_id": context.random.word(12), "cents": cents}] * 2)
+    charged = len(purse.took) - before
+    context.require(
         "a request that failed can be sent again",
-        cents,
-        (
-            "A request failed and was repeated, but nothing was charged. Store the request_id after "
-            "take has returned, not before."
-        ),
+        holds=charged == 1 or all(reply.error for reply in replies),
+        expected="one charge for a receipt",
+        actual=f"a receipt, and {charged} charges",
+        hints=TOO_SOON,
     )
+    purse.stuck = False
 
 
 NOT_REFUSED: Hints = [
@@ -289,7 +316,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send so many requests that receipt numbers drawn at random would probably be equal."""
+    """Send so many requests that two random receipt numbers would probably be equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}
@@ -302,6 +329,16 @@ def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge
         expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
         actual=f"{len(set(receipts))} different receipts",
         hints=SAME_NUMBER,
+    )
+
+
+def _remembers(context: CheckContext, charge: Service, request_id: str, receipt: int) -> None:
+    """Repeat the first request after all other requests."""
+    context.expect(
+        "a repeated request gets the same receipt again",
+        expected=receipt,
+        actual=charge(request_id=request_id, cents=context.random.integer(100, 900)).receipt,
+        hints=ANOTHER_RECEIPT,
     )
 
 

@@ -1,4 +1,4 @@
-"""12.1: a call with a time limit, for a proxy without a time limit."""
+"""12.1: a call with a time limit through a proxy that has none."""
 
 from __future__ import annotations
 
@@ -9,19 +9,33 @@ from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
-LIMIT = 0.8  # s that the student's function may wait
-LONG = 4.0  # s; a time limit that no call reaches
-WORK = 0.3  # s that a slow handler takes
-SLACK = 1.2  # s that a busy machine may add
+LIMIT = 0.8  # s for which the student's function may wait
+LONG = 4.0  # s; a time limit that is longer than every call
+WORK = 0.3  # duration of a slow handler in s
+SLACK = 1.2  # additional s for a busy machine
 KERNEL_CODE = """
+import threading
+import time
+
 import rospy
 from course_pkg.srv import AddTwoInts
 
 
-def checked_call(function, name, seconds, a, b):
-    response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
-    return None if response is None else [response.sum]
+class CheckedCall:
+    def call(self, function, name, seconds, a, b):
+        threads, began = threading.enumerate(), time.process_time()
+        try:
+            response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
+        finally:
+            self.busy = time.process_time() - began  # s of processor time
+            new = [thread for thread in threading.enumerate() if thread not in threads]
+            self.daemon = all(thread.daemon for thread in new)
+        return None if response is None else [response.sum]
+
+
+checked_call = CheckedCall()
 """
+BUSY = 0.8  # CPU time in s; a thread that waits without a pause uses more in LONG s
 ERRORS = [
     (
         matches("TimesUp"),
@@ -42,14 +56,14 @@ ERRORS = [
 
 
 class Adder:
-    """Adds two numbers, or executes `act` instead."""
+    """Adds two numbers, or does `act` instead."""
 
     def __init__(self) -> None:
         self.act: Act | None = None
         self.requests = 0
 
     def __call__(self, request: Message) -> Act:
-        """Handle a request of a scripted server."""
+        """Handle a request to the scripted server."""
         self.requests += 1
         total = {"sum": request.a + request.b}
         if isinstance(self.act, Late):
@@ -85,7 +99,10 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix the cases with one limit, so that an answer that depends on the limit or on a count fails."""
+    """Mix the cases with the same limit.
+
+    An answer that depends on the limit or counts its calls then fails.
+    """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses
     acts += [Refuse(f"no {context.random.integer(100, 999)}") for _ in range(failures)]
@@ -102,7 +119,9 @@ def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
 def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> Result:
     function, worded = Its("call_within"), f"call_within({seconds:g}, proxy, a, b)"
     arguments = (function, name, seconds, a, b)
-    return context.run("checked_call", *arguments, within=seconds + 2 * SLACK, hints=ERRORS, worded=worded)
+    return context.run(
+        "checked_call.call", *arguments, within=seconds + 2 * SLACK, hints=ERRORS, worded=worded
+    )
 
 
 def _responds(context: CheckContext, name: str, adder: Adder) -> None:
@@ -187,4 +206,18 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         expected=f"TimeoutError after {limit:g} s",
         actual=f"after {result.took:.1f} s",
         hints="The function did not wait for `seconds`. Pass `seconds` to join().",
+    )
+    context.require(
+        "the time limit is kept",
+        holds=context.read("checked_call.daemon", bool),
+        expected="a daemon thread that still waits",
+        actual="a thread that is not a daemon thread",
+        hints="At the end of a program, Python waits for this thread. Create the thread with daemon=True.",
+    )
+    context.require(
+        "the time limit is kept",
+        holds=context.read("checked_call.busy", float) < BUSY,
+        expected="almost no processor time",
+        actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
+        hints="The function needs processor time while it waits. Use join(seconds), which sleeps.",
     )

@@ -1,4 +1,4 @@
-"""14.9: a handler that reads the connection header of its client."""
+"""14.9: a handler that reads the connection header of a client."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # s for a call
+WITHIN = 4.0  # time limit for a call (s)
+COUNTED = "Count the calls of each session separately."
 
 
 @part(
@@ -27,6 +28,7 @@ WITHIN = 4.0  # s for a call
     needs=[f"file:{PROGRAM.path}"],
     deadline=150.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals={COUNTED: 2, "Refuse a call without a session.": 1},
 )
 def count_sessions(context: CheckContext) -> None:
     """Call the service in two sessions, and without a session."""
@@ -34,11 +36,13 @@ def count_sessions(context: CheckContext) -> None:
     with world.run() as running:
         world.serves(running, "count")
         service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
-        sessions = [context.random.word(), context.random.word()]
+        first = context.random.word()
+        sessions = [first, first.upper(), f"{first}{context.random.word()}"]
         counts = dict.fromkeys(sessions, 0)
         for session in context.random.shuffled(sessions * 3):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
+        context.fulfilled(COUNTED)
         service.refused(
             'a call without the field "session" is refused',
             hints=(
@@ -46,28 +50,36 @@ def count_sessions(context: CheckContext) -> None:
                 "the field with find()."
             ),
         )
-        session = sessions[0]
-        counts[session] += 1
-        _counts(context, service.name, service.kind, session, counts)
+        counts[first] += 1
+        _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
 
 
 def _counts(
-    context: CheckContext, name: str, kind: ServiceClass, session: str, counts: dict[str, int]
+    context: CheckContext,
+    name: str,
+    kind: ServiceClass,
+    session: str,
+    counts: dict[str, int],
+    caller: str = "",
 ) -> None:
     context.expect(
         "the message is the number of calls in this session",
         expected=str(counts[session]),
-        actual=_call(name, kind, session),
+        actual=_call(name, kind, {"session": session, **({"callerid": caller} if caller else {})}),
         hints=[
+            (
+                lambda _: bool(caller),
+                "Another node may continue a session. Count only by the value of the field.",
+            ),
             (
                 str(sum(counts.values())),
                 "This is the number of all calls. Store a separate count for each session.",
             ),
+            ("1", "The count starts again in each call. Create the map outside the handler."),
             (
                 str(counts[session] - 1),
                 "This is the number of calls before this call. Increase the count first.",
             ),
-            ("1", "The count starts again in each call. Create the map outside the handler."),
             ("", "The message is empty. Set it to the number, with std::to_string."),
             (
                 ANYTHING,
@@ -78,13 +90,13 @@ def _counts(
     )
 
 
-def _call(name: str, kind: ServiceClass, session: str) -> str:
-    """Call in the given session with a time limit; return the message of the response, or the error."""
+def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
+    """Call with these `headers` within a time limit; return the message in the response, or the error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:
         try:
-            inbox.put(rospy.ServiceProxy(name, kind, headers={"session": session})().message)
+            inbox.put(rospy.ServiceProxy(name, kind, headers=headers)().message)
         except (rospy.ServiceException, rospy.ROSException) as error:
             inbox.put(f"{type(error).__name__}: {error}")
 

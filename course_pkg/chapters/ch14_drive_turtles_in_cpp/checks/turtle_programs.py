@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from course_pkg.chapters.ch09_drive_turtles.checks.follow import follows
-from course_pkg.chapters.ch09_drive_turtles.checks.improved import is_improved
+from course_pkg.chapters.ch09_drive_turtles.checks.follow import FOLLOW_GOALS, follows
+from course_pkg.chapters.ch09_drive_turtles.checks.improved import IMPROVED_GOALS, is_improved
 from course_pkg.chapters.ch09_drive_turtles.checks.launch_file import LaunchFile, launches
-from course_pkg.chapters.ch09_drive_turtles.checks.rate import changes_its_rate
-from course_pkg.chapters.ch09_drive_turtles.checks.spawn import spawns
-from course_pkg.chapters.ch09_drive_turtles.checks.toggle import toggles
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import RATE_GOALS, changes_its_rate
+from course_pkg.chapters.ch09_drive_turtles.checks.spawn import SPAWN_GOALS, spawns
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import TOGGLE_GOALS, toggles
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
 from course_pkg.checking import CheckContext, part
 
@@ -17,7 +17,7 @@ RATE = cpp("pubvel_toggle_plus")
 IMPROVED = cpp("improved_pubvel_toggle")
 FOLLOW = cpp("spawn_turtle_plus")
 LAUNCH = LaunchFile(IMPROVED, FOLLOW)
-DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
+DEADLINE = 150.0  # s; the compiler may need 90 s of this on a busy machine
 
 
 @part(
@@ -27,9 +27,10 @@ DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
     needs=[f"file:{SPAWN.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {SPAWN.path}\n...",
+    goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     spawns(context, SPAWN)
 
 
@@ -40,9 +41,10 @@ def wait_and_spawn(context: CheckContext) -> None:
     needs=[f"file:{TOGGLE.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {TOGGLE.path}\n...",
+    goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     toggles(context, TOGGLE)
 
 
@@ -53,9 +55,10 @@ def toggle_direction(context: CheckContext) -> None:
     needs=[f"file:{RATE.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {RATE.path}\n...",
+    goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     changes_its_rate(context, RATE)
 
 
@@ -69,9 +72,10 @@ def change_the_rate(context: CheckContext) -> None:
     needs=[f"file:{IMPROVED.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {IMPROVED.path}\n...",
+    goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     is_improved(context, IMPROVED)
 
 
@@ -85,9 +89,10 @@ def change_speed_and_stop(context: CheckContext) -> None:
     needs=[f"file:{FOLLOW.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {FOLLOW.path}\n...",
+    goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     follows(context, FOLLOW)
 
 
@@ -103,5 +108,5 @@ def bring_a_second_turtle(context: CheckContext) -> None:
     start=f"%%writefile {LAUNCH.path}\n...",
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """Check the launch file as in chapter 09."""
+    """Check the launch file in the same way as in chapter 09."""
     launches(context, LAUNCH)

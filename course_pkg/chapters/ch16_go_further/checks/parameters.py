@@ -1,4 +1,4 @@
-"""16.3: a parameter, with a default for missing and invalid values."""
+"""16.3: a parameter; if its value is missing or invalid, a default is used."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-SETTLING = 1.0  # s for a new value to reach a node that reads its parameters from a cache
+SETTLING = 1.0  # s until a new value reaches a node that reads parameters from a cache
 NAME = "The name of the parameter has to contain the name of the robot: f'/{robot}/speed'."
 CHANGED = (
     "The parameter was changed, but the function returned the old value: read the parameter in each call."
@@ -21,6 +21,7 @@ TEXT = "A parameter can also be a text. Check that the value is a number."
 LIST = "A parameter can also be a list. Check that the value is a number, instead of excluding single types."
 TRUTH = "In Python, True is an int with the value 1. Check for bool separately."
 NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default."
+SET = "The function has set the parameter. Only read the parameter, and return the default."
 ZERO = "The value was 0, but a speed has to be above 0. Return the default."
 
 
@@ -35,7 +36,7 @@ ZERO = "The value was 0, but a speed has to be above 0. Return the default."
     deadline=20.0,
 )
 def speed_parameter(context: CheckContext) -> None:
-    """Set the parameter of a robot with a random name to valid and invalid values, one after the other."""
+    """Set the parameter of a robot with a random name to several valid and invalid values."""
     robot = context.random.word()
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)
@@ -66,12 +67,19 @@ def speed_parameter(context: CheckContext) -> None:
             holds=not rospy.has_param(f"/{robot}/speed"),
             expected="no parameter, as before the call",
             actual="a parameter that the function has set",
-            hints="The function has set the parameter. Only read the parameter, and return the default.",
+            hints=SET,
         )
         again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # the order is random
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)
+            context.require(
+                assertion,
+                holds=str(rospy.get_param(f"/{robot}/speed", None)) == str(value),
+                expected="the same parameter as before the call",
+                actual="another value of the parameter",
+                hints=SET,
+            )
     finally:
         with suppress(KeyError):
             rospy.delete_param(f"/{robot}")
