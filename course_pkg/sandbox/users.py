@@ -12,7 +12,6 @@ import os
 import shutil
 import signal
 import socket
-import stat
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
@@ -212,13 +211,13 @@ def _wrong_permissions(needed: Iterable[Path], secret: Iterable[Path]) -> str:
         if not os.access(path, os.R_OK):
             return f"Other users cannot read {path}."
     for path in secret:
-        if any(map(_is_readable, [path, *path.rglob("*")] if path.is_dir() else [path])):
+        if any(map(_is_readable, _below([str(path)]))):
             return f"Other users can read {path}; type: chmod 700 {path}"
     return ""
 
 
-def _is_readable(path: Path) -> bool:
-    return os.access(path, os.W_OK) or (os.access(path, os.R_OK) and stat.S_ISREG(path.stat().st_mode))
+def _is_readable(path: str) -> bool:
+    return os.access(path, os.W_OK) or (os.access(path, os.R_OK) and os.path.isfile(path))
 
 
 def _as_user(uid: int, work: Callable[[], str]) -> str:

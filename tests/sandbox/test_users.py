@@ -12,7 +12,6 @@ from tests.sandbox import attacks_by_user
 from tests.sandbox.other_users import run_installed, unpacked_autograder
 
 
-@pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
     """No attack reads a solution, changes a file, reaches the grader, earns points, or leaves a process."""
