@@ -103,7 +103,7 @@ def _require_users(root: Path) -> None:
 
 
 def _grade(submission: Submission, extras: Extras, run: Run) -> Grade:
-    return mark(submission, plan(submission.chapter), extras, run, os.urandom(16).hex(), "", sandboxed=True)
+    return mark(submission, plan(submission.chapter), run, os.urandom(16).hex(), "", sandboxed=True)
 
 
 @contextmanager
