@@ -55,24 +55,47 @@ class Assertion:
 
 
 @dataclass(frozen=True)
+class Review:
+    """What an instructor decided about an answer after the check."""
+
+    comment: str = ""  # for the student
+    computed: float | None = None  # the points of the check, if the instructor set the points
+    outdated: bool = False  # whether the answer has changed since the instructor reviewed it
+
+
+@dataclass(frozen=True)
 class Report:
     """The result of one check."""
 
     check: str
     verdict: Verdict
     goal: str = ""
-    points: int = 0
-    possible: int = 0
+    points: float = 0
+    possible: float = 0
     assertions: tuple[Assertion, ...] = ()
     note: str = ""  # what the student should do next, if no assertion shows this
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
     inconclusive: bool = False  # True if grading counts a check that did not finish as failed
+    review: Review | None = None  # in grading, if an instructor has reviewed the answer
 
     def headline(self) -> str:
         """Return the first line, which contains the result."""
         if not self.possible:
             return f"{self.check} {self.verdict.value}"
-        return f"{self.check} {self.verdict.value}: {self.points} of {self.possible} points"
+        return f"{self.check} {self.verdict.value}: {self.points:g} of {self.possible:g} points"
+
+    def about_review(self) -> list[str]:
+        """Return sentences for the student: who decided the points, and the instructor's comment."""
+        if self.review is None:
+            return []
+        computed, comment = self.review.computed, self.review.comment
+        if computed is None:
+            about = ""
+        elif computed == self.points:
+            about = "The instructor confirmed the points."
+        else:
+            about = f"The instructor changed the points from {computed:g} to {self.points:g}."
+        return [*filter(None, [about, comment and f"The instructor's comment: {comment}"])]
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
         """Return the assertions with their headings; the assertions that hold come first.
@@ -95,6 +118,8 @@ class Report:
                 for label, text in assertion.details():
                     lines += _block(f"      {label:<10}", text)
         lines += _block("  ", self.note)
+        for sentence in self.about_review():
+            lines += _block("  ", sentence)
         if self.verdict is not Verdict.PASSED and self.goal:
             lines += _block("  The goal: ", self.goal)
         return "\n".join(lines)
@@ -124,7 +149,9 @@ class Report:
 def report_from(data: Mapping[str, Value]) -> Report:
     """Return the report from `data`, the result of `as_dict`."""
     assertions = tuple(Assertion(**each) for each in data["assertions"])
-    return Report(**{**data, "assertions": assertions, "verdict": Verdict(data["verdict"])})
+    review = Review(**data["review"]) if data.get("review") else None
+    known = {"assertions": assertions, "verdict": Verdict(data["verdict"]), "review": review}
+    return Report(**{**data, **known})
 
 
 def _block(label: str, text: str) -> list[str]:

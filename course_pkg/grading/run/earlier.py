@@ -22,11 +22,12 @@ class Earlier:
     unreadable: int = 0
 
     def find(self, student: str, chapter: str) -> Grade | None:
-        """Return the earlier grade of a student for a chapter, or None."""
-        return self._by_chapter.get((student, chapter)) if chapter else None
+        """Return the earlier grade of a student for a chapter, or None; it has the points of the checks."""
+        found = self._by_chapter.get((student, chapter)) if chapter else None
+        return found.unreviewed() if found else None
 
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
-        """Return the earlier grades that stay in the reports besides `graded`.
+        """Return the earlier grades that stay in the reports besides `graded`, with the points of the checks.
 
         A selected one is marked as absent: its record exists, but nothing was handed in for it this time. If
         everything was selected, a chapter for which no student handed in anything is another assignment, and
@@ -36,7 +37,7 @@ class Earlier:
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
         files = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         kept = []
-        for grade in self.grades:
+        for grade in (each.unreviewed() for each in self.grades):
             covered = selected.covers(grade.student, grade.chapter)
             if (grade.student, grade.chapter) in now or (grade.student, grade.origin) in files:
                 continue
