@@ -97,7 +97,7 @@ def marked_lines(item: Item) -> Iterator[tuple[str, str]]:
 
     The kinds are "same", "added" and "removed". A package has no such cell: all its lines are "same".
     """
-    lines = item.code.split("\n")[:LINES]
+    lines = item.code.strip("\n").split("\n")[:LINES]
     given = _handed_out(item.grade.chapter).get(exercise_of(item.report.check), "")
     old = given.split("\n")
     if not given or (lines and re.match(r"# src/\S+$", lines[0])):

@@ -165,11 +165,13 @@ function adopt(answer, text) {
 
 function undo() {
   commit();
+  const number = current;
   saving = saving.then(async () => {
     try {
       const answer = await request("undo", {});
       undoable = answer.undo;
       adopt(answer, "Undone");
+      if (number !== current) return; // the user has moved on
       if (typeof answer.shown === "number" && answer.shown !== current) await show(answer.shown);
       else fill();
     } catch (error) {

@@ -23,8 +23,8 @@ from course_pkg.types.fields import Plain
 HERE = Path(__file__).parent
 ASSETS = {"page.js": "text/javascript", "page.css": "text/css"}
 POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'"
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 HEADERS = {
     "Content-Security-Policy": POLICY,
@@ -40,7 +40,9 @@ WAIT = 0.05  # s
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
     """Return the application; `port` returns the port at which it listens."""
-    shared = {"session": session, "token": token, "port": port}
+    loader = FileSystemLoader(HERE)
+    templates = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    shared = {"session": session, "token": token, "port": port, "templates": templates}
     return Application(
         [
             (r"/", Page, shared),
@@ -59,9 +61,11 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
 class Handler(RequestHandler):
     """Refuses requests without the token, from other pages, or for another host."""
 
-    def initialize(self, session: Session, token: str, port: Callable[[], int]) -> None:
+    def initialize(
+        self, session: Session, token: str, port: Callable[[], int], templates: Environment
+    ) -> None:
         """Keep what all handlers share."""
-        self.session, self.token, self.port = session, token, port
+        self.session, self.token, self.port, self.templates = session, token, port, templates
 
     def set_default_headers(self) -> None:
         """Add the policies to each response, also to errors."""
@@ -124,7 +128,7 @@ class Page(Handler):
 
     def get(self) -> None:
         """Send the page."""
-        self.finish(_templates().get_template("page.html").render(token=self.token))
+        self.finish(self.templates.get_template("page.html").render(token=self.token))
 
 
 class Asset(Handler):
@@ -155,9 +159,7 @@ class OneItem(Handler):
         item = self.session.items[int(number)]
         kind, sign = KINDS[item.report.verdict]
         self.finish(
-            _templates()
-            .get_template("item.html")
-            .render(
+            self.templates.get_template("item.html").render(
                 item=item,
                 report=item.report,
                 name=name_of(item.grade.student),
@@ -201,7 +203,3 @@ class Undo(Handler):
     async def post(self) -> None:
         """Undo it."""
         await self.attempt(self.session.undo)
-
-
-def _templates() -> Environment:
-    return Environment(loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True)
